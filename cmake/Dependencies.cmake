@@ -1,0 +1,12 @@
+# The libraries that Tandem builds on, all Debian packages; README lists them with their reasons.
+find_package(TBB REQUIRED)
+find_package(OpenCL REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(TinyGLTF REQUIRED)
+
+add_library(tandem_dependencies INTERFACE)
+target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11)

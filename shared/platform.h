@@ -1,0 +1,100 @@
+/* platform.h - the one place that knows which compiler reads the shared source.
+ *
+ * Every header under shared/ is strict C99 and is compiled four ways:
+ *
+ *   OpenCL C   cl/*.cl                 one work-item an item
+ *   C++        minicl/scalar.cpp       one item at a time: gdb, serial, tails
+ *   C++        minicl/lanes*.cpp       4, 8 or 16 items at a time, `real` = a vector of lanes
+ *   C99        the syntax check of the tests
+ *
+ * All give the same bits, because lanes never mix and because nothing below rounds
+ * differently on any of them (docs/exactness.md).
+ *
+ * The types that change with the width:
+ *
+ *   real      a number                      float, or one float a lane
+ *   natural   an unsigned 32-bit integer    uint, or one uint a lane
+ *   mask      the result of a comparison    int 0/1, or all-ones/zero a lane
+ *   row       four floats in memory, 16-byte aligned; never a lane type
+ *
+ * Kernels marked LANES in kernels.def use only these, choose() for data-dependent choices,
+ * load and store functions for memory, and uniform loop counts.
+ */
+#ifndef TANDEM_SHARED_PLATFORM_H
+#define TANDEM_SHARED_PLATFORM_H
+
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+
+#pragma OPENCL FP_CONTRACT OFF
+#define GLOBAL __global
+#define LOCAL __local
+#define CONSTANT_TABLE __constant
+#define SHARED static inline
+typedef float4 row;
+
+#define ATOMIC_ADD(pointer, value) atomic_add((pointer), (value))
+#define ATOMIC_MAX(pointer, value) atomic_max((pointer), (value))
+#define ATOMIC_MIN(pointer, value) atomic_min((pointer), (value))
+#define ATOMIC_OR(pointer, value) atomic_or((pointer), (value))
+#define SQUARE_ROOT(x) sqrt(x)
+
+/* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. */
+#define FOR_EACH_ITEM(i, n)                                                                   \
+  for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); \
+       i < (uint)(n); i += (uint)get_local_size(0))
+
+#else /* C or C++ on the CPU */
+
+#include <stdint.h>
+#define GLOBAL
+#define LOCAL
+#define CONSTANT_TABLE
+#define SHARED static inline
+#ifndef TANDEM_SCALAR_TYPES
+#define TANDEM_SCALAR_TYPES
+typedef uint32_t uint;
+typedef uint64_t ulong;
+#ifdef TANDEM_REFERENCE
+typedef double memory_real;
+typedef struct __attribute__((aligned(32))) row { memory_real x, y, z, w; } row;
+#else
+typedef float memory_real;
+typedef struct __attribute__((aligned(16))) row { memory_real x, y, z, w; } row;
+#endif
+
+static inline uint atomic_add_uint(uint *pointer, uint value) { return __atomic_fetch_add(pointer, value, __ATOMIC_RELAXED); }
+static inline uint atomic_or_uint(uint *pointer, uint value) { return __atomic_fetch_or(pointer, value, __ATOMIC_RELAXED); }
+static inline uint atomic_max_uint(uint *pointer, uint value)
+{
+  uint old = __atomic_load_n(pointer, __ATOMIC_RELAXED);
+  while (old < value && !__atomic_compare_exchange_n(pointer, &old, value, 1, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
+  return old;
+}
+static inline uint atomic_min_uint(uint *pointer, uint value)
+{
+  uint old = __atomic_load_n(pointer, __ATOMIC_RELAXED);
+  while (old > value && !__atomic_compare_exchange_n(pointer, &old, value, 1, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
+  return old;
+}
+#endif
+
+#define ATOMIC_ADD(pointer, value) atomic_add_uint((pointer), (value))
+#define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))
+#define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))
+#define ATOMIC_OR(pointer, value) atomic_or_uint((pointer), (value))
+#ifdef TANDEM_REFERENCE
+#define SQUARE_ROOT(x) __builtin_sqrt(x)
+#else
+#define SQUARE_ROOT(x) __builtin_sqrtf(x)
+#endif
+
+/* One thread walks a whole phase; test builds walk it backwards to show a planted race. */
+#ifdef TANDEM_BACKWARD
+#define FOR_EACH_ITEM(i, n) for (uint i = (uint)(n); i-- > 0u;)
+#else
+#define FOR_EACH_ITEM(i, n) for (uint i = 0; i < (uint)(n); ++i)
+#endif
+
+#endif
+
+#endif

@@ -1,0 +1,71 @@
+/* real.h - numbers, masks and memory access at the width of one item.
+ *
+ * Here stands the width 1 used by OpenCL, by gdb and by loop tails. minicl/lanes.h gives the
+ * same names over 4, 8 or 16 lanes; a LANES kernel is written against this page alone.
+ *
+ *   choose(m, a, b)          m ? a : b, both sides evaluated
+ *   any(m)                   some item of the group has it (uniform, so `if` may use it)
+ *   load*, store*, *_if      memory by item index; _if writes only where the mask holds
+ */
+#ifndef TANDEM_SHARED_REAL_H
+#define TANDEM_SHARED_REAL_H
+
+#include "shared/platform.h"
+
+/* A literal in the precision of the build: R(0.1) is 0.1f, or 0.1 in the reference build. */
+#ifdef TANDEM_REFERENCE
+#define R(literal) literal
+#else
+#define R(literal) literal##f
+#endif
+
+#ifndef TANDEM_LANES
+
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+typedef float memory_real;
+#endif
+typedef memory_real real;
+typedef uint natural;
+typedef int mask;
+
+typedef struct { real x, y, z, w; } vec4;
+
+#define choose(m, a, b) ((m) ? (a) : (b))
+
+SHARED int any(mask m) { return m; }
+SHARED real square_root(real x) { return SQUARE_ROOT(x); }
+/* Truncation toward zero; the caller keeps |x| below 2^31. */
+SHARED int truncate_to_int(real x) { return (int)x; }
+SHARED natural to_natural(real x) { return (natural)(int)x; }
+SHARED real to_real(natural x) { return (real)x; }
+SHARED real int_to_real(natural two_complement) { return (real)(int)two_complement; }
+
+SHARED real load_real(GLOBAL const memory_real *from, natural i) { return from[i]; }
+SHARED natural load_natural(GLOBAL const uint *from, natural i) { return from[i]; }
+SHARED void store_real(GLOBAL memory_real *to, natural i, real value) { to[i] = value; }
+SHARED void store_natural(GLOBAL uint *to, natural i, natural value) { to[i] = value; }
+SHARED void store_natural_if(mask m, GLOBAL uint *to, natural i, natural value)
+{
+  if (m) to[i] = value;
+}
+
+SHARED vec4 load_row(GLOBAL const row *from, natural i)
+{
+  row r = from[i];
+  vec4 v = {r.x, r.y, r.z, r.w};
+  return v;
+}
+SHARED void store_row(GLOBAL row *to, natural i, vec4 v)
+{
+  row r;
+  r.x = v.x; r.y = v.y; r.z = v.z; r.w = v.w;
+  to[i] = r;
+}
+SHARED void store_row_if(mask m, GLOBAL row *to, natural i, vec4 v)
+{
+  if (m) store_row(to, i, v);
+}
+
+#endif /* TANDEM_LANES */
+
+#endif
