@@ -6,5 +6,6 @@
 #include "shared/features.h"
 #include "shared/parameters.h"
 #include "shared/math.h"
+#include "shared/records.h"
 
 #endif
