@@ -60,9 +60,12 @@ void check_extensions(const tinygltf::Model &model, const std::string &where) {
       throw InputError(fmt::format("{}: required extension {} is not supported yet; {} and {} are", where, name, shapes_extension, bodies_extension));
 }
 
-/* The "extensions" object of the document or of a node; null when there is none. */
+/* The "extensions" object of the document or of a node; empty when there is none. */
 nlohmann::json extensions_of(const std::string &original, const std::string &where) {
-  return original.empty() ? nlohmann::json::object() : parse_json(original, where);
+  nlohmann::json extensions = original.empty() ? nlohmann::json() : parse_json(original, where);
+  if (extensions.is_null()) extensions = nlohmann::json::object();
+  if (!extensions.is_object()) throw InputError(fmt::format("{}: extensions is not an object", where));
+  return extensions;
 }
 
 /* --- transforms ------------------------------------------------------------------------------- */
