@@ -2,9 +2,9 @@
  *
  * Every header under shared/ is strict C99 and is compiled four ways:
  *
- *   OpenCL C   cl/*.cl                 one work-item an item
+ *   OpenCL C   cl/STAGE.cl             one work-item an item
  *   C++        minicl/scalar.cpp       one item at a time: gdb, serial, tails
- *   C++        minicl/lanes*.cpp       4, 8 or 16 items at a time, `real` = a vector of lanes
+ *   C++        minicl/lanesN.cpp      4, 8 or 16 items at a time, `real` = a vector of lanes
  *   C99        the syntax check of the tests
  *
  * All give the same bits, because lanes never mix and because nothing below rounds
