@@ -2,9 +2,9 @@
  *
  * Every header under shared/ is strict C99 and is compiled four ways:
  *
- *   OpenCL C   cl/STAGE.cl             one work-item an item
+ *   OpenCL C   the entries in cl/        one work-item an item
  *   C++        minicl/scalar.cpp       one item at a time: gdb, serial, tails
- *   C++        minicl/lanesN.cpp      4, 8 or 16 items at a time, `real` = a vector of lanes
+ *   C++        minicl/lanes4.cpp ..16   4, 8 or 16 items at a time, `real` = a vector of lanes
  *   C99        the syntax check of the tests
  *
  * All give the same bits, because lanes never mix and because nothing below rounds
@@ -96,5 +96,10 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 #endif
 
 #endif
+
+/* GROUP kernels: one group works on TILE items, with LOCAL_WORDS words of local memory. Fixed, so that
+ * results cannot depend on a device's group size. */
+#define TILE 1024u
+#define LOCAL_WORDS 8192
 
 #endif

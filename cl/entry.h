@@ -1,0 +1,23 @@
+/* entry.h - what every OpenCL entry shares: the range of items, read on the device.
+ *
+ * A launch is a hint of size: each work-item strides over the range, so results never depend on it. */
+#ifndef TANDEM_CL_ENTRY_H
+#define TANDEM_CL_ENTRY_H
+
+#include "shared/counts.h"
+#include "shared/features.h"
+#include "shared/platform.h"
+
+/* Every entry ends with these arguments. */
+#define RANGE __global const uint *counts, uint first, uint last
+
+#define FOR_EACH_IN_RANGE(i)                                                                     \
+  for (uint i = counts[first] + (uint)get_global_id(0), end_of_range = counts[last]; i < end_of_range; \
+       i += (uint)get_global_size(0))
+
+/* One work-group per TILE items. */
+#define FOR_EACH_GROUP(group)                                                                                  \
+  for (uint group = (uint)get_group_id(0), end_of_groups = (counts[last] - counts[first] + TILE - 1u) / TILE; \
+       group < end_of_groups; group += (uint)get_num_groups(0))
+
+#endif

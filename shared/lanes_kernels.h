@@ -1,0 +1,11 @@
+/* lanes_kernels.h - the shared kernels that are written at any width (LANES in kernels.def). */
+#ifndef TANDEM_SHARED_LANES_KERNELS_H
+#define TANDEM_SHARED_LANES_KERNELS_H
+
+#include "shared/counts.h"
+#include "shared/features.h"
+#include "shared/parameters.h"
+#include "shared/math.h"
+#include "shared/records.h"
+
+#endif
