@@ -7,7 +7,7 @@ set(TANDEM_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 install(DIRECTORY host shared minicl DESTINATION ${TANDEM_INCLUDE_DIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def"
-  PATTERN host/opencl EXCLUDE) # works with OpenCL's own types, which users of the library need not have
+  PATTERN host/opencl EXCLUDE PATTERN host/json_reader.h EXCLUDE) # these need other libraries' headers; no interface does
 install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir})
 if(TARGET tandem_command)
