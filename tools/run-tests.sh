@@ -35,7 +35,7 @@ tools/install-packages.sh $install_option build tests
 for preset in $sanitizers; do
   printf '\n== %s\n' "$preset"
   cmake --preset "$preset" -DTANDEM_BUILD_TESTS=ON
-  cmake --build --preset "$preset" -j "$jobs" --target tandem_command tandem_tests
+  cmake --build --preset "$preset" -j "$jobs" --target tandem_tests # and the command that it runs
 done
 
 printf '\n== release\n'
