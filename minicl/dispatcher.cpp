@@ -12,6 +12,7 @@
 
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
+#include "minicl/thread_sanitizer.h"
 #include "shared/platform.h"
 
 namespace tandem::minicl {
@@ -103,10 +104,15 @@ private:
       body(begin, end);
     };
     if (threads_ == 1 || last - first <= grain) return exact(first, last);
+    launch_order::launch_begins();
     arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain),
-                        [&](const tbb::blocked_range<uint32_t> &range) { exact(range.begin(), range.end()); });
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) {
+        launch_order::items_begin();
+        exact(range.begin(), range.end());
+        launch_order::items_end();
+      });
     });
+    launch_order::launch_ends();
   }
 
   /* Every item once, last to first or in an order without pattern: results must not notice. */
