@@ -7,5 +7,10 @@
 #include "shared/parameters.h"
 #include "shared/math.h"
 #include "shared/records.h"
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_half_space.h"
+#include "shared/narrowphase/sphere_box.h"
+#include "shared/narrowphase/sphere_half_space.h"
+#include "shared/narrowphase/sphere_sphere.h"
 
 #endif
