@@ -27,7 +27,7 @@ enum {
   COUNT_CONSTRAINTS,   /* touching pairs, in colour order */
   COUNT_UNCOLORED,     /* touching pairs that no round of colouring has reached yet */
   COUNT_ROUNDS,        /* rounds that coloured something */
-  COUNT_COLORS,        /* colours in use */
+  COUNT_COLORS,        /* colours in use; COLOR_LIMIT + 1 if there is a tail */
   COUNT_STATUS,        /* STATUS_ bits; 0: the step may be committed */
   COUNT_NONFINITE,     /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
   COUNT_COMMIT_BODIES, /* what the commit kernels run over: nothing unless the status is 0 */

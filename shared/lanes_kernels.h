@@ -10,5 +10,10 @@
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"
 #include "shared/integrate/commit.h"
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_half_space.h"
+#include "shared/narrowphase/sphere_box.h"
+#include "shared/narrowphase/sphere_half_space.h"
+#include "shared/narrowphase/sphere_sphere.h"
 
 #endif

@@ -22,10 +22,12 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* One of them must be able to move, and each must accept the other's groups. */
+/* One of them must be able to move, neither be quarantined, and each must accept the other's groups. */
 SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, uint a, uint b)
 {
-  if (motion_of(body_traits[a]) != (uint)MOTION_DYNAMIC && motion_of(body_traits[b]) != (uint)MOTION_DYNAMIC) return 0;
+  uint motion_a = motion_of(body_traits[a]), motion_b = motion_of(body_traits[b]);
+  if (motion_a != (uint)MOTION_DYNAMIC && motion_b != (uint)MOTION_DYNAMIC) return 0;
+  if (motion_a == (uint)MOTION_QUARANTINED || motion_b == (uint)MOTION_QUARANTINED) return 0;
   if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
   return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }
