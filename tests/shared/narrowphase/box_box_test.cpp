@@ -215,7 +215,7 @@ std::string fault_of_polygon(const Contact &contact, const TestBody &body_a, con
             result.contact_area = hull_area(points, outward);
             const double negligible = tolerance * size * 4;
             if (result.contact_area > result.polygon_area + negligible) fault = "points outside the polygon";
-            if (result.contact_area < 0.5 * (result.polygon_area - negligible) - 2e-4 * size * size) fault = "area lost";
+            if (result.contact_area < 0.33 * (result.polygon_area - negligible) - 2e-4 * size * size) fault = "area lost";
           }
         }
       }
