@@ -135,7 +135,9 @@ TEST_CASE("sphere against box: the nearest point, or the face of least depth")
     on_surface[kept] = random.sign();
     if (random.below(2)) on_surface[(kept + 1) % 3] = random.sign();
     const Vector outward = (brick.axes() * on_surface.array().round().matrix()).normalized();
-    const double gap = random_gap(random, std::min<double>(ball.size.x(), brick.size.minCoeff()));
+    const double size = std::min<double>(ball.size.x(), brick.size.minCoeff());
+    const bool inside = random.below(3) == 0;
+    const double gap = inside ? -ball.size.x() - random.uniform(0, 1) * size : random_gap(random, size);
     const Vector center = brick.center() + brick.axes() * on_surface.cwiseProduct(brick.extent()) +
                           outward * (ball.size.x() + gap);
     ball.position = center.cast<float>();
