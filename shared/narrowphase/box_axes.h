@@ -48,15 +48,18 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
 SHARED separating_axis edges_against(separating_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
                                      real noise)
 {
-  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise), code,
-                     noise);
+  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise),
+                     code, noise);
   best = better_axis(best, edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise),
                      code + 3u, noise);
   return better_axis(best, edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise),
                      code + 6u, noise);
 }
 
-SHARED vec3 in_axes_of(oriented_box box, vec3 v) { return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v)); }
+SHARED vec3 in_axes_of(oriented_box box, vec3 v)
+{
+  return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v));
+}
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
 

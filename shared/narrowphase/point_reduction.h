@@ -81,7 +81,7 @@ SHARED real area_left_of(clip_point a, clip_point b, clip_point c)
 SHARED void fill_empty_side(clip_point *four, const clip_point *candidate, real narrow)
 {
   mask right_only = four[1].valid & (!four[3].valid), left_only = four[3].valid & (!four[1].valid);
-  if (!any(right_only | left_only)) return;
+  if (!any_of(right_only | left_only)) return;
   clip_point tip = choose_point(right_only, four[1], four[3]);
   clip_point start = choose_point(right_only, four[0], four[2]), end = choose_point(right_only, four[2], four[0]);
   leader best = leader_above(tip, narrow);

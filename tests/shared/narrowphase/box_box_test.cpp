@@ -10,7 +10,16 @@ using namespace tandem::narrowphase_tests;
 
 namespace {
 
-enum Arrangement { anywhere, face_to_face, rotated_45, edge_to_edge, corner_to_face, deep, tiny_on_huge, nearly_aligned };
+enum Arrangement {
+  anywhere,
+  face_to_face,
+  rotated_45,
+  edge_to_edge,
+  corner_to_face,
+  deep,
+  tiny_on_huge,
+  nearly_aligned
+};
 constexpr uint32_t arrangements = 8;
 
 /* Four of the points of a convex polygon; the deepest may stand in for one of them. */
@@ -57,7 +66,8 @@ void add_random_pair(PairScene &scene, Random &random, Arrangement arrangement)
   };
   switch (arrangement) {
   case anywhere:
-    b.position = (a.center() + random.direction() * random.uniform(0, a.extent().norm() + b.extent().norm())).cast<float>();
+    b.position = a.position +
+                 (random.direction() * random.uniform(0, a.extent().norm() + b.extent().norm())).cast<float>();
     break;
   case face_to_face:
     if (random.below(2)) b.size = a.size;
@@ -176,7 +186,8 @@ PolygonMatch match_polygon(const Contact &contact, const ReferenceBox &reference
   PolygonMatch match;
   const Polygon polygon = contact_polygon(reference, face, outward, incident, axis);
   if (polygon.empty()) {
-    if (contact_polygon(reference, face, outward, incident, axis, tolerance).empty()) match.fault = "points of no polygon";
+    if (contact_polygon(reference, face, outward, incident, axis, tolerance).empty())
+      match.fault = "points of no polygon";
     return match;
   }
   const double top = outward.dot(reference.center) + reference.extent[face];
@@ -231,7 +242,8 @@ FaceCase match_faces(const Contact &contact, const TestBody &a, const TestBody &
 }
 
 /* The whole of what one pair must satisfy. */
-std::string fault_of(const PairScene &scene, const Contact &contact, const TestBody &a, const TestBody &b, FaceCase &face)
+std::string fault_of(const PairScene &scene, const Contact &contact, const TestBody &a, const TestBody &b,
+                     FaceCase &face)
 {
   const ReferenceAxis best = best_axis(all_axes(ReferenceBox(a), ReferenceBox(b)), rounding(a, b));
   const double reach = scene.parameters.speculative_distance;
@@ -247,7 +259,7 @@ std::string fault_of(const PairScene &scene, const Contact &contact, const TestB
   return face.match.fault;
 }
 
-/* True if no axis of another direction comes near the best one, so that rounding and order of the bodies do not decide. */
+/* True if no axis of another direction comes near the best one: neither rounding nor the order of bodies decides. */
 bool axis_is_clear(const PairScene &scene, const TestBody &a, const TestBody &b)
 {
   const std::vector<ReferenceAxis> axes = all_axes(ReferenceBox(a), ReferenceBox(b));

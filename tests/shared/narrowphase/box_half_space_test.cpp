@@ -46,7 +46,7 @@ bool matches(const Contact &contact, const TestBody &a, const TestBody &b, doubl
     if (!is_corner) return false;
     found = std::min(found, point.separation);
   }
-  return std::abs(found - lowest) < tolerance + 1e-3 * brick.extent().norm() && found < lowest + 1e-3 * brick.extent().norm();
+  return std::abs(found - lowest) < tolerance;
 }
 
 } // namespace

@@ -78,7 +78,8 @@ inline Polygon clipped(const Polygon &polygon, const Vector &normal, double limi
 inline Polygon contact_polygon(const ReferenceBox &reference, int face, const Vector &outward,
                                const ReferenceBox &incident, int axis, double slack = 0)
 {
-  const Vector n = incident.axes.col(axis), u = incident.axes.col((axis + 1) % 3), v = incident.axes.col((axis + 2) % 3);
+  const Vector n = incident.axes.col(axis);
+  const Vector u = incident.axes.col((axis + 1) % 3), v = incident.axes.col((axis + 2) % 3);
   const double eu = incident.extent[(axis + 1) % 3], ev = incident.extent[(axis + 2) % 3];
   const Vector middle = incident.center - (n.dot(outward) < 0 ? -1 : 1) * incident.extent[axis] * n;
   Polygon polygon = {middle - eu * u - ev * v, middle + eu * u - ev * v, middle + eu * u + ev * v,

@@ -36,7 +36,8 @@ double reach(const PairScene &scene, size_t pair, const Vector &normal)
 {
   const TestBody &a = scene.a(pair), &b = scene.b(pair);
   const double closing = -(b.linear - a.linear).cast<double>().dot(normal) +
-                         double(a.angular.norm()) * a.bounding_radius() + double(b.angular.norm()) * b.bounding_radius();
+                         double(a.angular.norm()) * a.bounding_radius() +
+                         double(b.angular.norm()) * b.bounding_radius();
   return scene.parameters.speculative_distance + scene.parameters.step * std::max(0.0, closing);
 }
 
