@@ -65,7 +65,10 @@ public:
   }
   ~OpenclBackend() override
   {
-    clFinish(context_.queue());
+    try {
+      finish();
+    } catch (const DeviceError &) { /* a lost device has nothing left to wait for */
+    }
     for (const auto &[kernel, event] : pending_) clReleaseEvent(event);
   }
 

@@ -88,10 +88,10 @@ TEST_CASE("the last writer is read, whichever of host, MiniCL and OpenCL it was"
       memory.upload(Buffer::primitive_a, &random, 4, 4 * (round * 7));
       right[round * 7] = random;
     }
-    if (round % 5 == 0) REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, length) == right);
+    if (round % 5 == 0) REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
     if (round % 7 == 0) REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, 1, begin).front() == right[begin]);
   }
-  REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, length) == right);
+  REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
 }
 
 TEST_CASE("a device that shares the host's memory works in the host's bytes")
