@@ -23,6 +23,7 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 typedef float memory_real;
+#undef any
 #define any any_of_item /* OpenCL has another any(), true where the sign bit is set */
 #endif
 typedef memory_real real;

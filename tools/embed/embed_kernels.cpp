@@ -2,7 +2,8 @@
  *
  * The .cl files stay real files; the library carries their expansion, so an installed program
  * needs no source tree (inventory A4). Each header is expanded once, where it is first included;
- * #line directives keep the compiler's messages on the file and line that people edit.
+ * lists (.def) every time, since each inclusion gives their rows another meaning. #line directives
+ * keep the compiler's messages on the file and line that people edit.
  *
  * Usage: embed_kernels ROOT OUTPUT.cpp cl/one.cl cl/two.cl ...
  */
@@ -26,7 +27,7 @@ std::string included_name(const std::string &line)
 
 void expand(const std::string &root, const std::string &name, std::set<std::string> &seen, std::ostream &out)
 {
-  if (!seen.insert(name).second) return;
+  if (!seen.insert(name).second && !name.ends_with(".def")) return;
   std::ifstream in(root + "/" + name);
   if (!in) throw std::runtime_error("cannot read " + root + "/" + name);
   out << "#line 1 \"" << name << "\"\n";
