@@ -111,10 +111,10 @@ public:
     profiling_ = on;
   }
 
-  std::vector<double> take_kernel_nanoseconds() override
+  std::vector<Time> take_kernel_times() override
   {
     collect_events();
-    return std::exchange(nanoseconds_, std::vector<double>(kernel_count, 0.0));
+    return std::exchange(times_, std::vector<Time>(kernel_count));
   }
 
 private:
@@ -191,7 +191,8 @@ private:
       cl_ulong start = 0, end = 0;
       clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
       clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
-      nanoseconds_[index_of(kernel)] += static_cast<double>(end - start);
+      times_[index_of(kernel)].nanoseconds += static_cast<double>(end - start);
+      ++times_[index_of(kernel)].launches;
       clReleaseEvent(event);
     }
     pending_.clear();
@@ -206,7 +207,7 @@ private:
   uint32_t launches_ = 0;
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
-  std::vector<double> nanoseconds_ = std::vector<double>(kernel_count, 0.0);
+  std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };
 
 } // namespace

@@ -34,7 +34,7 @@ void compare(const KernelRow &row, const cl::Kernel &kernel)
     CHECK(is_pointer(kernel, i) == (argument.kind != Argument::Kind::value));
     if (argument.kind != Argument::Kind::value) CHECK(is_constant(kernel, i) == (argument.access == Access::in));
   }
-  CHECK(argument_name(kernel, count) == "counts");
+  CHECK(argument_name(kernel, count) == "range");
   CHECK(is_constant(kernel, count));
   CHECK(argument_name(kernel, count + 1) == "first");
   CHECK(argument_name(kernel, count + 2) == "last");
