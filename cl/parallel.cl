@@ -26,16 +26,14 @@ __kernel void scan_tiles(__global const uint *values, __global const uint *count
                          __global uint *sums, uint length, uint level, uint from, uint to, RANGE)
 {
   __local uint local_memory[SCAN_WORDS];
-  FOR_EACH_GROUP(group)
-  scan_tiles_group(values, counts, out, sums, length, level, from, to, local_memory, group);
+  scan_tiles_group(values, counts, out, sums, length, level, from, to, local_memory, GROUP_NUMBER);
 }
 
 __kernel void scan_add(__global const uint *counts, __global uint *out, __global const uint *sums, uint length,
                        uint level, uint from, uint to, RANGE)
 {
   __local uint local_memory[1];
-  FOR_EACH_GROUP(group)
-  scan_add_group(counts, out, sums, length, level, from, to, local_memory, group);
+  scan_add_group(counts, out, sums, length, level, from, to, local_memory, GROUP_NUMBER);
 }
 
 __kernel void scan_total(__global const uint *counts, __global uint *out, __global const uint *sums,
@@ -55,16 +53,14 @@ __kernel void sort_histogram(__global const uint *keys, __global const uint *cou
                              uint length, uint shift, RANGE)
 {
   __local uint local_memory[SORT_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_histogram_group(keys, counts, histogram, length, shift, local_memory, group);
+  sort_histogram_group(keys, counts, histogram, length, shift, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_histogram64(__global const ulong *keys, __global const uint *counts,
                                __global uint *histogram, uint length, uint shift, RANGE)
 {
   __local uint local_memory[SORT_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_histogram64_group(keys, counts, histogram, length, shift, local_memory, group);
+  sort_histogram64_group(keys, counts, histogram, length, shift, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_scatter(__global const uint *keys, __global const uint *values, __global const uint *counts,
@@ -72,9 +68,8 @@ __kernel void sort_scatter(__global const uint *keys, __global const uint *value
                            __global uint *sorted_values, uint length, uint shift, RANGE)
 {
   __local uint local_memory[SORT_WORDS];
-  FOR_EACH_GROUP(group)
   sort_scatter_group(keys, values, counts, histogram, sorted_keys, sorted_values, length, shift, local_memory,
-                     group);
+                     GROUP_NUMBER);
 }
 
 __kernel void sort_scatter64(__global const ulong *keys, __global const uint *counts,
@@ -82,6 +77,5 @@ __kernel void sort_scatter64(__global const ulong *keys, __global const uint *co
                              uint shift, RANGE)
 {
   __local uint local_memory[SORT_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_scatter64_group(keys, counts, histogram, sorted_keys, length, shift, local_memory, group);
+  sort_scatter64_group(keys, counts, histogram, sorted_keys, length, shift, local_memory, GROUP_NUMBER);
 }

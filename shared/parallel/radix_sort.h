@@ -60,7 +60,8 @@ SHARED void rank_digits(LOCAL uint *counters)
   {                                                                                         \
     uint tiles = (n + TILE - 1u) / TILE;                                                    \
     rank_digits(local_memory);                                                              \
-    FOR_EACH_ITEM(digit, SORT_DIGITS) histogram[digit * tiles + group] = local_memory[SORT_DIGITS * SORT_ITEMS + digit]; \
+    FOR_EACH_ITEM(digit, SORT_DIGITS)                                                       \
+    if (group < tiles) histogram[digit * tiles + group] = local_memory[SORT_DIGITS * SORT_ITEMS + digit]; \
   }
 
 SHARED void sort_histogram_group(GLOBAL const uint *keys, GLOBAL const uint *counts, GLOBAL uint *histogram, uint length, uint shift,

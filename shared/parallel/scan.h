@@ -55,7 +55,6 @@ SHARED void scan_tiles_group(GLOBAL const uint *values, GLOBAL const uint *count
                              uint from, uint to, LOCAL uint *local_memory, uint group)
 {
   uint n = length_at_level(counts[length], level);
-  if (group * TILE >= n) return;
   FOR_EACH_ITEM(item, SCAN_ITEMS)
   {
     uint sum = 0, first = group * TILE + item * (TILE / SCAN_ITEMS);
@@ -71,7 +70,7 @@ SHARED void scan_tiles_group(GLOBAL const uint *values, GLOBAL const uint *count
       out[from + k] = sum;
       sum += value;
     }
-    if (item == 0u) sums[to + group] = local_memory[SCAN_ITEMS + SCAN_CHUNKS];
+    if (item == 0u && group * TILE < n) sums[to + group] = local_memory[SCAN_ITEMS + SCAN_CHUNKS];
   }
 }
 

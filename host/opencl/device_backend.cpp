@@ -1,9 +1,9 @@
-/* backend.cpp - programs and kernels of a scene's features, and their launches into one in-order queue.
+/* device_backend.cpp - programs and kernels of a scene's features, and their launches into one in-order queue.
  *
  * A step makes some two hundred launches of a few microseconds each, so run() allocates nothing and sets only
  * the arguments that changed since the kernel's last launch.
  */
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 
 #include <algorithm>
 #include <array>
@@ -144,8 +144,8 @@ private:
 
   static size_t group_count(Form form, uint32_t expected, size_t group_size)
   {
-    const size_t items = std::clamp<size_t>(expected, 1, most_items);
-    return form == Form::group ? (items + TILE - 1) / TILE : (items + group_size - 1) / group_size;
+    const size_t items = std::max<size_t>(expected, 1);
+    return form == Form::group ? (items + TILE - 1) / TILE : (std::min(items, most_items) + group_size - 1) / group_size;
   }
 
   void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch, const std::vector<BoundArgument> &bound,
