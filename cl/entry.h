@@ -8,16 +8,16 @@
 #include "shared/features.h"
 #include "shared/platform.h"
 
-/* Every entry ends with these arguments. */
-#define RANGE __global const uint *counts, uint first, uint last
+/* Every entry ends with these arguments: the counts, and the two entries of them that bound the range. */
+#define RANGE __global const uint *range, uint first, uint last
 
 #define FOR_EACH_IN_RANGE(i)                                                                     \
-  for (uint i = counts[first] + (uint)get_global_id(0), end_of_range = counts[last]; i < end_of_range; \
+  for (uint i = range[first] + (uint)get_global_id(0), end_of_range = range[last]; i < end_of_range; \
        i += (uint)get_global_size(0))
 
 /* One work-group per TILE items. */
 #define FOR_EACH_GROUP(group)                                                                                  \
-  for (uint group = (uint)get_group_id(0), end_of_groups = (counts[last] - counts[first] + TILE - 1u) / TILE; \
+  for (uint group = (uint)get_group_id(0), end_of_groups = (range[last] - range[first] + TILE - 1u) / TILE; \
        group < end_of_groups; group += (uint)get_num_groups(0))
 
 #endif

@@ -9,4 +9,5 @@ find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 
 add_library(tandem_dependencies INTERFACE)
-target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11)
+target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11
+  TinyGLTF::TinyGLTF)

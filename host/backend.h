@@ -42,9 +42,13 @@ public:
   /* Work-item order of the CPU backends, for tests. */
   enum class Order { forward, backward, shuffled };
 
-  /* Time of the kernels since the last call, if measured: nanoseconds per kernel. */
-  virtual void set_profiling(bool) {}
-  virtual std::vector<double> take_kernel_nanoseconds() { return std::vector<double>(kernel_count, 0.0); }
+  /* Time spent in each kernel since the last call, indexed by Kernel; all 0 unless profiling is on. */
+  struct Time {
+    double nanoseconds = 0;
+    uint64_t launches = 0;
+  };
+  virtual void set_profiling(bool on) = 0;
+  virtual std::vector<Time> take_kernel_times() = 0;
 
   double build_milliseconds = 0; /* spent in prepare */
 };

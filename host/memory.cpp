@@ -85,7 +85,7 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
   return *entry.copies.insert(place, fresh);
 }
 
-/* Between two devices the bytes pass through the host's copy. */
+/* Between two devices the bytes pass through the host's copy, in which a third may still be reading old ones. */
 void Memory::make_valid(Entry &entry, Copy &wanted)
 {
   if (wanted.valid) return;
@@ -93,7 +93,11 @@ void Memory::make_valid(Entry &entry, Copy &wanted)
   Copy &host = copy_in(entry, host_storage());
   if (!host.valid) {
     const auto source = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
-    if (source != entry.copies.end()) source->storage->read(source->handle, 0, host.handle, entry.bytes);
+    if (source != entry.copies.end()) {
+      for (Copy &copy : entry.copies)
+        if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
+      source->storage->read(source->handle, 0, host.handle, entry.bytes);
+    }
     host.valid = true;
   }
   Copy &copy = copy_in(entry, *target);
@@ -102,13 +106,22 @@ void Memory::make_valid(Entry &entry, Copy &wanted)
   copy.valid = true;
 }
 
+/* A device may still be reading bytes that it shares with the place about to write them. */
+void Memory::wait_for_readers(Entry &entry, Storage &writer)
+{
+  if (&writer != &host_storage() && !writer.shares_host_memory()) return;
+  for (Copy &copy : entry.copies)
+    if (copy.valid && copy.storage != &writer && copy.storage->shares_host_memory()) copy.storage->wait();
+}
+
 void *Memory::acquire(Buffer buffer, Storage &storage, Access access)
 {
   Entry &entry = entries_[index_of(buffer)];
   make_valid(entry, copy_in(entry, storage));
   Copy &copy = copy_in(entry, storage);
-  if (access != Access::in)
-    for (Copy &other : entry.copies) other.valid = &other == &copy;
+  if (access == Access::in) return copy.handle;
+  wait_for_readers(entry, storage);
+  for (Copy &other : entry.copies) other.valid = &other == &copy;
   return copy.handle;
 }
 

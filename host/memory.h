@@ -18,13 +18,14 @@ namespace tandem {
 class Storage {
 public:
   virtual ~Storage() = default;
-  /* Zero-filled. host_memory: the buffer's bytes on the host, for devices that share them; else null. */
+  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. */
   virtual void *allocate(size_t bytes, void *host_memory) = 0;
   virtual void release(void *handle) = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
   /* True for a device that works in the host's own memory: moves cost no copy. */
   virtual bool shares_host_memory() const { return false; }
+  virtual void wait() {} /* until no work given so far reads or writes any buffer */
 };
 
 /* Host memory, 64-byte aligned. */
@@ -66,6 +67,7 @@ private:
   };
   Copy &copy_in(Entry &entry, Storage &storage);
   void make_valid(Entry &entry, Copy &copy);
+  void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry);
 
   std::array<Entry, buffer_count> entries_;

@@ -32,6 +32,10 @@ struct Shape {
   Vec3 size{0.5f, 0.5f, 0.5f};
 };
 
+inline Shape sphere_shape(float radius) { return {ShapeType::sphere, {radius, radius, radius}}; }
+inline Shape box_shape(float x, float y, float z) { return {ShapeType::box, {x, y, z}}; } /* half extents */
+inline Shape half_space_shape() { return {ShapeType::half_space, {0, 0, 0}}; }
+
 /* How the values of two materials become one. Of two different rules the first in this order
  * wins, except that geometric_mean (our default) yields to any other. After
  * KHR_physics_rigid_bodies. */

@@ -38,6 +38,7 @@ void validate(const Settings &settings);
 struct Placement {
   std::string on = "tbb";
   std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
+  bool allow_inexact = false; /* accept a device whose results may differ in bits */
 };
 
 /* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='

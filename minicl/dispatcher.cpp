@@ -12,6 +12,7 @@
 
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
+#include "minicl/thread_sanitizer.h"
 #include "shared/platform.h"
 
 namespace tandem::minicl {
@@ -56,10 +57,7 @@ public:
   void prepare(uint32_t, const std::vector<Kernel> &) override {}
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
-  std::vector<double> take_kernel_nanoseconds() override
-  {
-    return std::exchange(nanoseconds_, std::vector<double>(kernel_count, 0.0));
-  }
+  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
@@ -72,8 +70,10 @@ public:
     const uint32_t first = count[launch.first], last = count[launch.last];
     if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), (last - first + TILE - 1) / TILE);
     else if (last > first) run_items(launch.kernel, arguments.data(), first, last);
-    if (profiling_)
-      nanoseconds_[index_of(launch.kernel)] += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+    if (!profiling_) return;
+    Time &time = times_[index_of(launch.kernel)];
+    time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+    ++time.launches;
   }
 
 private:
@@ -104,10 +104,15 @@ private:
       body(begin, end);
     };
     if (threads_ == 1 || last - first <= grain) return exact(first, last);
+    launch_order::launch_begins();
     arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain),
-                        [&](const tbb::blocked_range<uint32_t> &range) { exact(range.begin(), range.end()); });
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) {
+        launch_order::items_begin();
+        exact(range.begin(), range.end());
+        launch_order::items_end();
+      });
     });
+    launch_order::launch_ends();
   }
 
   /* Every item once, last to first or in an order without pattern: results must not notice. */
@@ -131,7 +136,7 @@ private:
   const KernelTable &scalar_;
   const KernelTable *lanes_;
   bool profiling_ = false;
-  std::vector<double> nanoseconds_ = std::vector<double>(kernel_count, 0.0);
+  std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };
 
 } // namespace

@@ -102,6 +102,11 @@ static inline void store_natural_if(mask m, uint *to, natural i, natural value)
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) to[i.v[lane]] = value.v[lane];
 }
+static inline void atomic_min_if(mask m, uint *to, uint at, natural value)
+{
+  for (int lane = 0; lane < width; ++lane)
+    if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
+}
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
 static inline vec4 load_row(const row *from, natural i)

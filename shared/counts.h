@@ -6,8 +6,8 @@
 #define TANDEM_SHARED_COUNTS_H
 
 /* Colours of the constraint graph; contacts past the last go to the tail, solved in order. */
-#define COLOR_LIMIT 64u
-#define COLOR_TAIL 64u      /* sort key of a constraint without a colour of its own */
+#define COLOR_LIMIT 63u
+#define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
 #define COLOR_NONE 254u     /* touching, not coloured yet */
 #define COLOR_INACTIVE 255u /* pair of bounds that do not touch */
 
@@ -27,7 +27,7 @@ enum {
   COUNT_CONSTRAINTS,   /* touching pairs, in colour order */
   COUNT_UNCOLORED,     /* touching pairs that no round of colouring has reached yet */
   COUNT_ROUNDS,        /* rounds that coloured something */
-  COUNT_COLORS,        /* colours in use */
+  COUNT_COLORS,        /* colours in use; COLOR_LIMIT + 1 if there is a tail */
   COUNT_STATUS,        /* STATUS_ bits; 0: the step may be committed */
   COUNT_NONFINITE,     /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
   COUNT_COMMIT_BODIES, /* what the commit kernels run over: nothing unless the status is 0 */
@@ -42,8 +42,9 @@ enum {
   CAPACITY_CELLS,
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
+  COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
   COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
-  COUNT_TOTAL = COLOR_START + 64 + 2
+  COUNT_TOTAL = COLOR_START + 63 + 2
 };
 
 enum {

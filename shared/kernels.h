@@ -4,5 +4,11 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/parallel/fill.h"
+#include "shared/broadphase/brute_force.h"
+#include "shared/broadphase/grid.h"
+#include "shared/broadphase/sweep.h"
+#include "shared/batching/coloring.h"
+#include "shared/batching/order.h"
+#include "shared/solve/tail.h"
 
 #endif

@@ -2,10 +2,18 @@
 #ifndef TANDEM_SHARED_LANES_KERNELS_H
 #define TANDEM_SHARED_LANES_KERNELS_H
 
-#include "shared/counts.h"
-#include "shared/features.h"
-#include "shared/parameters.h"
-#include "shared/math.h"
 #include "shared/records.h"
+#include "shared/broadphase/bounds.h"
+#include "shared/setup/contact.h"
+#include "shared/solve/contact.h"
+#include "shared/integrate/prepare.h"
+#include "shared/integrate/velocities.h"
+#include "shared/integrate/positions.h"
+#include "shared/integrate/commit.h"
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_half_space.h"
+#include "shared/narrowphase/sphere_box.h"
+#include "shared/narrowphase/sphere_half_space.h"
+#include "shared/narrowphase/sphere_sphere.h"
 
 #endif

@@ -23,6 +23,7 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 typedef float memory_real;
+#define any any_of_item /* OpenCL has another any(), true where the sign bit is set */
 #endif
 typedef memory_real real;
 typedef uint natural;
@@ -40,6 +41,8 @@ SHARED natural to_natural(real x) { return (natural)(int)x; }
 SHARED real to_real(natural x) { return (real)x; }
 SHARED real int_to_real(natural two_complement) { return (real)(int)two_complement; }
 
+SHARED uint real_bits(real x) { return FLOAT_BITS(x); }
+
 SHARED real load_real(GLOBAL const memory_real *from, natural i) { return from[i]; }
 SHARED natural load_natural(GLOBAL const uint *from, natural i) { return from[i]; }
 SHARED void store_real(GLOBAL memory_real *to, natural i, real value) { to[i] = value; }
@@ -47,6 +50,10 @@ SHARED void store_natural(GLOBAL uint *to, natural i, natural value) { to[i] = v
 SHARED void store_natural_if(mask m, GLOBAL uint *to, natural i, natural value)
 {
   if (m) to[i] = value;
+}
+SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, natural value)
+{
+  if (m) ATOMIC_MIN(to + at, value);
 }
 
 SHARED vec4 load_row(GLOBAL const row *from, natural i)

@@ -9,7 +9,10 @@
 
 /* body_traits: bits 0-2 shape, 3-4 motion, 8-31 material */
 enum { SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2 };
-enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2 };
+/* Half extent of what has no end, in metres. */
+#define BOUNDLESS R(1e30)
+
+enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }

@@ -1,0 +1,449 @@
+/* animation.cpp - writes GLB: header, JSON chunk, binary chunk (Khronos, glTF 2.0 specification, chapter 4).
+ *
+ * The JSON goes straight to the file and its length is filled in afterwards: with a million bodies
+ * the text is hundreds of megabytes. The binary chunk:
+ *
+ *   | unit meshes: positions, normals, indices | times | body: translations, rotations | next body … |
+ */
+#include "host/animation.h"
+
+#include "host/animation_geometry.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+namespace tandem {
+struct CloseFile {
+  void operator()(std::FILE *file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+struct Pose {
+  Vec3 position;
+  Quat orientation;
+};
+
+/* A unit mesh in one of the colours. */
+struct ColoredMesh {
+  ShapeType shape;
+  uint32_t color;
+};
+
+struct RecordedBody {
+  std::string name;
+  Pose rest;     /* in the first frame */
+  Vec3 scale;    /* from the unit mesh to the body's size */
+  uint32_t mesh; /* index into Recording::meshes */
+};
+
+struct Recording {
+  Recording(const std::string &target_path, uint32_t keep_every);
+  ~Recording();
+
+  [[noreturn]] void fail(const char *what) const {
+    throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(errno ? errno : EIO)));
+  }
+  void put(std::FILE *file, const void *data, size_t bytes) const {
+    errno = 0;
+    if (std::fwrite(data, 1, bytes, file) != bytes) fail("cannot write");
+  }
+  uint64_t pose_bytes(size_t body_count) const { return uint64_t(body_count) * times.size() * sizeof(Pose); }
+
+  std::string path, spool_path;
+  uint32_t stride;
+  uint64_t added = 0;
+  bool finished = false;
+  File target, spool;
+  std::vector<float> times;
+  std::vector<RecordedBody> bodies;
+  std::vector<ColoredMesh> meshes;
+  std::vector<uint32_t> moving; /* bodies that may move: all but fixed ones */
+  std::vector<bool> moved;      /* parallel to moving */
+  std::vector<Pose> last;       /* parallel to moving */
+};
+
+namespace {
+
+constexpr uint64_t most_bytes = 0xffffffffu; /* GLB lengths are 32 bits wide */
+constexpr uint64_t block_bytes = 64u << 20;  /* memory for turning frames into bodies */
+constexpr uint32_t float_type = 5126, uint16_type = 5123, vertex_target = 34962, index_target = 34963;
+
+bool finite(const Vec3 &p, const Quat &q) {
+  return std::isfinite(p[0] + p[1] + p[2]) && std::isfinite(q[0] + q[1] + q[2] + q[3]);
+}
+
+/* The file asks for unit length, more exactly than a long simulation keeps it. */
+Quat normalized(const Quat &q) {
+  double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  if (!(length > 0)) return {0, 0, 0, 1};
+  return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
+}
+
+std::string text(std::span<const float> values) { return fmt::format("[{}]", fmt::join(values, ",")); }
+
+/* Comma-separated items of a JSON array or object, gathered and passed on in pieces. */
+class JsonStream {
+public:
+  JsonStream(std::FILE *file, uint64_t &bytes) : file_(file), bytes_(bytes) {}
+  ~JsonStream() { flush(); }
+  void raw(std::string_view text) {
+    buffer_ += text;
+    separator_ = "";
+    if (buffer_.size() > 1u << 16) flush();
+  }
+  void item(std::string_view text) {
+    buffer_ += separator_;
+    raw(text);
+    separator_ = ",";
+  }
+  void flush() {
+    std::fwrite(buffer_.data(), 1, buffer_.size(), file_); /* errors stay set: finish() asks ferror */
+    bytes_ += buffer_.size();
+    buffer_.clear();
+  }
+
+private:
+  std::FILE *file_;
+  uint64_t &bytes_;
+  std::string buffer_;
+  const char *separator_ = "";
+};
+
+struct View {
+  uint64_t offset, bytes;
+  uint32_t target; /* 0: none */
+};
+
+/* The unit meshes of the shapes in use, behind each other, each part on a multiple of 4 bytes. */
+struct Geometry {
+  std::vector<ShapeType> shapes;
+  std::vector<TriangleMesh> meshes;
+  std::vector<uint8_t> bytes;
+  std::vector<View> views; /* three per shape: positions, normals, indices */
+
+  template <typename T> void append(const std::vector<T> &values, uint32_t target) {
+    size_t offset = bytes.size(), size = values.size() * sizeof(T);
+    views.push_back({offset, size, target});
+    bytes.resize((offset + size + 3) / 4 * 4);
+    std::memcpy(bytes.data() + offset, values.data(), size);
+  }
+  void add(ShapeType shape) {
+    if (std::find(shapes.begin(), shapes.end(), shape) != shapes.end()) return;
+    TriangleMesh mesh = unit_mesh(shape);
+    append(mesh.positions, vertex_target);
+    append(mesh.normals, vertex_target);
+    append(mesh.indices, index_target);
+    shapes.push_back(shape);
+    meshes.push_back(std::move(mesh));
+  }
+  size_t index_of(ShapeType shape) const { return size_t(std::find(shapes.begin(), shapes.end(), shape) - shapes.begin()); }
+};
+
+std::string vec3_accessor(size_t view, const std::vector<Vec3> &values, bool bounds) {
+  Vec3 low = values[0], high = values[0];
+  for (const Vec3 &v : values)
+    for (size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], v[i]), high[i] = std::max(high[i], v[i]);
+  std::string extra = bounds ? fmt::format(R"(,"min":{},"max":{})", text(low), text(high)) : "";
+  return fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"VEC3"{}}})", view, float_type, values.size(), extra);
+}
+
+/* How far the quad of a half space reaches: twice as far as the farthest body. */
+float half_space_reach(const Scene &scene) {
+  float reach = 25;
+  for (const Body &body : scene.bodies)
+    if (scene.shapes[body.shape].type != ShapeType::half_space)
+      for (float x : body.position) reach = std::max(reach, std::abs(x));
+  return 2 * reach;
+}
+
+Vec3 scale_of(const Shape &shape, float reach) {
+  if (shape.type == ShapeType::half_space) return {reach, 1, reach};
+  if (shape.type == ShapeType::sphere) return {shape.size[0], shape.size[0], shape.size[0]};
+  return shape.size;
+}
+
+bool same_pose(const Pose &a, const Pose &b) { return a.position == b.position && a.orientation == b.orientation; }
+
+uint32_t color_of(const Scene &scene, size_t index) {
+  const Body &body = scene.bodies[index];
+  if (body.motion == Motion::fixed) return 0;
+  if (body.motion == Motion::kinematic) return 1;
+  constexpr auto moving_colors = uint32_t(palette.size()) - first_moving_color;
+  /* By material where there are several; otherwise by number, so that neighbours differ. */
+  uint32_t key = scene.materials.size() > 1 ? body.material : uint32_t(index);
+  return first_moving_color + key % moving_colors;
+}
+
+void collect_bodies(const Scene &scene, Recording &r) {
+  float reach = half_space_reach(scene);
+  std::map<std::pair<ShapeType, uint32_t>, uint32_t> known;
+  for (size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body &body = scene.bodies[i];
+    const Shape &shape = scene.shapes[body.shape];
+    ColoredMesh mesh{shape.type, color_of(scene, i)};
+    auto [at, added] = known.emplace(std::pair{mesh.shape, mesh.color}, uint32_t(r.meshes.size()));
+    if (added) r.meshes.push_back(mesh);
+    r.bodies.push_back({body.name, {body.position, normalized(body.orientation)}, scale_of(shape, reach), at->second});
+    if (body.motion == Motion::fixed) continue;
+    r.moving.push_back(uint32_t(i));
+    r.last.push_back(r.bodies.back().rest);
+  }
+  r.moved.resize(r.moving.size());
+}
+
+/* --- the JSON chunk ------------------------------------------------------------------------------ */
+
+/* Views and accessors have the same numbers up to the times: three per shape, then the times. One
+ * more view holds all poses, with two accessors per animated body. */
+struct Layout {
+  Geometry geometry;
+  std::vector<uint32_t> animated; /* indices into Recording::moving of the bodies that moved */
+  uint64_t time_bytes, pose_bytes;
+
+  uint64_t times_at() const { return geometry.bytes.size(); }
+  uint64_t poses_at() const { return times_at() + time_bytes; }
+  uint64_t binary_bytes() const { return poses_at() + pose_bytes; }
+  size_t times_accessor() const { return geometry.views.size(); }
+};
+
+Layout layout_of(const Recording &r) {
+  Layout layout;
+  for (const ColoredMesh &mesh : r.meshes) layout.geometry.add(mesh.shape);
+  for (uint32_t k = 0; k < r.moved.size(); ++k)
+    if (r.moved[k]) layout.animated.push_back(k);
+  layout.time_bytes = layout.animated.empty() ? 0 : 4 * r.times.size();
+  layout.pose_bytes = r.pose_bytes(layout.animated.size());
+  return layout;
+}
+
+void write_nodes(JsonStream &json, const Recording &r) {
+  json.raw(R"(,"scene":0,"scenes":[{"nodes":[)");
+  for (size_t i = 0; i < r.bodies.size(); ++i) json.item(fmt::format("{}", i));
+  json.raw(R"(]}],"nodes":[)");
+  for (size_t i = 0; i < r.bodies.size(); ++i) {
+    const RecordedBody &body = r.bodies[i];
+    std::string name = body.name.empty() ? fmt::format("body {}", i) : body.name;
+    json.item(fmt::format(R"({{"name":{},"mesh":{},"translation":{},"rotation":{},"scale":{}}})",
+                          nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), body.mesh,
+                          text(body.rest.position), text(body.rest.orientation), text(body.scale)));
+  }
+  json.raw("]");
+}
+
+void write_meshes(JsonStream &json, const Recording &r, const Geometry &geometry) {
+  json.raw(R"(,"materials":[)");
+  for (const auto &color : palette)
+    json.item(fmt::format(R"({{"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":0.7}}}})",
+                          color[0], color[1], color[2]));
+  json.raw(R"(],"meshes":[)");
+  for (const ColoredMesh &mesh : r.meshes) {
+    size_t first = 3 * geometry.index_of(mesh.shape);
+    json.item(fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{},"material":{}}}]}})", first,
+                          first + 1, first + 2, mesh.color));
+  }
+  json.raw("]");
+}
+
+void write_views(JsonStream &json, const Layout &layout) {
+  json.raw(fmt::format(R"(,"buffers":[{{"byteLength":{}}}],"bufferViews":[)", layout.binary_bytes()));
+  for (const View &view : layout.geometry.views)
+    json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", view.offset, view.bytes, view.target));
+  if (!layout.animated.empty()) {
+    json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})", layout.times_at(), layout.time_bytes));
+    json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})", layout.poses_at(), layout.pose_bytes));
+  }
+  json.raw("]");
+}
+
+void write_accessors(JsonStream &json, const Recording &r, const Layout &layout) {
+  size_t frames = r.times.size(), times = layout.times_accessor();
+  json.raw(R"(,"accessors":[)");
+  for (size_t shape = 0; shape < layout.geometry.meshes.size(); ++shape) {
+    const TriangleMesh &mesh = layout.geometry.meshes[shape];
+    json.item(vec3_accessor(3 * shape, mesh.positions, true));
+    json.item(vec3_accessor(3 * shape + 1, mesh.normals, false));
+    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * shape + 2, uint16_type, mesh.indices.size()));
+  }
+  if (!layout.animated.empty())
+    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[{}],"max":[{}]}})", times, float_type,
+                          frames, r.times.front(), r.times.back()));
+  for (size_t k = 0; k < layout.animated.size(); ++k) {
+    uint64_t offset = r.pose_bytes(k);
+    const char *form = R"({{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},"type":"{}"}})";
+    json.item(fmt::format(fmt::runtime(form), times + 1, offset, float_type, frames, "VEC3"));
+    json.item(fmt::format(fmt::runtime(form), times + 1, offset + sizeof(Vec3) * frames, float_type, frames, "VEC4"));
+  }
+  json.raw("]");
+}
+
+void write_animation(JsonStream &json, const Recording &r, const Layout &layout) {
+  if (layout.animated.empty()) return;
+  size_t times = layout.times_accessor(), samplers = 2 * layout.animated.size();
+  json.raw(R"(,"animations":[{"name":"simulation","samplers":[)");
+  for (size_t s = 0; s < samplers; ++s)
+    json.item(fmt::format(R"({{"input":{},"output":{},"interpolation":"LINEAR"}})", times, times + 1 + s));
+  json.raw(R"(],"channels":[)");
+  for (size_t s = 0; s < samplers; ++s)
+    json.item(fmt::format(R"({{"sampler":{},"target":{{"node":{},"path":"{}"}}}})", s, r.moving[layout.animated[s / 2]],
+                          s % 2 ? "rotation" : "translation"));
+  json.raw("]}]");
+}
+
+uint64_t write_json(const Recording &r, const Layout &layout) {
+  uint64_t length = 0;
+  JsonStream json(r.target.get(), length);
+  json.raw(R"({"asset":{"version":"2.0","generator":"Tandem"})");
+  if (!r.bodies.empty()) { /* empty arrays are not allowed */
+    write_nodes(json, r);
+    write_meshes(json, r, layout.geometry);
+    write_views(json, layout);
+    write_accessors(json, r, layout);
+    write_animation(json, r, layout);
+  }
+  json.raw("}");
+  json.flush();
+  return length;
+}
+
+void write_json_chunk(const Recording &r, const Layout &layout) {
+  std::array<uint32_t, 5> header{0x46546c67, 2, 0, 0, 0x4e4f534a}; /* "glTF", version, length; length, "JSON" */
+  r.put(r.target.get(), header.data(), sizeof header);
+  uint64_t length = write_json(r, layout);
+  for (; length % 4 != 0; ++length) r.put(r.target.get(), " ", 1);
+  uint64_t total = sizeof header + length + (layout.binary_bytes() > 0 ? 8 + layout.binary_bytes() : 0);
+  if (total > most_bytes)
+    throw InputError(fmt::format("{}: {} bytes do not fit into the 4 GiB of a .glb; keep fewer frames", r.path, total));
+  header[2] = uint32_t(total);
+  header[3] = uint32_t(length);
+  std::fseek(r.target.get(), 0, SEEK_SET);
+  r.put(r.target.get(), header.data(), sizeof header);
+  std::fseek(r.target.get(), 0, SEEK_END);
+}
+
+/* --- the poses ----------------------------------------------------------------------------------- */
+
+/* q and -q are the same rotation; interpolation takes the short way only between near ones. */
+Quat nearer_sign(Quat q, const Quat &before) {
+  if (q[0] * before[0] + q[1] * before[1] + q[2] * before[2] + q[3] * before[3] < 0)
+    for (float &x : q) x = -x;
+  return q;
+}
+
+/* The poses of one frame of the bodies moving[low] … */
+void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &row) {
+  errno = 0;
+  auto at = off_t((frame * r.moving.size() + low) * sizeof(Pose));
+  if (fseeko(r.spool.get(), at, SEEK_SET) != 0 || std::fread(row.data(), sizeof(Pose), row.size(), r.spool.get()) != row.size())
+    r.fail("cannot read back the recorded frames");
+}
+
+/* Turns frames of bodies into bodies of frames, as many bodies at a time as fit into a block. */
+void write_poses(const Recording &r, const Layout &layout) {
+  const std::vector<uint32_t> &animated = layout.animated;
+  const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(Pose))));
+  for (size_t begin = 0; begin < animated.size(); begin += per_block) {
+    size_t bodies = std::min(per_block, animated.size() - begin), low = animated[begin];
+    std::vector<Pose> row(animated[begin + bodies - 1] - low + 1);
+    std::vector<Vec3> translations(bodies * frames);
+    std::vector<Quat> rotations(bodies * frames);
+    for (size_t frame = 0; frame < frames; ++frame) {
+      read_row(r, frame, low, row);
+      for (size_t k = 0; k < bodies; ++k) {
+        const Pose &pose = row[animated[begin + k] - low];
+        size_t at = k * frames + frame;
+        translations[at] = pose.position;
+        rotations[at] = frame == 0 ? pose.orientation : nearer_sign(pose.orientation, rotations[at - 1]);
+      }
+    }
+    for (size_t k = 0; k < bodies; ++k) {
+      r.put(r.target.get(), translations.data() + k * frames, frames * sizeof(Vec3));
+      r.put(r.target.get(), rotations.data() + k * frames, frames * sizeof(Quat));
+    }
+  }
+}
+
+} // namespace
+
+/* --- opening and closing --------------------------------------------------------------------- */
+
+AnimationWriter::AnimationWriter(const Scene &scene, const std::string &path, uint32_t stride) {
+  if (path.size() < 4 || path.compare(path.size() - 4, 4, ".glb") != 0)
+    throw InputError(fmt::format("{}: an animation is written as .glb; name the file so", path));
+  if (stride == 0) throw InputError(fmt::format("{}: a stride of 0 keeps no frame; at least 1 is needed", path));
+  recording_ = std::make_unique<Recording>(path, stride);
+  collect_bodies(scene, *recording_);
+}
+
+AnimationWriter::~AnimationWriter() = default;
+
+Recording::Recording(const std::string &target_path, uint32_t keep_every) : path(target_path), spool_path(target_path + ".frames"), stride(keep_every) {
+  target.reset(std::fopen(path.c_str(), "wb"));
+  if (!target) fail("cannot write");
+  spool.reset(std::fopen(spool_path.c_str(), "w+b"));
+  if (spool) return;
+  int reason = errno;
+  std::remove(path.c_str());
+  throw InputError(fmt::format("{}: cannot write: {}", spool_path, std::strerror(reason)));
+}
+
+Recording::~Recording() {
+  spool.reset();
+  std::remove(spool_path.c_str());
+  target.reset();
+  if (!finished) std::remove(path.c_str());
+}
+
+/* --- recording --------------------------------------------------------------------------------- */
+
+size_t AnimationWriter::frame_count() const { return recording_->times.size(); }
+
+void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, std::span<const Quat> orientations) {
+  Recording &r = *recording_;
+  if (positions.size() != r.bodies.size() || orientations.size() != r.bodies.size())
+    throw InputError(fmt::format("{}: a frame of {} positions and {} orientations; the scene has {} bodies", r.path, positions.size(),
+                                 orientations.size(), r.bodies.size()));
+  if (r.added++ % r.stride != 0) return;
+  if (!std::isfinite(time) || (!r.times.empty() && !(float(time) > r.times.back())))
+    throw InputError(fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
+  bool first = r.times.empty();
+  r.times.push_back(float(time));
+  /* Half is left to the JSON, whose size is not known before the end. */
+  if (r.pose_bytes(r.moving.size()) > most_bytes / 2)
+    throw InputError(fmt::format("{}: {} frames of {} moving bodies do not fit into the 4 GiB of a .glb; keep fewer frames", r.path,
+                                 r.times.size(), r.moving.size()));
+  for (size_t k = 0; k < r.moving.size(); ++k) {
+    uint32_t body = r.moving[k];
+    if (finite(positions[body], orientations[body])) r.last[k] = {positions[body], normalized(orientations[body])};
+    if (first) r.bodies[body].rest = r.last[k];
+    if (!same_pose(r.last[k], r.bodies[body].rest)) r.moved[k] = true;
+  }
+  r.put(r.spool.get(), r.last.data(), r.last.size() * sizeof(Pose));
+}
+
+void AnimationWriter::finish() {
+  Recording &r = *recording_;
+  Layout layout = layout_of(r);
+  write_json_chunk(r, layout);
+  if (layout.binary_bytes() > 0) {
+    std::array<uint32_t, 2> header{uint32_t(layout.binary_bytes()), 0x004e4942}; /* length, "BIN" */
+    r.put(r.target.get(), header.data(), sizeof header);
+    r.put(r.target.get(), layout.geometry.bytes.data(), layout.geometry.bytes.size());
+  }
+  if (!layout.animated.empty()) {
+    r.put(r.target.get(), r.times.data(), 4 * r.times.size());
+    write_poses(r, layout);
+  }
+  errno = 0;
+  bool failed = std::ferror(r.target.get()) != 0;
+  if (std::fclose(r.target.release()) != 0 || failed) r.fail("cannot write");
+  r.finished = true;
+}
+
+} // namespace tandem
