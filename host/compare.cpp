@@ -2,34 +2,16 @@
 #include "host/compare.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <memory>
 
 #include <fmt/format.h>
 
 #include "host/breakpoint.h"
+#include "host/hash.h"
 
 namespace tandem {
 namespace {
-
-/* Four independent lanes, so that the multiplications overlap. The rotation carries a change of the
- * highest bits down, where the multiplication spreads it: two flipped signs must not cancel. */
-uint64_t hash_bytes(const void *bytes, size_t size)
-{
-  uint64_t lane[4] = {size, 1, 2, 3};
-  const char *from = static_cast<const char *>(bytes);
-  for (; size >= 32; size -= 32, from += 32) {
-    uint64_t word[4];
-    std::memcpy(word, from, 32);
-    for (int k = 0; k < 4; ++k) lane[k] = std::rotl(lane[k] ^ word[k], 29) * 0x9e3779b97f4a7c15u;
-  }
-  uint64_t word[4] = {};
-  std::memcpy(word, from, size);
-  uint64_t hash = 0;
-  for (int k = 0; k < 4; ++k) hash = std::rotl(hash ^ lane[k] ^ word[k], 31) * 0xd6e8feb86659fd93u;
-  return hash ^ (hash >> 32);
-}
 
 std::vector<Buffer> buffers_written(const Launch &launch)
 {
