@@ -4,6 +4,8 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/parallel/fill.h"
+#include "shared/parallel/radix_sort.h"
+#include "shared/parallel/scan.h"
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/sweep.h"

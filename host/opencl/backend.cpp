@@ -108,10 +108,10 @@ public:
     profiling_ = on;
   }
 
-  std::vector<double> take_kernel_nanoseconds() override
+  std::vector<Time> take_kernel_times() override
   {
     collect_events();
-    return std::exchange(nanoseconds_, std::vector<double>(kernel_count, 0.0));
+    return std::exchange(times_, std::vector<Time>(kernel_count));
   }
 
 private:
@@ -141,8 +141,8 @@ private:
 
   static size_t group_count(Form form, uint32_t expected, size_t group_size)
   {
-    const size_t items = std::clamp<size_t>(expected, 1, most_items);
-    return form == Form::group ? (items + TILE - 1) / TILE : (items + group_size - 1) / group_size;
+    const size_t items = std::max<size_t>(expected, 1);
+    return form == Form::group ? (items + TILE - 1) / TILE : (std::min(items, most_items) + group_size - 1) / group_size;
   }
 
   void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch, const std::vector<BoundArgument> &bound,
@@ -188,7 +188,8 @@ private:
       cl_ulong start = 0, end = 0;
       clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_START, sizeof start, &start, nullptr);
       clGetEventProfilingInfo(event, CL_PROFILING_COMMAND_END, sizeof end, &end, nullptr);
-      nanoseconds_[index_of(kernel)] += static_cast<double>(end - start);
+      times_[index_of(kernel)].nanoseconds += static_cast<double>(end - start);
+      ++times_[index_of(kernel)].launches;
       clReleaseEvent(event);
     }
     pending_.clear();
@@ -203,7 +204,7 @@ private:
   uint32_t launches_ = 0;
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
-  std::vector<double> nanoseconds_ = std::vector<double>(kernel_count, 0.0);
+  std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };
 
 } // namespace
