@@ -5,9 +5,10 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
+#include <memory>
 #include <set>
 
 namespace tandem {
@@ -151,12 +152,16 @@ size_t JsonValue::choice(std::span<const char *const> names) const {
 }
 
 std::string read_file(const std::string &path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
+  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   std::string text;
-  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream.good() && !stream.eof()) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno ? errno : EIO)));
-  return text;
+  char piece[1 << 16];
+  while (file) { /* a folder opens, and fails at the first read */
+    size_t got = std::fread(piece, 1, sizeof piece, file.get());
+    text.append(piece, got);
+    if (std::ferror(file.get())) break;
+    if (got < sizeof piece) return text;
+  }
+  throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno ? errno : EIO)));
 }
 
 nlohmann::json parse_json(const std::string &text, const std::string &where) {
