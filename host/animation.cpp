@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace tandem {
 struct CloseFile {
@@ -409,6 +410,7 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
   if (positions.size() != r.bodies.size() || orientations.size() != r.bodies.size())
     throw InputError(fmt::format("{}: a frame of {} positions and {} orientations; the scene has {} bodies", r.path, positions.size(),
                                  orientations.size(), r.bodies.size()));
+  if (r.finished) throw std::logic_error("a frame after finish()");
   if (r.added++ % r.stride != 0) return;
   if (!std::isfinite(time) || (!r.times.empty() && !(float(time) > r.times.back())))
     throw InputError(fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
@@ -429,6 +431,7 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
 
 void AnimationWriter::finish() {
   Recording &r = *recording_;
+  if (r.finished) return;
   Layout layout = layout_of(r);
   write_json_chunk(r, layout);
   if (layout.binary_bytes() > 0) {
