@@ -1,1 +1,22 @@
-# The find_package(Tandem) package.
+# The find_package(Tandem) package: library, headers and command.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+# The headers name each other from the root of the source tree, so they keep their folders under one of their own.
+set(TANDEM_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
+install(DIRECTORY host shared minicl DESTINATION ${TANDEM_INCLUDE_DIR}
+  FILES_MATCHING PATTERN "*.h" PATTERN "*.def"
+  PATTERN host/opencl EXCLUDE PATTERN host/json_reader.h EXCLUDE) # these need other libraries' headers; no interface does
+install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir})
+if(TARGET tandem_command)
+  install(TARGETS tandem_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(cmake/TandemConfig.cmake.in ${CMAKE_BINARY_DIR}/package/TandemConfig.cmake
+  INSTALL_DESTINATION ${package_dir} PATH_VARS TANDEM_INCLUDE_DIR)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/package/TandemConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/package/TandemConfig.cmake ${CMAKE_BINARY_DIR}/package/TandemConfigVersion.cmake
+  DESTINATION ${package_dir})
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -2,9 +2,9 @@
  *
  * Every header under shared/ is strict C99 and is compiled four ways:
  *
- *   OpenCL C   cl/*.cl                 one work-item an item
+ *   OpenCL C   the entries in cl/        one work-item an item
  *   C++        minicl/scalar.cpp       one item at a time: gdb, serial, tails
- *   C++        minicl/lanes*.cpp       4, 8 or 16 items at a time, `real` = a vector of lanes
+ *   C++        minicl/lanes4.cpp ..16   4, 8 or 16 items at a time, `real` = a vector of lanes
  *   C99        the syntax check of the tests
  *
  * All give the same bits, because lanes never mix and because nothing below rounds
@@ -37,6 +37,7 @@ typedef float4 row;
 #define ATOMIC_MIN(pointer, value) atomic_min((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or((pointer), (value))
 #define SQUARE_ROOT(x) sqrt(x)
+#define FLOAT_BITS(x) as_uint(x)
 
 /* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. */
 #define FOR_EACH_ITEM(i, n)                                                                   \
@@ -62,6 +63,12 @@ typedef float memory_real;
 typedef struct __attribute__((aligned(16))) row { memory_real x, y, z, w; } row;
 #endif
 
+static inline uint float_bits(float x)
+{
+  uint bits;
+  __builtin_memcpy(&bits, &x, sizeof bits);
+  return bits;
+}
 static inline uint atomic_add_uint(uint *pointer, uint value) { return __atomic_fetch_add(pointer, value, __ATOMIC_RELAXED); }
 static inline uint atomic_or_uint(uint *pointer, uint value) { return __atomic_fetch_or(pointer, value, __ATOMIC_RELAXED); }
 static inline uint atomic_max_uint(uint *pointer, uint value)
@@ -78,6 +85,7 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 }
 #endif
 
+#define FLOAT_BITS(x) float_bits((float)(x))
 #define ATOMIC_ADD(pointer, value) atomic_add_uint((pointer), (value))
 #define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))
 #define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))
@@ -96,5 +104,10 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 #endif
 
 #endif
+
+/* GROUP kernels: one group works on TILE items, with LOCAL_WORDS words of local memory. Fixed, so that
+ * results cannot depend on a device's group size. */
+#define TILE 1024u
+#define LOCAL_WORDS 8192
 
 #endif

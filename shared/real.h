@@ -4,7 +4,7 @@
  * same names over 4, 8 or 16 lanes; a LANES kernel is written against this page alone.
  *
  *   choose(m, a, b)          m ? a : b, both sides evaluated
- *   any(m)                   some item of the group has it (uniform, so `if` may use it)
+ *   any_of(m)                   some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds
  */
 #ifndef TANDEM_SHARED_REAL_H
@@ -23,6 +23,7 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 typedef float memory_real;
+#define any any_of_item /* OpenCL has another any_of(), true where the sign bit is set */
 #endif
 typedef memory_real real;
 typedef uint natural;
@@ -32,13 +33,15 @@ typedef struct { real x, y, z, w; } vec4;
 
 #define choose(m, a, b) ((m) ? (a) : (b))
 
-SHARED int any(mask m) { return m; }
+SHARED int any_of(mask m) { return m; }
 SHARED real square_root(real x) { return SQUARE_ROOT(x); }
 /* Truncation toward zero; the caller keeps |x| below 2^31. */
 SHARED int truncate_to_int(real x) { return (int)x; }
 SHARED natural to_natural(real x) { return (natural)(int)x; }
 SHARED real to_real(natural x) { return (real)x; }
 SHARED real int_to_real(natural two_complement) { return (real)(int)two_complement; }
+
+SHARED uint real_bits(real x) { return FLOAT_BITS(x); }
 
 SHARED real load_real(GLOBAL const memory_real *from, natural i) { return from[i]; }
 SHARED natural load_natural(GLOBAL const uint *from, natural i) { return from[i]; }
@@ -47,6 +50,10 @@ SHARED void store_natural(GLOBAL uint *to, natural i, natural value) { to[i] = v
 SHARED void store_natural_if(mask m, GLOBAL uint *to, natural i, natural value)
 {
   if (m) to[i] = value;
+}
+SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, natural value)
+{
+  if (m) ATOMIC_MIN(to + at, value);
 }
 
 SHARED vec4 load_row(GLOBAL const row *from, natural i)

@@ -1,0 +1,82 @@
+/* solve.cl - entries: the contact solver. */
+#include "cl/entry.h"
+#include "shared/solve/contact.h"
+#include "shared/solve/tail.h"
+
+__kernel void warm_start(__global const uint *constraint_a, __global const uint *constraint_b,
+                         __global const row *constraint_normal, __global const row *constraint_points,
+                         __global const row *constraint_center, __global const row *constraint_normal_impulse,
+                         __global const row *constraint_friction_impulse, __global const row *solver_inertia,
+                         __global const uint *counts, __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  warm_start_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                  constraint_normal_impulse, constraint_friction_impulse, solver_inertia, counts,
+                  solver_velocity, i);
+}
+
+__kernel void warm_start_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                              __global const row *constraint_normal, __global const row *constraint_points,
+                              __global const row *constraint_center,
+                              __global const row *constraint_normal_impulse,
+                              __global const row *constraint_friction_impulse,
+                              __global const row *solver_inertia, __global const uint *counts,
+                              __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  warm_start_tail_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                       constraint_normal_impulse, constraint_friction_impulse, solver_inertia, counts,
+                       solver_velocity, i);
+}
+
+__kernel void solve_contacts(__global const Parameters *parameters, __global const uint *constraint_a,
+                             __global const uint *constraint_b, __global const row *constraint_normal,
+                             __global const row *constraint_points, __global const row *constraint_center,
+                             __global const row *solver_inertia, __global const row *solver_delta,
+                             __global const uint *counts, __global row *constraint_normal_impulse,
+                             __global row *constraint_friction_impulse, __global row *constraint_bounce,
+                             __global row *solver_velocity, uint biased, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
+                      constraint_center, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                      constraint_friction_impulse, constraint_bounce, solver_velocity, biased, i);
+}
+
+__kernel void solve_tail(__global const Parameters *parameters, __global const uint *constraint_a,
+                         __global const uint *constraint_b, __global const row *constraint_normal,
+                         __global const row *constraint_points, __global const row *constraint_center,
+                         __global const row *solver_inertia, __global const row *solver_delta,
+                         __global const uint *counts, __global row *constraint_normal_impulse,
+                         __global row *constraint_friction_impulse, __global row *constraint_bounce,
+                         __global row *solver_velocity, uint biased, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  solve_tail_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
+                  constraint_center, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                  constraint_friction_impulse, constraint_bounce, solver_velocity, biased, i);
+}
+
+__kernel void apply_restitution(__global const uint *constraint_a, __global const uint *constraint_b,
+                                __global const row *constraint_normal, __global const row *constraint_points,
+                                __global const row *constraint_bounce, __global const row *solver_inertia,
+                                __global const uint *counts, __global row *constraint_normal_impulse,
+                                __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  apply_restitution_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_bounce,
+                         solver_inertia, counts, constraint_normal_impulse, solver_velocity, i);
+}
+
+__kernel void apply_restitution_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                                     __global const row *constraint_normal,
+                                     __global const row *constraint_points,
+                                     __global const row *constraint_bounce, __global const row *solver_inertia,
+                                     __global const uint *counts, __global row *constraint_normal_impulse,
+                                     __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  apply_restitution_tail_item(constraint_a, constraint_b, constraint_normal, constraint_points,
+                              constraint_bounce, solver_inertia, counts, constraint_normal_impulse,
+                              solver_velocity, i);
+}

@@ -1,0 +1,175 @@
+/* body_buffers.cpp - packs and unpacks body records; see body_buffers.h. */
+#include "host/body_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/hash.h"
+#include "host/specialise.h"
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+constexpr uint32_t motion_quarantined = 3; /* MOTION_QUARANTINED of shared/records.h */
+
+template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
+{
+  if (memory.bytes(buffer) > 0) memory.upload(buffer, values.data(), values.size() * sizeof(T));
+}
+
+row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
+Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
+
+uint32_t traits_of(const Scene &scene, const Body &body)
+{
+  return static_cast<uint32_t>(scene.shapes[body.shape].type) | static_cast<uint32_t>(body.motion) << 3 | body.material << 8;
+}
+
+float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
+
+Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity; }
+
+Quat unit(const Quat &q)
+{
+  const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  if (std::abs(length - 1) < 1e-6) return q;
+  return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
+}
+
+} // namespace
+
+void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  std::vector<row> shape(n), mass(2 * n), position(n), orientation(n), velocity(2 * n);
+  std::vector<uint32_t> traits(n), filter(2 * n);
+  for (size_t i = 0; i < n; ++i) {
+    const Body &body = scene.bodies[order[i]];
+    const Quat q = unit(body.orientation);
+    shape[i] = row_of_vec(scene.shapes[body.shape].size, bounding_radius(scene.shapes[body.shape]));
+    mass[2 * i] = row_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
+    mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
+    position[i] = row_of_vec(body.position, 0);
+    orientation[i] = {q[0], q[1], q[2], q[3]};
+    velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
+    velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), 0);
+    traits[i] = traits_of(scene, body);
+    filter[2 * i] = body.filter_group;
+    filter[2 * i + 1] = body.filter_mask;
+  }
+  upload_all(memory, Buffer::body_shape, shape);
+  upload_all(memory, Buffer::body_mass, mass);
+  upload_all(memory, Buffer::body_position, position);
+  upload_all(memory, Buffer::body_orientation, orientation);
+  upload_all(memory, Buffer::body_velocity, velocity);
+  upload_all(memory, Buffer::body_traits, traits);
+  upload_all(memory, Buffer::body_filter, filter);
+}
+
+void upload_materials(Memory &memory, const Scene &scene)
+{
+  std::vector<row> rows;
+  for (const Material &material : scene.materials) {
+    const float rules = static_cast<float>(static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine));
+    rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
+  }
+  upload_all(memory, Buffer::material, rows);
+}
+
+void upload_body(Memory &memory, uint32_t index, const BodyState &state)
+{
+  const Quat q = unit(state.orientation);
+  const row position = row_of_vec(state.position, 0), orientation{q[0], q[1], q[2], q[3]};
+  const float inverse_mass = memory.read<row>(Buffer::body_velocity, 1, 2 * index).front().w;
+  const row velocity[2] = {row_of_vec(state.linear_velocity, inverse_mass), row_of_vec(state.angular_velocity, 0)};
+  memory.upload(Buffer::body_position, &position, sizeof(row), index * sizeof(row));
+  memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
+  memory.upload(Buffer::body_velocity, velocity, 2 * sizeof(row), 2 * index * sizeof(row));
+}
+
+std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  const auto position = memory.read<row>(Buffer::body_position, n), orientation = memory.read<row>(Buffer::body_orientation, n);
+  const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * n);
+  std::vector<BodyState> states(n);
+  for (size_t i = 0; i < n; ++i)
+    states[order[i]] = {vec_of_row(position[i]), {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
+                        vec_of_row(velocity[2 * i]), vec_of_row(velocity[2 * i + 1])};
+  return states;
+}
+
+bool is_finite(const BodyState &state)
+{
+  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }); };
+  return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) && finite(state.angular_velocity);
+}
+
+void quarantine_body(Memory &memory, uint32_t index)
+{
+  row position = memory.read<row>(Buffer::body_position, 1, index).front();
+  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) position = {0, 0, 0, 0};
+  const row orientation{0, 0, 0, 1}, rest[2] = {};
+  const uint32_t traits = (memory.read<uint32_t>(Buffer::body_traits, 1, index).front() & ~(3u << 3)) | motion_quarantined << 3;
+  memory.upload(Buffer::body_position, &position, sizeof(row), index * sizeof(row));
+  memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
+  memory.upload(Buffer::body_velocity, rest, 2 * sizeof(row), 2 * index * sizeof(row));
+  memory.upload(Buffer::body_traits, &traits, sizeof(uint32_t), index * sizeof(uint32_t));
+}
+
+void measure_contacts(Memory &memory, Statistics &statistics)
+{
+  const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
+  const uint32_t pairs = counts[COUNT_PAIRS], stride = counts[CAPACITY_PAIRS];
+  statistics.pairs = pairs;
+  statistics.manifolds = counts[COUNT_CONSTRAINTS];
+  statistics.colors = counts[COUNT_COLORS];
+  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs);
+  double sum = 0;
+  for (uint32_t plane = 0; plane < 4; ++plane) {
+    const auto rows = memory.read<row>(Buffer::manifold_points, pairs, size_t{plane} * stride);
+    for (uint32_t i = 0; i < pairs; ++i) {
+      if (points[i] <= plane) continue;
+      const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
+      ++statistics.contacts;
+      sum += depth;
+      statistics.max_penetration = std::max(statistics.max_penetration, depth);
+    }
+  }
+  if (statistics.contacts > 0) statistics.mean_penetration = sum / statistics.contacts;
+}
+
+double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  const std::vector<BodyState> states = download_bodies(memory, order);
+  double energy = 0;
+  for (size_t i = 0; i < states.size(); ++i) {
+    const Body &body = scene.bodies[i];
+    if (body.motion != Motion::dynamic) continue;
+    const BodyState &s = states[i];
+    const Vec3 inverse = inverse_inertia_of(scene, body);
+    const double x = s.orientation[0], y = s.orientation[1], z = s.orientation[2], w = s.orientation[3];
+    const double axes[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                               {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                               {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int k = 0; k < 3; ++k) {
+      const double v = s.linear_velocity[k];
+      const double spin = axes[k][0] * s.angular_velocity[0] + axes[k][1] * s.angular_velocity[1] + axes[k][2] * s.angular_velocity[2];
+      energy += 0.5 * body.mass * v * v + (inverse[k] > 0 ? 0.5 * spin * spin / inverse[k] : 0.0);
+    }
+  }
+  return energy;
+}
+
+uint64_t hash_buffers(Memory &memory, const std::vector<Buffer> &buffers, size_t items, uint64_t seed)
+{
+  for (Buffer buffer : buffers) {
+    const BufferRow &info = row_of(buffer);
+    const auto bytes = memory.read<char>(buffer, items * info.per_item * size_of(info.element));
+    seed = hash_bytes(bytes.data(), bytes.size(), seed);
+  }
+  return seed;
+}
+
+} // namespace tandem

@@ -1,0 +1,29 @@
+/* body_buffers.h - between the scene's bodies and the records that kernels read, and what is measured on them. */
+#pragma once
+
+#include <vector>
+
+#include "host/memory.h"
+#include "host/world.h"
+
+namespace tandem {
+
+/* Writes every body buffer; buffer index i holds scene body order[i]. */
+void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
+void upload_materials(Memory &memory, const Scene &scene);
+void upload_body(Memory &memory, uint32_t index, const BodyState &state);
+std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order);
+
+bool is_finite(const BodyState &state);
+
+/* Takes the body at `index` out of the simulation: fixed, at rest, in no pair, where it last was finite. */
+void quarantine_body(Memory &memory, uint32_t index);
+
+/* Fills the contact figures of the last step. */
+void measure_contacts(Memory &memory, Statistics &statistics);
+double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
+
+/* Fingerprint of the first `items` items of each buffer. */
+uint64_t hash_buffers(Memory &memory, const std::vector<Buffer> &buffers, size_t items, uint64_t seed = 0);
+
+} // namespace tandem

@@ -1,0 +1,40 @@
+/* hash.h - a fast 64-bit fingerprint of bytes, for comparing states: not for adversaries.
+ * Four independent lanes of multiply and rotate, so that it runs at memory speed. */
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace tandem {
+
+inline uint64_t mix_bits(uint64_t x)
+{
+  x ^= x >> 30;
+  x *= 0xbf58476d1ce4e5b9u;
+  x ^= x >> 27;
+  x *= 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+inline uint64_t hash_bytes(const void *data, size_t bytes, uint64_t seed = 0)
+{
+  const char *at = static_cast<const char *>(data);
+  uint64_t lanes[4] = {seed + 1, seed + 2, seed + 3, seed + 4};
+  const auto word = [&](size_t offset, size_t size) {
+    uint64_t w = 0;
+    std::memcpy(&w, at + offset, size);
+    return w;
+  };
+  size_t offset = 0;
+  for (; offset + 32 <= bytes; offset += 32)
+    for (int lane = 0; lane < 4; ++lane) lanes[lane] = std::rotl((lanes[lane] ^ word(offset + 8 * lane, 8)) * 0x9e3779b97f4a7c15u, 29);
+  for (; offset < bytes; offset += 8) lanes[0] = std::rotl((lanes[0] ^ word(offset, std::min<size_t>(8, bytes - offset))) * 0x9e3779b97f4a7c15u, 29);
+  uint64_t result = mix_bits(bytes + seed);
+  for (uint64_t lane : lanes) result = mix_bits(result ^ lane);
+  return result;
+}
+
+} // namespace tandem

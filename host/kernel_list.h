@@ -1,0 +1,87 @@
+/* kernel_list.h - kernels.def and buffers.def as enums and tables: the pipeline as the host sees it. */
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "shared/counts.h"
+#include "shared/features.h"
+
+namespace tandem {
+
+enum class Kernel : uint16_t {
+#define KERNEL(name, stage, form, items, feature, arguments) name,
+#include "shared/kernels.def"
+#undef KERNEL
+};
+
+constexpr size_t kernel_count = 0
+#define KERNEL(name, stage, form, items, feature, arguments) +1
+#include "shared/kernels.def"
+#undef KERNEL
+    ;
+
+enum class Buffer : uint16_t {
+#define BUFFER(name, element, capacity, per_item, feature, fields) name,
+#include "shared/buffers.def"
+#undef BUFFER
+};
+
+constexpr size_t buffer_count = 0
+#define BUFFER(name, element, capacity, per_item, feature, fields) +1
+#include "shared/buffers.def"
+#undef BUFFER
+    ;
+
+enum class Form : uint8_t { item, lanes, group };
+enum class Access : uint8_t { in, out, inout };
+enum class Stage : uint8_t { parallel, broadphase, narrowphase, batching, setup, solve, integrate };
+constexpr size_t stage_count = 7;
+
+/* What sizes a buffer; buffers.def names them. */
+enum class Capacity : uint8_t {
+  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, SWEEP_PAIRS, SWEEP_BODIES, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS
+};
+
+enum class Element : uint8_t { row, real, uint, ulong, Parameters };
+
+struct Argument {
+  enum class Kind : uint8_t { buffer, slot, value } kind;
+  Access access;
+  Buffer buffer; /* Kind::buffer only */
+  const char *name;
+};
+
+constexpr uint32_t items_given = 0xffffffffu; /* the launch names both ends of the range */
+
+struct KernelRow {
+  const char *name;
+  Stage stage;
+  Form form;
+  uint32_t items; /* entry of counts that ends the range, or items_given */
+  uint32_t feature; /* 0: always */
+  std::span<const Argument> arguments;
+};
+
+struct BufferRow {
+  const char *name;
+  Element element;
+  Capacity capacity;
+  uint32_t per_item; /* elements */
+  uint32_t feature;  /* 0: always */
+  const char *fields; /* names of the scalars of one item, separated by spaces */
+};
+
+const KernelRow &row_of(Kernel kernel);
+const BufferRow &row_of(Buffer buffer);
+const char *name_of(Stage stage);
+size_t size_of(Element element);
+
+inline Kernel kernel_at(size_t index) { return static_cast<Kernel>(index); }
+inline Buffer buffer_at(size_t index) { return static_cast<Buffer>(index); }
+inline size_t index_of(Kernel kernel) { return static_cast<size_t>(kernel); }
+inline size_t index_of(Buffer buffer) { return static_cast<size_t>(buffer); }
+
+} // namespace tandem

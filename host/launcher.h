@@ -1,0 +1,45 @@
+/* launcher.h - takes launches, finds their backend, and moves the buffers they need there.
+ *
+ * The one place where placement is decided: step.cpp and the primitives only name kernels.
+ */
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/backend.h"
+
+namespace tandem {
+
+class Launcher {
+public:
+  virtual ~Launcher() = default;
+  virtual void launch(const Launch &launch) = 0;
+};
+
+class PlacedLauncher : public Launcher {
+public:
+  using Choice = std::function<Backend &(Kernel)>;
+  using Observer = std::function<void(const Launch &)>;
+
+  PlacedLauncher(Memory &memory, Choice choice) : memory_(memory), choice_(std::move(choice)) {}
+  void launch(const Launch &launch) override;
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+
+private:
+  Memory &memory_;
+  Choice choice_;
+  Observer observer_;
+  std::vector<BoundArgument> bound_;
+};
+
+/* Everything on one backend: for tests and benchmarks of single kernels. */
+class DirectLauncher : public PlacedLauncher {
+public:
+  DirectLauncher(Memory &memory, Backend &backend)
+      : PlacedLauncher(memory, [&backend](Kernel) -> Backend & { return backend; })
+  {
+  }
+};
+
+} // namespace tandem

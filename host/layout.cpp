@@ -1,0 +1,47 @@
+/* layout.cpp - sizes of buffers from the capacities that buffers.def names. */
+#include "host/layout.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "host/primitives.h"
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+size_t items_of(Capacity capacity, const Sizes &sizes)
+{
+  const size_t sortable = std::max(sizes.bodies, sizes.pairs);
+  const bool spatial = sizes.grid || sizes.sweep;
+  switch (capacity) {
+  case Capacity::NOTHING: return 0;
+  case Capacity::ONE: return 1;
+  case Capacity::MATERIALS: return sizes.materials;
+  case Capacity::BODIES: return sizes.bodies;
+  case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
+  case Capacity::PAIRS: return sizes.pairs;
+  case Capacity::SWEEP_PAIRS: return sizes.sweep ? sizes.pairs : 0;
+  case Capacity::SWEEP_BODIES: return sizes.sweep ? size_t{sizes.bodies} + 1 : 0;
+  case Capacity::CELLS: return sizes.grid ? size_t{sizes.cells} + 1 : 0;
+  case Capacity::TILES: return spatial ? (size_t{sizes.bodies} + TILE - 1) / TILE : 0;
+  case Capacity::SORTABLE: return sortable;
+  case Capacity::SORT_HISTOGRAM: return histogram_words(static_cast<uint32_t>(sortable));
+  case Capacity::SCAN_SUMS:
+    return std::max(scan_sum_words(static_cast<uint32_t>(sortable) + 1), scan_sum_words(histogram_words(static_cast<uint32_t>(sortable))));
+  }
+  return 0;
+}
+
+} // namespace
+
+size_t bytes_of(Buffer buffer, const Sizes &sizes)
+{
+  const BufferRow &row = row_of(buffer);
+  if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
+  return items_of(row.capacity, sizes) * row.per_item * size_of(row.element);
+}
+
+uint32_t cells_for(uint32_t bodies) { return std::max<uint32_t>(1024, std::bit_ceil(2 * std::min(bodies, 1u << 29)) ); }
+
+} // namespace tandem

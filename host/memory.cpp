@@ -1,0 +1,145 @@
+/* memory.cpp - residency of buffers; see memory.h. */
+#include "host/memory.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace tandem {
+namespace {
+
+class HostStorage : public Storage {
+public:
+  void *allocate(size_t bytes, void *) override
+  {
+    const size_t rounded = (std::max<size_t>(bytes, 1) + 4095) / 4096 * 4096;
+    void *memory = std::aligned_alloc(4096, rounded);
+    if (!memory) throw std::bad_alloc();
+    std::memset(memory, 0, rounded);
+    return memory;
+  }
+  void release(void *handle) override { std::free(handle); }
+  void write(void *handle, size_t offset, const void *from, size_t bytes) override
+  {
+    std::memcpy(static_cast<char *>(handle) + offset, from, bytes);
+  }
+  void read(void *handle, size_t offset, void *to, size_t bytes) override
+  {
+    std::memcpy(to, static_cast<const char *>(handle) + offset, bytes);
+  }
+};
+
+} // namespace
+
+Storage &host_storage()
+{
+  static HostStorage storage;
+  return storage;
+}
+
+Memory::Memory() = default;
+
+Memory::~Memory()
+{
+  for (Entry &entry : entries_) release(entry);
+}
+
+/* Devices that work in host memory let go of it before it is freed: the host's copy is always first. */
+void Memory::release(Entry &entry)
+{
+  for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
+  entry.copies.clear();
+}
+
+void Memory::resize(Buffer buffer, size_t bytes, bool keep)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (bytes == entry.bytes) return;
+  const size_t kept = keep ? std::min(bytes, entry.bytes) : 0;
+  std::vector<char> contents(kept);
+  if (kept) download(buffer, contents.data(), kept);
+  release(entry);
+  entry.bytes = bytes;
+  if (kept) upload(buffer, contents.data(), kept);
+}
+
+size_t Memory::total_bytes() const
+{
+  size_t total = 0;
+  for (const Entry &entry : entries_) total += entry.bytes;
+  return total;
+}
+
+Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
+{
+  for (Copy &copy : entry.copies)
+    if (copy.storage == &storage) return copy;
+  if (&storage != &host_storage() && storage.shares_host_memory()) {
+    void *host = copy_in(entry, host_storage()).handle;
+    entry.copies.push_back({&storage, storage.allocate(entry.bytes, host), false});
+    return entry.copies.back();
+  }
+  const Copy fresh{&storage, storage.allocate(entry.bytes, nullptr), entry.copies.empty()};
+  const auto place = &storage == &host_storage() ? entry.copies.begin() : entry.copies.end();
+  return *entry.copies.insert(place, fresh);
+}
+
+/* Between two devices the bytes pass through the host's copy, in which a third may still be reading old ones. */
+void Memory::make_valid(Entry &entry, Copy &wanted)
+{
+  if (wanted.valid) return;
+  Storage *target = wanted.storage;
+  Copy &host = copy_in(entry, host_storage());
+  if (!host.valid) {
+    const auto source = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+    if (source != entry.copies.end()) {
+      for (Copy &copy : entry.copies)
+        if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
+      source->storage->read(source->handle, 0, host.handle, entry.bytes);
+    }
+    host.valid = true;
+  }
+  Copy &copy = copy_in(entry, *target);
+  if (copy.valid) return;
+  copy.storage->write(copy.handle, 0, host.handle, entry.bytes);
+  copy.valid = true;
+}
+
+/* A device may still be reading bytes that it shares with the place about to write them. */
+void Memory::wait_for_readers(Entry &entry, Storage &writer)
+{
+  if (&writer != &host_storage() && !writer.shares_host_memory()) return;
+  for (Copy &copy : entry.copies)
+    if (copy.valid && copy.storage != &writer && copy.storage->shares_host_memory()) copy.storage->wait();
+}
+
+void *Memory::acquire(Buffer buffer, Storage &storage, Access access)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  make_valid(entry, copy_in(entry, storage));
+  Copy &copy = copy_in(entry, storage);
+  if (access == Access::in) return copy.handle;
+  wait_for_readers(entry, storage);
+  for (Copy &other : entry.copies) other.valid = &other == &copy;
+  return copy.handle;
+}
+
+void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset)
+{
+  if (bytes == 0) return;
+  char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
+  std::memcpy(host + offset, from, bytes);
+}
+
+/* Reads straight from a device when the host's copy is stale, so that reading a count moves a count. */
+void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
+{
+  if (bytes == 0) return;
+  Entry &entry = entries_[index_of(buffer)];
+  copy_in(entry, host_storage());
+  for (Copy &copy : entry.copies)
+    if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+}
+
+} // namespace tandem

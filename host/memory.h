@@ -1,0 +1,76 @@
+/* memory.h - where each buffer is valid, and the moves that follow from it.
+ *
+ * Every buffer can live on the host and on each device. A kernel says which buffers it reads and
+ * writes (kernels.def); Memory moves a buffer only when a kernel reads it somewhere it is not valid.
+ * So any kernel can run anywhere in any frame, and nothing moves that need not (inventory A3, A8).
+ */
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "host/kernel_list.h"
+
+namespace tandem {
+
+/* One place that holds buffers: host memory, or an OpenCL device. Handles are opaque to others. */
+class Storage {
+public:
+  virtual ~Storage() = default;
+  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. */
+  virtual void *allocate(size_t bytes, void *host_memory) = 0;
+  virtual void release(void *handle) = 0;
+  virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
+  virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
+  /* True for a device that works in the host's own memory: moves cost no copy. */
+  virtual bool shares_host_memory() const { return false; }
+  virtual void wait() {} /* until no work given so far reads or writes any buffer */
+};
+
+/* Host memory, 64-byte aligned. */
+Storage &host_storage();
+
+class Memory {
+public:
+  Memory();
+  ~Memory();
+  Memory(const Memory &) = delete;
+  Memory &operator=(const Memory &) = delete;
+
+  /* New contents are zero; `keep` preserves the common prefix. */
+  void resize(Buffer buffer, size_t bytes, bool keep = false);
+  size_t bytes(Buffer buffer) const { return entries_[index_of(buffer)].bytes; }
+  size_t total_bytes() const;
+
+  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. */
+  void *acquire(Buffer buffer, Storage &storage, Access access);
+
+  void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
+  void download(Buffer buffer, void *to, size_t bytes, size_t offset = 0);
+  template <class T> std::vector<T> read(Buffer buffer, size_t elements, size_t first = 0)
+  {
+    std::vector<T> values(elements);
+    download(buffer, values.data(), elements * sizeof(T), first * sizeof(T));
+    return values;
+  }
+
+private:
+  struct Copy {
+    Storage *storage;
+    void *handle;
+    bool valid;
+  };
+  struct Entry {
+    size_t bytes = 0;
+    std::vector<Copy> copies;
+  };
+  Copy &copy_in(Entry &entry, Storage &storage);
+  void make_valid(Entry &entry, Copy &copy);
+  void wait_for_readers(Entry &entry, Storage &writer);
+  void release(Entry &entry);
+
+  std::array<Entry, buffer_count> entries_;
+};
+
+} // namespace tandem

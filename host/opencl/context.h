@@ -1,0 +1,35 @@
+/* context.h - one device, opened: what programs, storage and launches share. */
+#pragma once
+
+#include <string>
+
+#include "host/opencl/api.h"
+#include "host/opencl/device.h"
+
+namespace tandem::opencl {
+
+/* A device as its driver describes it, not tested yet. */
+struct Candidate {
+  cl::Device device;
+  DeviceInfo info;
+  std::string unusable; /* why it can run nothing at all; else empty */
+  std::string lacks;    /* what exactness needs and the driver does not promise; else empty */
+  bool promises_exact_division = false;
+};
+
+std::vector<Candidate> find_candidates();
+
+struct DeviceContext {
+  explicit DeviceContext(const Candidate &candidate);
+
+  DeviceInfo info;
+  cl::Device device;
+  cl::Context context;
+  cl::CommandQueue queue; /* in order */
+  std::string options;    /* of every program: the language and the rules of floating point */
+};
+
+/* Empty if the device gives the host's bits, else what differs. Runs once a device and process. */
+std::string self_test(const Candidate &candidate);
+
+} // namespace tandem::opencl

@@ -1,0 +1,20 @@
+/* program.h - from an embedded source to a built program. */
+#pragma once
+
+#include <string>
+
+#include "host/embedded_kernels.h"
+#include "host/opencl/context.h"
+
+namespace tandem::opencl {
+
+/* The program of cl/NAME.cl; std::logic_error if none is embedded. */
+const EmbeddedProgram &embedded_program(const std::string &name);
+
+/* Built with the context's options and these, from the cache where it can be. BuildError carries the compiler's log. */
+cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options = "");
+
+/* What names a built program in the cache. */
+std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);
+
+} // namespace tandem::opencl

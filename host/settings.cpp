@@ -1,0 +1,94 @@
+/* settings.cpp - which settings and placements make sense; see settings.h. */
+#include "host/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/backend_list.h"
+#include "host/kernel_list.h"
+#include "host/scene.h"
+
+namespace tandem {
+namespace {
+
+constexpr float longest_step = 10.0f; /* s; nothing physical is left of a longer one */
+constexpr uint32_t most_passes = 1000;
+
+void check_name(const char *what, const std::string &name, const std::vector<std::string> &accepted)
+{
+  if (std::find(accepted.begin(), accepted.end(), name) == accepted.end())
+    throw InputError(fmt::format("{} '{}' is unknown; use {}", what, name, fmt::join(accepted, ", ")));
+}
+
+void check_count(const char *what, uint32_t value)
+{
+  if (value < 1 || value > most_passes) throw InputError(fmt::format("{} {}: use 1 to {}", what, value, most_passes));
+}
+
+void check_number(const char *what, float value, const char *unit, bool zero_allowed)
+{
+  if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed))
+    throw InputError(fmt::format("{} {} {}: use a finite number {} 0", what, value, unit, zero_allowed ? "of at least" : "above"));
+}
+
+bool names_stage_or_kernel(const std::string &name)
+{
+  for (size_t s = 0; s < stage_count; ++s)
+    if (name == name_of(static_cast<Stage>(s))) return true;
+  for (size_t k = 0; k < kernel_count; ++k)
+    if (name == row_of(kernel_at(k)).name) return true;
+  return false;
+}
+
+std::string stage_list()
+{
+  std::string list;
+  for (size_t s = 0; s < stage_count; ++s) list += fmt::format("{}{}", s ? ", " : "", name_of(static_cast<Stage>(s)));
+  return list;
+}
+
+} // namespace
+
+std::vector<std::string> solver_names() { return {"soft-step"}; }
+std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
+std::vector<std::string> narrowphase_names() { return {"sat"}; }
+std::vector<std::string> batching_names() { return {"coloring", "sequential"}; }
+
+void validate(const Settings &settings)
+{
+  if (!std::isfinite(settings.step) || settings.step <= 0 || settings.step > longest_step)
+    throw InputError(fmt::format("time step {} s: use a number of seconds above 0, at most {}", settings.step, longest_step));
+  check_count("substeps", settings.substeps);
+  check_count("iterations", settings.iterations);
+  if (settings.step / static_cast<float>(settings.substeps) < 1e-9f)
+    throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, settings.substeps));
+  check_name("solver", settings.solver, solver_names());
+  check_name("broadphase", settings.broadphase, broadphase_names());
+  check_name("narrowphase", settings.narrowphase, narrowphase_names());
+  check_name("batching", settings.batching, batching_names());
+  check_number("contact stiffness", settings.contact_hertz, "Hz", false);
+  check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);
+  check_number("push speed", settings.push_speed, "m/s", true);
+  check_number("slop", settings.slop, "m", true);
+  check_number("restitution speed", settings.restitution_speed, "m/s", true);
+}
+
+std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)
+{
+  std::vector<std::pair<std::string, std::string>> exceptions;
+  for (const std::string &part : split_backends(text)) {
+    const size_t equals = part.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
+      throw InputError(fmt::format("placement '{}' is not STAGE=BACKEND", part));
+    const std::string place = part.substr(0, equals);
+    if (!names_stage_or_kernel(place))
+      throw InputError(fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
+    exceptions.emplace_back(place, part.substr(equals + 1));
+  }
+  return exceptions;
+}
+
+} // namespace tandem

@@ -1,0 +1,48 @@
+/* settings.h - how a scene is simulated: time step, algorithms, tolerances. */
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tandem {
+
+/* Every choice that changes the result. Names are those of the command's options. */
+struct Settings {
+  float step = 1.0f / 60.0f; /* s, > 0 */
+  uint32_t substeps = 4;     /* 1 .. 1000 */
+  uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
+  std::string solver = "soft-step";
+  std::string broadphase = "grid";      /* brute-force, sap, grid */
+  std::string narrowphase = "sat";
+  std::string batching = "coloring";    /* coloring, sequential */
+  bool specialise = true; /* false: every feature built and run, same bits */
+
+  float contact_hertz = 30.0f;         /* Hz, stiffness of soft contacts; at most a quarter of the substep rate */
+  float contact_damping_ratio = 10.0f; /* overdamped, so that pushing apart adds no bounce */
+  float push_speed = 3.0f;             /* m/s, penetration is never removed faster */
+  float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */
+  float restitution_speed = 1.0f;      /* m/s, slower impacts do not bounce */
+};
+
+/* The accepted names, default first; --help and error messages list them. */
+std::vector<std::string> solver_names();
+std::vector<std::string> broadphase_names();
+std::vector<std::string> narrowphase_names();
+std::vector<std::string> batching_names();
+
+/* InputError if a number is out of range or a name unknown. */
+void validate(const Settings &settings);
+
+/* Which backend runs what: one for all, and exceptions by stage ("narrowphase") or kernel name. */
+struct Placement {
+  std::string on = "tbb";
+  std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
+  bool allow_inexact = false; /* accept a device whose results may differ in bits */
+};
+
+/* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='
+ * too, so its options are told apart by their names). InputError on unknown stages. */
+std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text);
+
+} // namespace tandem

@@ -1,0 +1,34 @@
+/* specialise.h - what a scene needs: features, the order of its bodies, and sizes.
+ *
+ * The second station of the pipeline: everything after it is built, allocated and launched from this
+ * (design section 6).
+ */
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/scene.h"
+
+namespace tandem {
+
+struct Specialisation {
+  uint32_t features = 0; /* FEATURE_ bits */
+  /* Body buffers hold scene body order[i] at index i: the few bodies too large for a grid come first, so
+   * that the small ones are one stretch; otherwise the scene's order. */
+  std::vector<uint32_t> order;
+  uint32_t large = 0;
+};
+
+Specialisation specialise(const Scene &scene);
+
+/* All that the shapes of a scene could need, for comparing builds: every feature set. */
+uint32_t all_features();
+
+/* Radius of the sphere about the centre that holds the shape; 0 for a half-space. */
+float bounding_radius(const Shape &shape);
+
+/* Principal moments: the body's own, or from its shape and mass; 0 where it cannot turn. */
+Vec3 inverse_inertia_of(const Scene &scene, const Body &body);
+
+} // namespace tandem

@@ -1,0 +1,306 @@
+/* world.cpp - keeps a scene's buffers, runs steps until they are whole; see world.h. */
+#include "host/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "host/body_buffers.h"
+#include "host/debug.h"
+#include "host/hash.h"
+#include "host/layout.h"
+#include "host/parameters.h"
+#include "host/specialise.h"
+#include "host/step.h"
+
+namespace tandem {
+namespace {
+
+/* Each repetition fixes one cause; many in one step means that something is wrong. */
+constexpr int most_repetitions = 64;
+
+/* Collects the kernels of a step instead of running them. */
+class Recorder : public Launcher {
+public:
+  void launch(const Launch &launch) override
+  {
+    if (std::find(kernels.begin(), kernels.end(), launch.kernel) == kernels.end()) kernels.push_back(launch.kernel);
+  }
+  std::vector<Kernel> kernels;
+};
+
+} // namespace
+
+struct World::Implementation {
+  Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
+      : scene(given), settings(chosen), special(specialise(given)),
+        launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
+  {
+    if (!settings.specialise) special.features = all_features();
+    plan.features = special.features;
+    plan.bodies = static_cast<uint32_t>(scene.bodies.size());
+    plan.capacity_cells = cells_for(plan.bodies);
+    plan.capacity_pairs = 5 * plan.bodies + 1024;
+    record_kernels();
+    place(placement);
+    allocate();
+    upload_scene();
+    guess_counts();
+  }
+
+  ~Implementation()
+  {
+    for (auto &[text, backend] : backends) backend->finish();
+  }
+
+  Sizes sizes() const
+  {
+    return {plan.bodies, static_cast<uint32_t>(scene.materials.size()), plan.capacity_pairs, plan.capacity_cells, special.features,
+            settings.broadphase == "grid", settings.broadphase == "sap"};
+  }
+
+  void record_kernels()
+  {
+    StepPlan all = plan;
+    all.colors = COLOR_LIMIT + 1;
+    Recorder recorder;
+    launch_step(recorder, all, settings);
+    kernels = recorder.kernels;
+  }
+
+  void place(const Placement &placement)
+  {
+    for (Kernel kernel : kernels) {
+      std::string text = placement.on;
+      for (const auto &[what, where] : placement.exceptions)
+        if (what == name_of(row_of(kernel).stage) || what == row_of(kernel).name) text = where;
+      auto &backend = backends[text];
+      if (!backend) backend = make_backend(text, placement.allow_inexact);
+      placed[index_of(kernel)] = backend.get();
+    }
+    for (auto &[text, backend] : backends) {
+      std::vector<Kernel> own;
+      std::copy_if(kernels.begin(), kernels.end(), std::back_inserter(own), [&, b = backend.get()](Kernel k) { return placed[index_of(k)] == b; });
+      backend->prepare(special.features, own);
+    }
+  }
+
+  /* What the next step inherits is kept; everything else is written before it is read. */
+  void allocate()
+  {
+    const Sizes now = sizes();
+    for (size_t i = 0; i < buffer_count; ++i) {
+      const Buffer buffer = buffer_at(i);
+      const std::string name = row_of(buffer).name;
+      const bool inherited = name.starts_with("cached_") || name.starts_with("body_") || buffer == Buffer::counts ||
+                             buffer == Buffer::material || buffer == Buffer::parameters;
+      memory.resize(buffer, bytes_of(buffer, now), inherited);
+    }
+  }
+
+  void upload_scene()
+  {
+    upload_bodies(memory, scene, special.order);
+    upload_materials(memory, scene);
+    upload_parameters();
+    std::vector<uint32_t> counts(COUNT_TOTAL);
+    counts[COUNT_ONE] = 1;
+    counts[COUNT_BODIES] = plan.bodies;
+    counts[COUNT_BODIES_PLUS_ONE] = plan.bodies + 1;
+    counts[COUNT_LARGE] = special.large;
+    counts[COUNT_SMALL] = plan.bodies - special.large;
+    counts[CAPACITY_PAIRS] = plan.capacity_pairs;
+    counts[CAPACITY_CELLS] = plan.capacity_cells;
+    counts[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
+    index_of_body.resize(plan.bodies);
+    for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
+  }
+
+  void upload_parameters()
+  {
+    const Parameters parameters = parameters_of(scene, settings, special.features);
+    memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+  }
+
+  /* Before the first step the host knows no counts: launches are sized as if the buffers were full. */
+  void guess_counts()
+  {
+    auto &known = plan.known;
+    known.fill(plan.capacity_pairs);
+    for (int entry : {COUNT_BODIES, COUNT_BODIES_PLUS_ONE, COUNT_SMALL, COUNT_COMMIT_BODIES, COUNT_COMMIT_BODIES_PLUS_ONE})
+      known[entry] = plan.bodies + 1;
+    known[COUNT_ZERO] = 0;
+    known[COUNT_ONE] = 1;
+    known[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
+    for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
+  }
+
+  void step()
+  {
+    current_step = statistics.steps;
+    for (int repetition = 0; repetition < most_repetitions; ++repetition) {
+      launch_step(launcher, plan, settings);
+      memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
+      if (plan.known[COUNT_STATUS] == 0) return accept();
+      prepare_repetition(plan.known[COUNT_STATUS]);
+    }
+    throw std::runtime_error(fmt::format("step {} did not complete in {} repetitions (status {})", statistics.steps, most_repetitions,
+                                         plan.known[COUNT_STATUS]));
+  }
+
+  /* A quarter of slack in launches keeps a growing scene from repeating every step. */
+  void accept()
+  {
+    ++statistics.steps;
+    plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
+    plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
+    if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
+  }
+
+  void prepare_repetition(uint32_t status)
+  {
+    if (status & STATUS_PAIRS) grow_pairs(plan.known[COUNT_PAIRS_NEEDED]);
+    if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
+    if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
+    if (status & STATUS_NONFINITE) quarantine(plan.known[COUNT_NONFINITE]);
+    plan.known[COUNT_COMMIT_BODIES] = plan.bodies;
+    plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
+    plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
+    plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
+  }
+
+  void grow_pairs(uint32_t needed)
+  {
+    ++statistics.overflow;
+    const uint32_t before = plan.capacity_pairs;
+    plan.capacity_pairs = needed + needed / 4;
+    try {
+      allocate();
+    } catch (const std::bad_alloc &) {
+      plan.capacity_pairs = before;
+      allocate();
+      throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
+    }
+    memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+    guess_counts();
+  }
+
+  void quarantine(uint32_t code)
+  {
+    static const char *const stages[] = {"start", "solve", "integrate"};
+    const uint32_t index = code & 0x0fffffffu, body = special.order[index];
+    quarantined.push_back({body, scene.bodies[body].name, stages[code >> 28], statistics.steps});
+    ++statistics.nonfinite;
+    quarantine_body(memory, index);
+  }
+
+  static constexpr uint32_t most_rounds = 4096;
+
+  Scene scene;
+  Settings settings;
+  Specialisation special;
+  Memory memory;
+  PlacedLauncher launcher;
+  StepPlan plan;
+  std::vector<Kernel> kernels;
+  std::map<std::string, std::unique_ptr<Backend>> backends;
+  std::array<Backend *, kernel_count> placed{};
+  std::vector<uint32_t> index_of_body;
+  std::vector<Quarantine> quarantined;
+  Statistics statistics;
+};
+
+World::World(const Scene &scene, const Settings &settings, const Placement &placement)
+{
+  validate(scene, scene.name);
+  validate(settings);
+  implementation_ = std::make_unique<Implementation>(scene, settings, placement);
+}
+
+World::~World() = default;
+
+void World::step() { implementation_->step(); }
+const Scene &World::scene() const { return implementation_->scene; }
+const Settings &World::settings() const { return implementation_->settings; }
+const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
+uint32_t World::features() const { return implementation_->special.features; }
+std::vector<Kernel> World::kernels() const { return implementation_->kernels; }
+Memory &World::memory() { return implementation_->memory; }
+Backend &World::backend_of(Kernel kernel) { return *implementation_->placed[index_of(kernel)]; }
+uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
+void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
+
+std::vector<BodyState> World::bodies() { return download_bodies(implementation_->memory, implementation_->special.order); }
+
+void World::set_body(uint32_t body, const BodyState &state)
+{
+  if (body >= implementation_->plan.bodies)
+    throw InputError(fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->plan.bodies));
+  if (!is_finite(state)) throw InputError(fmt::format("set_body: body {} would not be finite", body));
+  set_body_unchecked(body, state);
+}
+
+void World::set_body_unchecked(uint32_t body, const BodyState &state)
+{
+  upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
+}
+
+Statistics World::statistics()
+{
+  Statistics s = implementation_->statistics;
+  measure_contacts(implementation_->memory, s);
+  s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);
+  return s;
+}
+
+uint64_t World::body_hash()
+{
+  return hash_buffers(implementation_->memory, {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity}, implementation_->plan.bodies);
+}
+
+uint64_t World::state_hash()
+{
+  Memory &memory = implementation_->memory;
+  const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::cached_start, implementation_->plan.bodies + 1);
+  uint64_t hash = hash_bytes(starts.data(), starts.size() * sizeof(uint32_t), body_hash());
+  return hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
+                      starts.back(), hash);
+}
+
+void World::finish()
+{
+  for (auto &[text, backend] : implementation_->backends) backend->finish();
+}
+
+void World::set_profiling(bool on)
+{
+  for (auto &[text, backend] : implementation_->backends) {
+    backend->set_profiling(on);
+    backend->take_kernel_times();
+  }
+}
+
+std::vector<KernelTime> World::take_kernel_times()
+{
+  std::vector<KernelTime> times;
+  for (auto &[text, backend] : implementation_->backends) {
+    const std::vector<Backend::Time> spent = backend->take_kernel_times();
+    for (Kernel kernel : implementation_->kernels)
+      if (const auto &time = spent[index_of(kernel)]; time.launches > 0)
+        times.push_back({kernel, backend->name(), time.nanoseconds * 1e-6, time.launches});
+  }
+  return times;
+}
+
+double World::build_milliseconds() const
+{
+  double total = 0;
+  for (const auto &[text, backend] : implementation_->backends) total += backend->build_milliseconds;
+  return total;
+}
+
+} // namespace tandem

@@ -1,0 +1,106 @@
+/* world.h - a scene being simulated: the library's front door.
+ *
+ *   World world(load_scene("box-grid:nx=8,ny=8,nz=8"), Settings{}, Placement{"cl"});
+ *   for (int i = 0; i < 60; ++i) world.step();
+ *   std::vector<BodyState> bodies = world.bodies();
+ *
+ * A step either happens whole or not at all: overflow grows the buffers and runs the step again, a
+ * non-finite body is quarantined and named (design section 7).
+ */
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/backend.h"
+#include "host/scene.h"
+#include "host/settings.h"
+
+namespace tandem {
+
+struct BodyState {
+  Vec3 position;
+  Quat orientation;
+  Vec3 linear_velocity;
+  Vec3 angular_velocity;
+};
+
+/* What is known after a step. Penetration is over the contact points of the step's collision
+ * detection: metres, positive when shapes overlap; touching ahead of contact counts as 0. */
+struct Statistics {
+  uint64_t steps = 0;
+  uint32_t pairs = 0;    /* overlapping bounds */
+  uint32_t contacts = 0; /* contact points */
+  uint32_t manifolds = 0; /* touching pairs */
+  uint32_t colors = 0;
+  double max_penetration = 0;
+  double mean_penetration = 0;
+  double kinetic_energy = 0; /* J, linear and angular */
+  uint32_t nonfinite = 0;    /* bodies quarantined so far */
+  uint32_t overflow = 0;     /* steps that ran again with larger buffers */
+};
+
+/* Time of one kernel or stage over the steps since the last call. */
+struct KernelTime {
+  Kernel kernel;
+  std::string backend;
+  double milliseconds; /* total */
+  uint64_t launches;
+};
+
+/* A body taken out of the simulation because it stopped being finite. */
+struct Quarantine {
+  uint32_t body; /* index into Scene::bodies */
+  std::string name;
+  std::string stage; /* where it was first seen: "start", "solve", "integrate" */
+  uint64_t step;
+};
+
+class World {
+public:
+  World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
+  ~World();
+
+  /* Advances by settings.step. std::runtime_error when a device fails or memory runs out; the state is
+   * then that before the step. */
+  void step();
+
+  const Scene &scene() const;
+  const Settings &settings() const;
+
+  std::vector<BodyState> bodies();                     /* in the order of Scene::bodies */
+  void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
+  /* As set_body, but unchecked: for tests of what happens to a NaN. */
+  void set_body_unchecked(uint32_t body, const BodyState &state);
+
+  Statistics statistics();
+  uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */
+  uint64_t body_hash();  /* poses and velocities alone */
+  const std::vector<Quarantine> &quarantined() const;
+
+  /* Waits for the devices, so that a clock read after it is honest. */
+  void finish();
+  void set_profiling(bool on);
+  std::vector<KernelTime> take_kernel_times();
+
+  /* The mask of FEATURE_ bits in use, and the kernels, buffers and backends that follow from it. */
+  uint32_t features() const;
+  std::vector<Kernel> kernels() const;
+  Memory &memory();
+  Backend &backend_of(Kernel kernel);
+  double build_milliseconds() const;
+
+  /* Called after every launch of a step, in order, when set: the comparison of backends hangs here. */
+  using Observer = std::function<void(const Launch &)>;
+  void set_observer(Observer observer);
+  /* Body index of the scene for an index of the body buffers (large bodies come first there). */
+  uint32_t scene_body(uint32_t buffer_index) const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace tandem

@@ -1,0 +1,152 @@
+/* dispatcher.cpp - splits a kernel's range over threads and lanes; see dispatcher.h. */
+#include "minicl/dispatcher.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <utility>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "minicl/floating_point.h"
+#include "minicl/kernel_table.h"
+#include "minicl/thread_sanitizer.h"
+#include "shared/platform.h"
+
+namespace tandem::minicl {
+
+uint32_t widest_lanes()
+{
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw"))
+    return 16;
+  if (__builtin_cpu_supports("avx2")) return 8;
+#endif
+  return 4;
+}
+
+const KernelTable *lanes_table(uint32_t lanes)
+{
+  if (lanes > widest_lanes()) return nullptr;
+  switch (lanes) {
+  case 4: return &lanes4_kernels;
+  case 8: return &lanes8_kernels;
+  case 16: return &lanes16_kernels;
+  default: return nullptr;
+  }
+}
+
+namespace {
+
+/* About how many items one task should have: small kernels stay on one thread. */
+constexpr uint32_t items_per_task = 256;
+
+class MiniclBackend : public Backend {
+public:
+  MiniclBackend(const std::string &name, const Options &options)
+      : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
+        scalar_(options.order == Order::forward ? scalar_kernels : backward_kernels), lanes_(lanes_table(options.lanes))
+  {
+  }
+
+  const std::string &name() const override { return name_; }
+  Storage &storage() override { return host_storage(); }
+  void prepare(uint32_t, const std::vector<Kernel> &) override {}
+  void finish() override {}
+  void set_profiling(bool on) override { profiling_ = on; }
+  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
+
+  void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
+  {
+    const auto start = std::chrono::steady_clock::now();
+    const uint32_t *const count = static_cast<const uint32_t *>(counts);
+    const KernelRow &row = row_of(launch.kernel);
+    std::vector<void *> arguments;
+    for (size_t i = 0; i < bound.size(); ++i)
+      arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value) : bound[i].handle);
+    const uint32_t first = count[launch.first], last = count[launch.last];
+    if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), (last - first + TILE - 1) / TILE);
+    else if (last > first) run_items(launch.kernel, arguments.data(), first, last);
+    if (!profiling_) return;
+    Time &time = times_[index_of(launch.kernel)];
+    time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+    ++time.launches;
+  }
+
+private:
+  void run_groups(Kernel kernel, void *const *arguments, uint32_t groups)
+  {
+    const RunRange run = scalar_.run[index_of(kernel)];
+    if (order_ != Order::forward) return run_permuted(run, arguments, 0, groups);
+    parallel(0, groups, 1, [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
+  }
+
+  void run_items(Kernel kernel, void *const *arguments, uint32_t first, uint32_t last)
+  {
+    const RunRange scalar = scalar_.run[index_of(kernel)];
+    const RunRange lanes = lanes_ ? lanes_->run[index_of(kernel)] : nullptr;
+    if (order_ != Order::forward) return run_permuted(scalar, arguments, first, last);
+    const uint32_t width = lanes ? lanes_->lanes : 1;
+    parallel(first, last, std::max(items_per_task, width), [&](uint32_t begin, uint32_t end) {
+      const uint32_t whole = lanes ? (end - begin) / width * width : 0;
+      if (whole) lanes(arguments, begin, begin + whole);
+      if (begin + whole < end) scalar(arguments, begin + whole, end);
+    });
+  }
+
+  template <class Body> void parallel(uint32_t first, uint32_t last, uint32_t grain, Body body)
+  {
+    const auto exact = [&](uint32_t begin, uint32_t end) {
+      const ExactFloatingPoint environment;
+      body(begin, end);
+    };
+    if (threads_ == 1 || last - first <= grain) return exact(first, last);
+    launch_order::launch_begins();
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) {
+        launch_order::items_begin();
+        exact(range.begin(), range.end());
+        launch_order::items_end();
+      });
+    });
+    launch_order::launch_ends();
+  }
+
+  /* Every item once, last to first or in an order without pattern: results must not notice. */
+  void run_permuted(RunRange run, void *const *arguments, uint32_t first, uint32_t last)
+  {
+    const ExactFloatingPoint environment;
+    const uint64_t n = last - first;
+    uint64_t stride = 1;
+    if (order_ == Order::shuffled) {
+      stride = n * 5 / 8 + 1;
+      while (std::gcd(stride, n) != 1) ++stride;
+    }
+    for (uint64_t k = 0, at = n - 1; k < n; ++k, at = order_ == Order::shuffled ? (at + stride) % n : at - 1)
+      run(arguments, first + static_cast<uint32_t>(at), first + static_cast<uint32_t>(at) + 1);
+  }
+
+  std::string name_;
+  Order order_;
+  tbb::task_arena arena_;
+  uint32_t threads_;
+  const KernelTable &scalar_;
+  const KernelTable *lanes_;
+  bool profiling_ = false;
+  std::vector<Time> times_ = std::vector<Time>(kernel_count);
+};
+
+} // namespace
+
+std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options)
+{
+  Options filled = options;
+  if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
+  if (filled.lanes == 0) filled.lanes = widest_lanes();
+  return std::make_unique<MiniclBackend>(name, filled);
+}
+
+} // namespace tandem::minicl

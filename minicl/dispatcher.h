@@ -1,0 +1,24 @@
+/* dispatcher.h - MiniCL: runs the shared kernels on the CPU, in one thread or over TBB's.
+ *
+ * After the MiniCL of the 2009 talk, which compiled OpenCL kernels as regular C: here work-groups,
+ * local memory and barriers work too (phase loops, shared/platform.h), and lanes make it fast.
+ */
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "host/backend.h"
+
+namespace tandem::minicl {
+
+struct Options {
+  uint32_t threads = 0; /* 0: all of the machine; 1: no TBB */
+  uint32_t lanes = 0;   /* 0: the widest this processor runs; 1, 4, 8, 16 */
+  Backend::Order order = Backend::Order::forward;
+};
+
+std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options);
+
+} // namespace tandem::minicl

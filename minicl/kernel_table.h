@@ -1,0 +1,34 @@
+/* kernel_table.h - every kernel of kernels.def as a plain function over a range of items.
+ *
+ * One table per width: scalar (items one at a time), backward (the same, with the phases of
+ * work-groups walked in reverse), and 4, 8 and 16 lanes for kernels marked LANES.
+ */
+#pragma once
+
+#include <cstdint>
+
+#include "host/kernel_list.h"
+
+namespace tandem::minicl {
+
+/* Runs items (or, for GROUP kernels, groups) first .. last - 1. arguments[k] points to the buffer, or
+ * to the 4-byte value, of the k-th argument of the kernel's row. */
+using RunRange = void (*)(void *const *arguments, uint32_t first, uint32_t last);
+
+struct KernelTable {
+  uint32_t lanes;
+  RunRange run[kernel_count]; /* null: this width does not have the kernel */
+};
+
+extern const KernelTable scalar_kernels;
+extern const KernelTable backward_kernels;
+extern const KernelTable lanes4_kernels;
+extern const KernelTable lanes8_kernels;
+extern const KernelTable lanes16_kernels;
+
+/* The widths this processor can run: 1, 4 and, where it has AVX2 / AVX-512, 8 / 16. */
+uint32_t widest_lanes();
+/* The table of 4, 8 or 16 lanes; null for width 1 or one this processor cannot run. */
+const KernelTable *lanes_table(uint32_t lanes);
+
+} // namespace tandem::minicl

@@ -1,0 +1,115 @@
+/* lanes_x86.h - what the vector types of the compiler cannot say: square roots, gathers and the
+ * 4 x width transposes between records in memory and lanes in registers, for SSE2, AVX2, AVX-512.
+ *
+ *   memory, one record a lane            registers
+ *   lane 0:  x0 y0 z0 w0                 x: x0 x1 x2 x3
+ *   lane 1:  x1 y1 z1 w1        <-->     y: y0 y1 y2 y3
+ *   lane 2:  x2 y2 z2 w2                 z: z0 z1 z2 z3
+ *   lane 3:  x3 y3 z3 w3                 w: w0 w1 w2 w3
+ */
+#pragma once
+
+#if TANDEM_LANES == 16
+static inline real square_root(real x) { return real((float_lanes)_mm512_sqrt_ps((__m512)x.v)); }
+static inline bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
+static inline real load_real(const memory_real *from, natural i)
+{
+  return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
+}
+static inline natural load_natural(const uint *from, natural i)
+{
+  return natural((uint_lanes)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
+}
+
+typedef __m512 quarter_rows; /* four records: of lanes k, k + 4, k + 8, k + 12 */
+static inline quarter_rows load_quarter(const float *const *lanes, int k)
+{
+  __m512 rows = _mm512_castps128_ps512(_mm_load_ps(lanes[k]));
+  rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 4]), 1);
+  rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 8]), 2);
+  return _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 12]), 3);
+}
+static inline void store_quarter(float *const *lanes, int k, quarter_rows rows)
+{
+  _mm_store_ps(lanes[k], _mm512_castps512_ps128(rows));
+  _mm_store_ps(lanes[k + 4], _mm512_extractf32x4_ps(rows, 1));
+  _mm_store_ps(lanes[k + 8], _mm512_extractf32x4_ps(rows, 2));
+  _mm_store_ps(lanes[k + 12], _mm512_extractf32x4_ps(rows, 3));
+}
+static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm512_unpacklo_ps(a, b); }
+static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm512_unpackhi_ps(a, b); }
+static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0x44); }
+static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0xee); }
+
+#elif TANDEM_LANES == 8
+static inline real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
+static inline bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+static inline real load_real(const memory_real *from, natural i)
+{
+  return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
+}
+static inline natural load_natural(const uint *from, natural i)
+{
+  return natural((uint_lanes)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
+}
+
+typedef __m256 quarter_rows; /* two records: of lanes k and k + 4 */
+static inline quarter_rows load_quarter(const float *const *lanes, int k)
+{
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(lanes[k])), _mm_load_ps(lanes[k + 4]), 1);
+}
+static inline void store_quarter(float *const *lanes, int k, quarter_rows rows)
+{
+  _mm_store_ps(lanes[k], _mm256_castps256_ps128(rows));
+  _mm_store_ps(lanes[k + 4], _mm256_extractf128_ps(rows, 1));
+}
+static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm256_unpacklo_ps(a, b); }
+static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm256_unpackhi_ps(a, b); }
+static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0x44); }
+static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0xee); }
+
+#else
+static inline real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
+static inline bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+static inline real load_real(const memory_real *from, natural i)
+{
+  real r;
+  for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
+  return r;
+}
+static inline natural load_natural(const uint *from, natural i)
+{
+  natural r;
+  for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
+  return r;
+}
+
+typedef __m128 quarter_rows; /* one record */
+static inline quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
+static inline void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
+static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
+static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
+static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
+static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
+#endif
+
+static inline vec4 load_transposed(const float *const *lanes)
+{
+  const quarter_rows a = load_quarter(lanes, 0), b = load_quarter(lanes, 1);
+  const quarter_rows c = load_quarter(lanes, 2), d = load_quarter(lanes, 3);
+  const quarter_rows xy01 = unpack_low(a, b), zw01 = unpack_high(a, b);
+  const quarter_rows xy23 = unpack_low(c, d), zw23 = unpack_high(c, d);
+  return {real((float_lanes)halves_low(xy01, xy23)), real((float_lanes)halves_high(xy01, xy23)),
+          real((float_lanes)halves_low(zw01, zw23)), real((float_lanes)halves_high(zw01, zw23))};
+}
+static inline void store_transposed(float *const *lanes, vec4 value)
+{
+  const quarter_rows x = (quarter_rows)value.x.v, y = (quarter_rows)value.y.v;
+  const quarter_rows z = (quarter_rows)value.z.v, w = (quarter_rows)value.w.v;
+  const quarter_rows xy_low = unpack_low(x, y), xy_high = unpack_high(x, y);
+  const quarter_rows zw_low = unpack_low(z, w), zw_high = unpack_high(z, w);
+  store_quarter(lanes, 0, halves_low(xy_low, zw_low));
+  store_quarter(lanes, 1, halves_high(xy_low, zw_low));
+  store_quarter(lanes, 2, halves_low(xy_high, zw_high));
+  store_quarter(lanes, 3, halves_high(xy_high, zw_high));
+}

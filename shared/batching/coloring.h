@@ -1,0 +1,94 @@
+/* coloring.h - deterministic parallel graph colouring of the contacts.
+ *
+ * Contacts that share a moving body must not be solved at once. In rounds, every uncoloured contact bids
+ * at its moving bodies with a number of its own; one that holds the highest bid at both takes the lowest
+ * colour free at both (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", 1993). Bids are a
+ * bijective hash of the pair's index, so they never tie, and a maximum does not depend on order: the
+ * colouring is the same on every backend.
+ *
+ *      body      1 --- 2 --- 3         contacts are the edges; colours run along an edge's two ends
+ *      colour      0     1
+ */
+#ifndef TANDEM_SHARED_BATCHING_COLORING_H
+#define TANDEM_SHARED_BATCHING_COLORING_H
+
+#include "shared/batching/match.h"
+
+/* A bijection of 32-bit numbers (odd multipliers, xor-shifts). */
+SHARED uint bid_of(uint pair)
+{
+  uint h = pair * 0x9e3779b1u;
+  h ^= h >> 15;
+  h *= 0x85ebca77u;
+  h ^= h >> 13;
+  return h;
+}
+
+SHARED uint is_moving(GLOBAL const uint *body_traits, uint body) { return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC; }
+
+/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
+SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                           GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
+  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
+  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
+}
+
+/* The lowest colour not in the two masks; COLOR_TAIL if all are taken. */
+SHARED uint lowest_free_color(uint low_used, uint high_used)
+{
+  for (uint color = 0; color < COLOR_LIMIT; ++color) {
+    uint word = color < 32u ? low_used : high_used;
+    if ((word >> (color & 31u) & 1u) == 0u) return color;
+  }
+  return COLOR_TAIL;
+}
+
+SHARED void take_color(GLOBAL uint *body_colors, uint body, uint color) { body_colors[2u * body + (color >> 5)] |= 1u << (color & 31u); }
+
+SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, uint b, uint moving_b)
+{
+  uint low = (moving_a ? body_colors[2u * a] : 0u) | (moving_b ? body_colors[2u * b] : 0u);
+  uint high = (moving_a ? body_colors[2u * a + 1u] : 0u) | (moving_b ? body_colors[2u * b + 1u] : 0u);
+  return lowest_free_color(low, high);
+}
+
+/* Only the winner of a body reads or writes the body's colours in this round. */
+SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
+                              GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
+  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  uint now = round & 1u, next = now ^ 1u;
+  if (moving_a) ATOMIC_MIN(body_bid + 2u * a + next, 0u);
+  if (moving_b) ATOMIC_MIN(body_bid + 2u * b + next, 0u);
+  if ((moving_a && body_bid[2u * a + now] != bid) || (moving_b && body_bid[2u * b + now] != bid)) return;
+  uint color = free_color(body_colors, a, moving_a, b, moving_b);
+  pair_color[i] = color;
+  if (moving_a) take_color(body_colors, a, color);
+  if (moving_b) take_color(body_colors, b, color);
+  ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
+  ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
+}
+
+/* The oracle: one item colours all contacts greedily in pair order (inventory E3). */
+SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
+                                GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+{
+  (void)i;
+  for (uint pair = 0; pair < counts[COUNT_PAIRS]; ++pair) {
+    if (pair_color[pair] != COLOR_NONE) continue;
+    uint a = pair_a[pair], b = pair_b[pair];
+    uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+    uint color = free_color(body_colors, a, moving_a, b, moving_b);
+    pair_color[pair] = color;
+    if (moving_a) take_color(body_colors, a, color);
+    if (moving_b) take_color(body_colors, b, color);
+  }
+  counts[COUNT_UNCOLORED] = 0u;
+}
+
+#endif

@@ -1,0 +1,37 @@
+/* order.h - constraints in colour order: one stable sort of the pairs by colour, then where each starts. */
+#ifndef TANDEM_SHARED_BATCHING_ORDER_H
+#define TANDEM_SHARED_BATCHING_ORDER_H
+
+#include "shared/records.h"
+
+SHARED void color_keys_item(GLOBAL const uint *pair_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+{
+  sort_key[i] = pair_color[i];
+  sort_value[i] = i;
+}
+
+SHARED uint first_not_below(GLOBAL const uint *sort_key, uint length, uint key)
+{
+  uint low = 0, high = length;
+  while (low < high) {
+    uint middle = low + (high - low) / 2u;
+    if (sort_key[middle] < key) low = middle + 1u;
+    else high = middle;
+  }
+  return low;
+}
+
+/* Item c: the first constraint of colour c; the tail, counted as a colour, also writes where the constraints end. */
+SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+{
+  uint pairs = counts[COUNT_PAIRS];
+  uint start = first_not_below(sort_key, pairs, color), end = first_not_below(sort_key, pairs, color + 1u);
+  counts[COLOR_START + color] = start;
+  if (end > start) ATOMIC_MAX(counts + COUNT_COLORS, color + 1u);
+  if (color == COLOR_TAIL) {
+    counts[COLOR_START + COLOR_TAIL + 1u] = end;
+    counts[COUNT_CONSTRAINTS] = end;
+  }
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* bounds.h - the box around everything a body can reach within the coming step.
+ *
+ *        +-----------------------+
+ *        | +---+           +---+ |   the shape now and after the step, under its velocity and gravity,
+ *        | | A | --------> |   | |   turned as far as its spin allows, and the margin within which
+ *        | +---+           +---+ |   contacts are made ahead of touching
+ *        +-----------------------+
+ *
+ * First stage of the broadphase; rebuilt every step, so nothing here needs to last longer.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_BOUNDS_H
+#define TANDEM_SHARED_BROADPHASE_BOUNDS_H
+
+#include "shared/records.h"
+
+/* Half extents of the axis-aligned box around a rotated shape; Arvo, Graphics Gems, 1990. */
+SHARED vec3 half_extents(natural shape, vec3 size, mat3 rotation)
+{
+  vec3 box = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size), inner(absolute(rotation.z), size));
+  vec3 sphere = make_vec3(size.x, size.x, size.x);
+  vec3 everything = make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS);
+  return choose3(shape == (natural)SHAPE_HALF_SPACE, everything, choose3(shape == (natural)SHAPE_SPHERE, sphere, box));
+}
+
+/* A turning shape stays within its bounding sphere. */
+SHARED real turned_extent(real extent, real radius, real turn)
+{
+  return choose(extent > radius, extent, minimum(radius, extent + turn * radius));
+}
+
+SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
+                                GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
+                                GLOBAL const row *body_velocity, GLOBAL row *bounds, natural i)
+{
+  vec4 size = load_row(body_shape, i);
+  vec3 center = xyz(load_row(body_position, i));
+  motion m = load_motion(body_velocity, i);
+  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
+  vec3 extent = half_extents(shape_of(load_natural(body_traits, i)), xyz(size), rotation);
+
+  real step = parameters->step;
+  real turn = length_of(m.angular) * step;
+  real margin = parameters->bounds_margin;
+  extent = make_vec3(turned_extent(extent.x, size.w, turn) + margin, turned_extent(extent.y, size.w, turn) + margin,
+                     turned_extent(extent.z, size.w, turn) + margin);
+
+  real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
+  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+  vec3 drift = scale(m.linear, step), fallen = add_scaled(drift, gravity, fall);
+  vec3 low = make_vec3(minimum(R(0.0), minimum(drift.x, fallen.x)), minimum(R(0.0), minimum(drift.y, fallen.y)),
+                       minimum(R(0.0), minimum(drift.z, fallen.z)));
+  vec3 high = make_vec3(maximum(R(0.0), maximum(drift.x, fallen.x)), maximum(R(0.0), maximum(drift.y, fallen.y)),
+                        maximum(R(0.0), maximum(drift.z, fallen.z)));
+  store_row(bounds, i * 2u, extend(add(subtract(center, extent), low), R(0.0)));
+  store_row(bounds, i * 2u + 1u, extend(add(add(center, extent), high), R(0.0)));
+}
+
+#endif

@@ -1,0 +1,165 @@
+/* extent.h - where the bodies are, as a whole: the region of the uniform grid and the axis of the sweep.
+ *
+ * Per tile a tree of bounds of the centres, the largest size, and the sums for the variance; then one
+ * group over the tiles. Trees are fixed, so the sums have the same bits everywhere. Large bodies are left
+ * out: they are tested against everything instead.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_EXTENT_H
+#define TANDEM_SHARED_BROADPHASE_EXTENT_H
+
+#include "shared/broadphase/overlap.h"
+#include "shared/conversion.h"
+
+#define EXTENT_VALUES 13u /* lower xyz, upper xyz, size, sum xyz, sum of squares xyz */
+#define EXTENT_WIDTH 256u /* virtual items of a group; each keeps EXTENT_VALUES words of local memory */
+#define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
+
+typedef struct { vec3 lower, upper, sum, squares; real size; } extent;
+
+SHARED extent empty_extent(void)
+{
+  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, R(0.0)};
+  return e;
+}
+SHARED vec3 lower_of(vec3 a, vec3 b) { return make_vec3(minimum(a.x, b.x), minimum(a.y, b.y), minimum(a.z, b.z)); }
+SHARED vec3 upper_of(vec3 a, vec3 b) { return make_vec3(maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z)); }
+SHARED extent join_extents(extent a, extent b)
+{
+  extent e = {lower_of(a.lower, b.lower), upper_of(a.upper, b.upper), add(a.sum, b.sum), add(a.squares, b.squares), maximum(a.size, b.size)};
+  return e;
+}
+SHARED extent extent_of_body(box_bounds b)
+{
+  vec3 size = subtract(b.upper, b.lower);
+  vec3 center = scale(add(b.lower, b.upper), R(0.5));
+  extent e = {center, center, center, multiply(center, center), maximum(size.x, maximum(size.y, size.z))};
+  return e;
+}
+
+SHARED void store_vec3_local(LOCAL real *to, uint plane, uint item, vec3 v)
+{
+  to[plane * EXTENT_WIDTH + item] = v.x;
+  to[(plane + 1u) * EXTENT_WIDTH + item] = v.y;
+  to[(plane + 2u) * EXTENT_WIDTH + item] = v.z;
+}
+SHARED vec3 load_vec3_local(LOCAL const real *from, uint plane, uint item)
+{
+  return make_vec3(from[plane * EXTENT_WIDTH + item], from[(plane + 1u) * EXTENT_WIDTH + item], from[(plane + 2u) * EXTENT_WIDTH + item]);
+}
+SHARED void store_extent_local(LOCAL real *to, uint item, extent e)
+{
+  store_vec3_local(to, 0u, item, e.lower);
+  store_vec3_local(to, 3u, item, e.upper);
+  store_vec3_local(to, 6u, item, e.sum);
+  store_vec3_local(to, 9u, item, e.squares);
+  to[12u * EXTENT_WIDTH + item] = e.size;
+}
+SHARED extent load_extent_local(LOCAL const real *from, uint item)
+{
+  extent e = {load_vec3_local(from, 0u, item), load_vec3_local(from, 3u, item), load_vec3_local(from, 6u, item), load_vec3_local(from, 9u, item),
+              from[12u * EXTENT_WIDTH + item]};
+  return e;
+}
+
+/* Joins EXTENT_WIDTH extents in local memory into the first. */
+SHARED void join_tree(LOCAL real *extents)
+{
+  for (uint reach = EXTENT_WIDTH / 2u; reach > 0u; reach /= 2u)
+    FOR_EACH_ITEM(item, reach)
+      store_extent_local(extents, item, join_extents(load_extent_local(extents, item), load_extent_local(extents, item + reach)));
+}
+
+/* One group over TILE small bodies -> EXTENT_ROWS rows of bounds_sums. */
+SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *bounds_sums, LOCAL uint *local_memory, uint group)
+{
+  LOCAL real *extents = (LOCAL real *)local_memory;
+  uint small = counts[COUNT_SMALL], large = counts[COUNT_LARGE];
+  FOR_EACH_ITEM(item, EXTENT_WIDTH)
+  {
+    extent e = empty_extent();
+    for (uint k = 0; k < TILE / EXTENT_WIDTH; ++k) {
+      uint body = group * TILE + k * EXTENT_WIDTH + item;
+      if (body < small) e = join_extents(e, extent_of_body(load_bounds(bounds, large + body)));
+    }
+    store_extent_local(extents, item, e);
+  }
+  join_tree(extents);
+  FOR_EACH_ITEM(first, 1u)
+  {
+    extent e = load_extent_local(extents, first);
+    store_row(bounds_sums, group * EXTENT_ROWS, extend(e.lower, e.size));
+    store_row(bounds_sums, group * EXTENT_ROWS + 1u, extend(e.upper, R(0.0)));
+    store_row(bounds_sums, group * EXTENT_ROWS + 2u, extend(e.sum, R(0.0)));
+    store_row(bounds_sums, group * EXTENT_ROWS + 3u, extend(e.squares, R(0.0)));
+  }
+}
+
+SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
+{
+  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS);
+  extent e = {xyz(lower), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 1u)), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 2u)),
+              xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 3u)), lower.w};
+  return e;
+}
+
+/* Cells along one axis, at least 1 and at most what 30 bits of three axes allow. */
+SHARED uint cells_along(real length, real cell)
+{
+  int cells = floor_to_int(length / cell) + 1;
+  return cells < 1 ? 1u : (uint)cells;
+}
+
+/* The grid of smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
+SHARED void lay_out_grid(extent whole, real smallest, GLOBAL row *grid, GLOBAL uint *counts)
+{
+  vec3 length = subtract(whole.upper, whole.lower);
+  real cell = maximum(maximum(whole.size, smallest), R(1e-6));
+  uint nx = 1u, ny = 1u, nz = 1u;
+  for (int tries = 0; tries < 400; ++tries) {
+    nx = cells_along(length.x, cell);
+    ny = cells_along(length.y, cell);
+    nz = cells_along(length.z, cell);
+    if ((real)nx * (real)ny * (real)nz <= (real)counts[CAPACITY_CELLS]) break;
+    cell = cell * R(1.25);
+  }
+  store_row(grid, 0u, extend(whole.lower, R(1.0) / cell));
+  counts[COUNT_GRID_X] = nx;
+  counts[COUNT_GRID_Y] = ny;
+  counts[COUNT_GRID_Z] = nz;
+  counts[COUNT_CELLS] = nx * ny * nz;
+  counts[COUNT_CELLS_PLUS_ONE] = nx * ny * nz + 1u;
+}
+
+/* The axis along which the centres spread most (GS-4150 slide 21). */
+SHARED uint widest_axis(extent whole, real bodies)
+{
+  vec3 mean = scale(whole.sum, R(1.0) / bodies);
+  vec3 variance = subtract(scale(whole.squares, R(1.0) / bodies), multiply(mean, mean));
+  if (variance.x >= variance.y && variance.x >= variance.z) return 0u;
+  return variance.y >= variance.z ? 1u : 2u;
+}
+
+/* One group over all tiles. */
+SHARED void extent_whole_group(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts,
+                               LOCAL uint *local_memory, uint group)
+{
+  (void)group;
+  LOCAL real *extents = (LOCAL real *)local_memory;
+  uint tiles = (counts[COUNT_SMALL] + TILE - 1u) / TILE;
+  FOR_EACH_ITEM(item, EXTENT_WIDTH)
+  {
+    extent e = empty_extent();
+    for (uint tile = item; tile < tiles; tile += EXTENT_WIDTH) e = join_extents(e, load_extent_tile(bounds_sums, tile));
+    store_extent_local(extents, item, e);
+  }
+  join_tree(extents);
+  FOR_EACH_ITEM(first, 1u)
+  {
+    extent whole = load_extent_local(extents, first);
+    uint bodies = counts[COUNT_SMALL];
+    lay_out_grid(whole, parameters->cell_size, grid, counts);
+    counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
+  }
+}
+
+#endif

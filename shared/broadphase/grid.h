@@ -1,0 +1,115 @@
+/* grid.h - uniform grid: bodies sorted by cell, each looks into its own and the 26 cells around it.
+ *
+ * After the particle demo of the 2009 talk and GS-4150 slides 19-20, with no limit on a cell's
+ * population. A cell is never smaller than the largest bounds, so overlapping bodies are in touching
+ * cells. Cells are numbered along x first, so three neighbours are one stretch of the sorted list:
+ *
+ *      z  +---+---+---+
+ *      ^  | 6   7   8 |     9 rows of 3 cells instead of 27 cells
+ *      |  +---+---+---+
+ *      y> | 3   4   5 |
+ *         +---+---+---+
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_GRID_H
+#define TANDEM_SHARED_BROADPHASE_GRID_H
+
+#include "shared/broadphase/extent.h"
+
+typedef struct { int x, y, z; } grid_cell;
+
+/* Bodies outside the region, which only rounding can cause, belong to the border cells. */
+SHARED int cell_along(real offset, real inverse_cell, uint cells)
+{
+  int cell = floor_to_int(offset * inverse_cell);
+  if (cell < 0) return 0;
+  return cell < (int)cells ? cell : (int)cells - 1;
+}
+
+SHARED grid_cell cell_of(GLOBAL const row *grid, GLOBAL const uint *counts, box_bounds b)
+{
+  vec4 layout = load_row(grid, 0u);
+  vec3 offset = subtract(scale(add(b.lower, b.upper), R(0.5)), xyz(layout));
+  grid_cell c = {cell_along(offset.x, layout.w, counts[COUNT_GRID_X]), cell_along(offset.y, layout.w, counts[COUNT_GRID_Y]),
+                 cell_along(offset.z, layout.w, counts[COUNT_GRID_Z])};
+  return c;
+}
+
+SHARED uint cell_number(GLOBAL const uint *counts, int x, int y, int z)
+{
+  return ((uint)z * counts[COUNT_GRID_Y] + (uint)y) * counts[COUNT_GRID_X] + (uint)x;
+}
+
+/* Small body i of the scene: its cell is the sort key. */
+SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key,
+                           GLOBAL uint *sort_value, uint i)
+{
+  uint body = counts[COUNT_LARGE] + i;
+  grid_cell c = cell_of(grid, counts, load_bounds(bounds, body));
+  sort_key[i] = cell_number(counts, c.x, c.y, c.z);
+  sort_value[i] = body;
+}
+
+/* cell_start[cell] = the first sorted body of that cell or a later one. */
+SHARED void grid_cells_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint cell)
+{
+  uint low = 0, high = counts[COUNT_SMALL];
+  while (low < high) {
+    uint middle = low + (high - low) / 2u;
+    if (sort_key[middle] < cell) low = middle + 1u;
+    else high = middle;
+  }
+  cell_start[cell] = low;
+}
+
+/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; large ones first. */
+#define GRID_SEARCH(a, VISIT)                                                                                       \
+  {                                                                                                                 \
+    box_bounds own = load_bounds(bounds, a);                                                                        \
+    uint large = counts[COUNT_LARGE];                                                                               \
+    for (uint b = 0; b < large && b < a; ++b)                                                                       \
+      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
+    if (a >= large) {                                                                                               \
+      grid_cell c = cell_of(grid, counts, own);                                                                     \
+      int left = c.x > 0 ? c.x - 1 : 0, nx = (int)counts[COUNT_GRID_X], right = c.x + 1 < nx ? c.x + 1 : nx - 1;     \
+      for (int neighbour = 0; neighbour < 9; ++neighbour) {                                                         \
+        int y = c.y + neighbour % 3 - 1, z = c.z + neighbour / 3 - 1;                                               \
+        if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z]) continue;           \
+        uint end = cell_start[cell_number(counts, right, y, z) + 1u];                                               \
+        for (uint at = cell_start[cell_number(counts, left, y, z)]; at < end; ++at) {                               \
+          uint b = sort_value[at];                                                                                  \
+          if (b < a && bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
+        }                                                                                                           \
+      }                                                                                                             \
+    }                                                                                                               \
+  }
+
+/* Items in the order of the sorted list, so that neighbours in the launch read neighbours in space. */
+SHARED uint grid_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, uint i)
+{
+  return i < counts[COUNT_LARGE] ? i : sort_value[i - counts[COUNT_LARGE]];
+}
+
+SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
+                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                            GLOBAL const uint *counts, GLOBAL uint *pair_start, uint i)
+{
+  uint a = grid_body(sort_value, counts, i);
+  uint found = 0;
+#define VISIT(b) ++found;
+  GRID_SEARCH(a, VISIT)
+#undef VISIT
+  pair_start[a] = found;
+}
+
+SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
+                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                            GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint i)
+{
+  uint a = grid_body(sort_value, counts, i);
+  uint used = 0, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
+#define VISIT(b) used = insert_pair(pair_a, pair_b, first, used, capacity, a, b);
+  GRID_SEARCH(a, VISIT)
+#undef VISIT
+}
+
+#endif

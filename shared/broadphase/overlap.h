@@ -1,0 +1,55 @@
+/* overlap.h - which two bodies make a pair: the one rule that every broadphase shares.
+ *
+ * A pair (a, b) has a > b and is owned by a; pairs are sorted by (a, b). So every broadphase yields
+ * the same list as the brute-force one, and the same bits downstream. For ITEM kernels.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_OVERLAP_H
+#define TANDEM_SHARED_BROADPHASE_OVERLAP_H
+
+#include "shared/records.h"
+
+typedef struct { vec3 lower, upper; } box_bounds;
+
+SHARED box_bounds load_bounds(GLOBAL const row *bounds, uint body)
+{
+  box_bounds b = {xyz(load_row(bounds, 2u * body)), xyz(load_row(bounds, 2u * body + 1u))};
+  return b;
+}
+
+SHARED int bounds_overlap(box_bounds p, box_bounds q)
+{
+  return p.lower.x <= q.upper.x && q.lower.x <= p.upper.x && p.lower.y <= q.upper.y && q.lower.y <= p.upper.y &&
+         p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
+}
+
+/* One of them must be able to move, neither be quarantined, and each must accept the other's groups. */
+SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, uint a, uint b)
+{
+  uint motion_a = motion_of(body_traits[a]), motion_b = motion_of(body_traits[b]);
+  if (motion_a != (uint)MOTION_DYNAMIC && motion_b != (uint)MOTION_DYNAMIC) return 0;
+  if (motion_a == (uint)MOTION_QUARANTINED || motion_b == (uint)MOTION_QUARANTINED) return 0;
+  if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
+  return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
+}
+
+/* Where a body's pairs go: its own stretch of the list, from pair_start[body], kept sorted by b. */
+SHARED uint insert_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
+{
+  uint at = first + used;
+  if (at >= capacity) return used; /* counted already: the step will run again with room for it */
+  for (; at > first && pair_b[at - 1u] > b; --at) pair_b[at] = pair_b[at - 1u];
+  pair_b[at] = b;
+  pair_a[first + used] = a;
+  return used + 1u;
+}
+
+/* Clamps the number of pairs found, the scan's total, to what there is room for. */
+SHARED void count_pairs_item(GLOBAL const uint *pair_start, GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  uint needed = pair_start[counts[COUNT_BODIES]];
+  counts[COUNT_PAIRS_NEEDED] = needed;
+  counts[COUNT_PAIRS] = needed < counts[CAPACITY_PAIRS] ? needed : counts[CAPACITY_PAIRS];
+}
+
+#endif

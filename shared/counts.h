@@ -1,0 +1,61 @@
+/* counts.h - every number of things that the device alone knows: one array of uint.
+ *
+ * Counts stay on the device: a kernel's range is [counts[first], counts[last]), so no stage waits
+ * for the host. The host reads the array once, at the end of a step (design section 5). */
+#ifndef TANDEM_SHARED_COUNTS_H
+#define TANDEM_SHARED_COUNTS_H
+
+/* Colours of the constraint graph; contacts past the last go to the tail, solved in order. */
+#define COLOR_LIMIT 63u
+#define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
+#define COLOR_NONE 254u     /* touching, not coloured yet */
+#define COLOR_INACTIVE 255u /* pair of bounds that do not touch */
+
+#define INDEX_NONE 0xffffffffu
+
+enum {
+  COUNT_ZERO,          /* always 0 */
+  COUNT_ONE,           /* always 1 */
+  COUNT_BODIES,        /* bodies of the scene; set by the host */
+  COUNT_BODIES_PLUS_ONE,
+  COUNT_LARGE,         /* the first bodies, too large for a grid or a sweep; set by the host */
+  COUNT_SMALL,         /* the bodies after them */
+  COUNT_PAIRS,         /* pairs kept: min(needed, capacity) */
+  COUNT_PAIRS_NEEDED,  /* pairs found */
+  CAPACITY_PAIRS,      /* pairs there is room for; also the stride of manifold and constraint rows */
+  COUNT_CACHED_PAIRS,  /* pairs of the last committed step */
+  COUNT_CONSTRAINTS,   /* touching pairs, in colour order */
+  COUNT_UNCOLORED,     /* touching pairs that no round of colouring has reached yet */
+  COUNT_ROUNDS,        /* rounds that coloured something */
+  COUNT_COLORS,        /* colours in use; COLOR_LIMIT + 1 if there is a tail */
+  COUNT_STATUS,        /* STATUS_ bits; 0: the step may be committed */
+  COUNT_NONFINITE,     /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
+  COUNT_COMMIT_BODIES, /* what the commit kernels run over: nothing unless the status is 0 */
+  COUNT_COMMIT_BODIES_PLUS_ONE,
+  COUNT_COMMIT_PAIRS,
+  COUNT_COMMIT_CONSTRAINTS,
+  COUNT_GRID_X,        /* cells of the uniform grid along each axis */
+  COUNT_GRID_Y,
+  COUNT_GRID_Z,
+  COUNT_CELLS,
+  COUNT_CELLS_PLUS_ONE,
+  CAPACITY_CELLS,
+  COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
+  COUNT_HISTOGRAM,     /* digit counts of the radix sort under way */
+  COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
+  COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
+  COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
+  COUNT_TOTAL = COLOR_START + 63 + 2
+};
+
+enum {
+  STATUS_PAIRS = 1,     /* more pairs than capacity: grow and run the step again */
+  STATUS_ROUNDS = 2,    /* colouring needs more rounds */
+  STATUS_COLORS = 4,    /* more colours than were launched */
+  STATUS_NONFINITE = 8  /* a body is not finite: quarantine it and run the step again */
+};
+
+/* Where a body was first seen to be non-finite, in pipeline order. */
+enum { NONFINITE_AT_START = 0, NONFINITE_IN_SOLVE = 1, NONFINITE_IN_INTEGRATE = 2 };
+
+#endif

@@ -1,0 +1,29 @@
+/* features.h - the rows of features.def as bits, and the test that kernels make of them.
+ *
+ * In OpenCL the mask is the compile-time constant FEATURES (-D FEATURES=...), so what a scene does
+ * not need costs nothing. MiniCL is compiled ahead, so it reads the mask from the parameters; with
+ * every bit set both give the bits of the specialised build (tests/parity/specialise_test.cpp). */
+#ifndef TANDEM_SHARED_FEATURES_H
+#define TANDEM_SHARED_FEATURES_H
+
+enum {
+#define FEATURE(name, what) FEATURE_INDEX_##name,
+#include "shared/features.def"
+#undef FEATURE
+  FEATURE_COUNT
+};
+
+enum {
+#define FEATURE(name, what) FEATURE_##name = 1 << FEATURE_INDEX_##name,
+#include "shared/features.def"
+#undef FEATURE
+  FEATURE_ALWAYS = 0
+};
+
+#ifdef FEATURES
+#define HAS_FEATURE(parameters, bit) (((FEATURES) & (uint)(bit)) != 0u)
+#else
+#define HAS_FEATURE(parameters, bit) (((parameters)->features & (uint)(bit)) != 0u)
+#endif
+
+#endif

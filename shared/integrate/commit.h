@@ -1,0 +1,86 @@
+/* commit.h - makes a finished step the state, or leaves the state as it was.
+ *
+ * One item gathers what went wrong into the status. Only if it is 0 do the commit kernels have a range to
+ * run over, so a step that overflowed or broke has changed nothing and can be run again (design section 7).
+ */
+#ifndef TANDEM_SHARED_INTEGRATE_COMMIT_H
+#define TANDEM_SHARED_INTEGRATE_COMMIT_H
+
+#include "shared/integrate/prepare.h"
+
+SHARED void begin_step_item(GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  counts[COUNT_PAIRS] = 0u;
+  counts[COUNT_PAIRS_NEEDED] = 0u;
+  counts[COUNT_CONSTRAINTS] = 0u;
+  counts[COUNT_UNCOLORED] = 0u;
+  counts[COUNT_ROUNDS] = 0u;
+  counts[COUNT_COLORS] = 0u;
+  counts[COUNT_STATUS] = 0u;
+  counts[COUNT_NONFINITE] = INDEX_NONE;
+}
+
+SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
+                              GLOBAL const row *solver_orientation, GLOBAL uint *counts, natural i)
+{
+  motion m = load_motion(solver_velocity, i);
+  note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
+  vec3 position = add(xyz(load_row(body_position, i)), xyz(load_row(solver_delta, i * 2u)));
+  note_nonfinite(is_finite(position) & quaternion_is_finite(load_row(solver_orientation, i)), counts, i, NONFINITE_IN_INTEGRATE);
+}
+
+/* colors: how many the host launched. */
+SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
+{
+  (void)i;
+  uint status = 0u;
+  if (counts[COUNT_PAIRS_NEEDED] > counts[CAPACITY_PAIRS]) status |= STATUS_PAIRS;
+  if (counts[COUNT_UNCOLORED] != 0u) status |= STATUS_ROUNDS;
+  if (counts[COUNT_COLORS] > colors) status |= STATUS_COLORS;
+  if (counts[COUNT_NONFINITE] != INDEX_NONE) status |= STATUS_NONFINITE;
+  uint whole = status == 0u ? 1u : 0u;
+  counts[COUNT_STATUS] = status;
+  counts[COUNT_COMMIT_BODIES] = whole * counts[COUNT_BODIES];
+  counts[COUNT_COMMIT_BODIES_PLUS_ONE] = whole * counts[COUNT_BODIES_PLUS_ONE];
+  counts[COUNT_COMMIT_PAIRS] = whole * counts[COUNT_PAIRS];
+  counts[COUNT_COMMIT_CONSTRAINTS] = whole * counts[COUNT_CONSTRAINTS];
+}
+
+SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
+                               GLOBAL row *body_position, GLOBAL row *body_orientation, GLOBAL row *body_velocity, natural i)
+{
+  vec3 position = add(xyz(load_row(body_position, i)), xyz(load_row(solver_delta, i * 2u)));
+  store_row(body_position, i, extend(position, R(0.0)));
+  store_row(body_orientation, i, load_row(solver_orientation, i));
+  store_motion(body_velocity, i, load_motion(solver_velocity, i));
+}
+
+SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i) { cached_start[i] = pair_start[i]; }
+
+SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature,
+                             GLOBAL uint *cached_b, GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
+                             GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, natural i)
+{
+  vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_natural(cached_b, i, load_natural(pair_b, i));
+  store_natural(cached_color, i, load_natural(pair_color, i));
+  store_natural(cached_feature, i, load_natural(manifold_feature, i));
+  store_row(cached_normal_impulse, i, zero);
+  store_row(cached_friction_impulse, i, zero);
+}
+
+/* Slots, not points, are what the next step looks for, but impulses stay with their points: slots tell them apart.
+ * Friction is kept as a vector of the world, since its tangents turn with the normal. */
+SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_normal,
+                                GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                                GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, natural i)
+{
+  natural pair = load_natural(constraint_pair, i);
+  vec4 friction = load_row(constraint_friction_impulse, i);
+  tangents t = tangents_of(xyz(load_row(constraint_normal, i)));
+  store_row(cached_normal_impulse, pair, load_row(constraint_normal_impulse, i));
+  store_row(cached_friction_impulse, pair, extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
+}
+
+#endif

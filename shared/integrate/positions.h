@@ -1,0 +1,81 @@
+/* positions.h - moves and turns bodies over one substep.
+ *
+ * Translation is accumulated apart from the position, which may be far from the origin. A body that no
+ * constraint touches moves on the exact parabola; others on the symplectic Euler step that the solver
+ * assumes. Rotation uses the exponential map of the angular velocity, and under torque-free motion keeps
+ * the angular momentum L, not the angular velocity, constant:
+ *
+ *     w(mid) = I(q mid)^-1 L,   q' = exp(h w(mid)) q,   w' = I(q')^-1 L
+ *
+ * (explicit midpoint on the rotation group; Hairer, Lubich and Wanner, Geometric Numerical Integration,
+ * IV.8), so L is exact to rounding and fast spin stays bounded.
+ */
+#ifndef TANDEM_SHARED_INTEGRATE_POSITIONS_H
+#define TANDEM_SHARED_INTEGRATE_POSITIONS_H
+
+#include "shared/records.h"
+#include "shared/trigonometry.h"
+
+/* q turned by the rotation vector v (rad, world axes). */
+SHARED quat turned(quat q, vec3 v)
+{
+  real angle = length_of(v);
+  mask turns = angle > R(1e-9);
+  angle_functions halved = sine_cosine(R(0.5) * angle);
+  real s = choose(turns, halved.sine / choose(turns, angle, (real)R(1.0)), (real)R(0.5));
+  return quat_normalized(quat_multiply(make_quat(v.x * s, v.y * s, v.z * s, choose(turns, halved.cosine, (real)R(1.0))), q));
+}
+
+/* I(q)^-1 L for principal inverse moments d. */
+SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
+{
+  mat3 r = rotation_of(q);
+  return rotate(r, multiply(inverse_moments, rotate_back(r, momentum)));
+}
+
+typedef struct { quat orientation; vec3 angular; } spin;
+
+SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
+{
+  mask finite = (inverse_moments.x > R(0.0)) & (inverse_moments.y > R(0.0)) & (inverse_moments.z > R(0.0));
+  vec3 ones = make_vec3(R(1.0), R(1.0), R(1.0));
+  vec3 inverse = choose3(finite, inverse_moments, ones);
+  vec3 moments = make_vec3(R(1.0) / inverse.x, R(1.0) / inverse.y, R(1.0) / inverse.z);
+  vec3 momentum = spin_of(q, moments, angular);
+  vec3 middle = spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum);
+  spin s;
+  s.orientation = turned(q, scale(middle, h));
+  s.angular = spin_of(s.orientation, inverse, momentum);
+  return s;
+}
+
+SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *body_colors,
+                                     GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
+                                     GLOBAL row *solver_orientation, natural i)
+{
+  motion m = load_motion(solver_velocity, i);
+  real h = parameters->substep;
+  vec4 mass = load_row(body_mass, i * 2u);
+  mask free = ((load_natural(body_colors, i * 2u) | load_natural(body_colors, i * 2u + 1u)) == 0u) & (m.inverse_mass > R(0.0));
+  real ahead = choose(free, R(-0.5) * h * h * mass.w, (real)R(0.0));
+  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+
+  vec3 translation = xyz(load_row(solver_delta, i * 2u)), rotation = xyz(load_row(solver_delta, i * 2u + 1u));
+  translation = add_scaled(add_scaled(translation, m.linear, h), gravity, ahead);
+  store_row(solver_delta, i * 2u, extend(translation, R(0.0)));
+  store_row(solver_delta, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
+
+  quat q = quat_from(load_row(solver_orientation, i));
+  if (HAS_FEATURE(parameters, FEATURE_GYROSCOPIC)) {
+    spin s = turn_freely(q, m.angular, xyz(mass), h);
+    q = s.orientation;
+    m.angular = choose3(m.inverse_mass > R(0.0), s.angular, m.angular);
+    store_motion_if(m.inverse_mass > R(0.0), solver_velocity, i, m);
+    store_inertia(solver_inertia, i, rotate_diagonal(rotation_of(q), xyz(mass)));
+  } else {
+    q = turned(q, scale(m.angular, h));
+  }
+  store_row(solver_orientation, i, quat_to_row(q));
+}
+
+#endif

@@ -1,0 +1,16 @@
+/* kernels.h - every shared kernel, in pipeline order. */
+#ifndef TANDEM_SHARED_KERNELS_H
+#define TANDEM_SHARED_KERNELS_H
+
+#include "shared/lanes_kernels.h"
+#include "shared/parallel/fill.h"
+#include "shared/parallel/radix_sort.h"
+#include "shared/parallel/scan.h"
+#include "shared/broadphase/brute_force.h"
+#include "shared/broadphase/grid.h"
+#include "shared/broadphase/sweep.h"
+#include "shared/batching/coloring.h"
+#include "shared/batching/order.h"
+#include "shared/solve/tail.h"
+
+#endif

@@ -1,0 +1,19 @@
+/* lanes_kernels.h - the shared kernels that are written at any width (LANES in kernels.def). */
+#ifndef TANDEM_SHARED_LANES_KERNELS_H
+#define TANDEM_SHARED_LANES_KERNELS_H
+
+#include "shared/records.h"
+#include "shared/broadphase/bounds.h"
+#include "shared/setup/contact.h"
+#include "shared/solve/contact.h"
+#include "shared/integrate/prepare.h"
+#include "shared/integrate/velocities.h"
+#include "shared/integrate/positions.h"
+#include "shared/integrate/commit.h"
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_half_space.h"
+#include "shared/narrowphase/sphere_box.h"
+#include "shared/narrowphase/sphere_half_space.h"
+#include "shared/narrowphase/sphere_sphere.h"
+
+#endif

@@ -1,0 +1,69 @@
+/* box.h - a box by its axes in the world, and the choice of one of them by index. */
+#ifndef TANDEM_SHARED_NARROWPHASE_BOX_H
+#define TANDEM_SHARED_NARROWPHASE_BOX_H
+
+#include "shared/narrowphase/manifold.h"
+
+typedef struct {
+  vec3 x, y, z; /* unit axes, in world axes */
+  vec3 extent;    /* half extents along them */
+} oriented_box;
+
+SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)
+{
+  mat3 rotation = rotation_of(quat_from(orientation));
+  oriented_box box;
+  box.x = axis_x(rotation);
+  box.y = axis_y(rotation);
+  box.z = axis_z(rotation);
+  box.extent = extent;
+  return box;
+}
+SHARED oriented_box choose_box(mask m, oriented_box a, oriented_box b)
+{
+  oriented_box box;
+  box.x = choose3(m, a.x, b.x);
+  box.y = choose3(m, a.y, b.y);
+  box.z = choose3(m, a.z, b.z);
+  box.extent = choose3(m, a.extent, b.extent);
+  return box;
+}
+
+/* The axis of index 0, 1 or 2, and the two after it in cyclic order. */
+typedef struct {
+  vec3 axis, u, v;
+  real extent, extent_u, extent_v;
+} box_frame;
+
+SHARED real pick(natural k, real first, real second, real third)
+{
+  return choose(k == 0u, first, choose(k == 1u, second, third));
+}
+SHARED vec3 pick3(natural k, vec3 first, vec3 second, vec3 third)
+{
+  return choose3(k == 0u, first, choose3(k == 1u, second, third));
+}
+SHARED box_frame frame_of(oriented_box box, natural k)
+{
+  box_frame frame;
+  frame.axis = pick3(k, box.x, box.y, box.z);
+  frame.u = pick3(k, box.y, box.z, box.x);
+  frame.v = pick3(k, box.z, box.x, box.y);
+  frame.extent = pick(k, box.extent.x, box.extent.y, box.extent.z);
+  frame.extent_u = pick(k, box.extent.y, box.extent.z, box.extent.x);
+  frame.extent_v = pick(k, box.extent.z, box.extent.x, box.extent.y);
+  return frame;
+}
+
+/* The face axis most parallel to a direction. Near ties go to the lower index, so that rounding noise
+ * cannot move the choice of a box that stands on an edge. */
+SHARED natural most_parallel_axis(oriented_box box, vec3 direction)
+{
+  real x = magnitude(inner(box.x, direction)), y = magnitude(inner(box.y, direction));
+  real z = magnitude(inner(box.z, direction)), lead = R(1e-3);
+  mask y_leads = y > x + lead;
+  natural k = choose(y_leads, (natural)1u, (natural)0u);
+  return choose(z > choose(y_leads, y, x) + lead, (natural)2u, k);
+}
+
+#endif

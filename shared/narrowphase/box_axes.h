@@ -1,0 +1,92 @@
+/* box_axes.h - the axis along which two boxes are farthest apart, or overlap least.
+ *
+ * The separating axis test: the three face normals of each box and the nine directions square to an edge
+ * of both. Two boxes are apart if and only if one of these shows a gap (Gottschalk, Lin, Manocha,
+ * "OBBTree", SIGGRAPH 1996). Of nearly equal axes the first in this order wins:
+ *
+ *   code 0-2    face normals of a: x y z
+ *   code 3-5    face normals of b
+ *   code 6-14   edge of a x edge of b: 6 + 3 k + j
+ *
+ * A face carries up to four points and an edge one, so a later axis must lead by more than what rounding,
+ * or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
+#define TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
+
+#include "shared/narrowphase/box.h"
+
+typedef struct {
+  real separation;
+  natural code;
+} separating_axis;
+
+SHARED separating_axis better_axis(separating_axis best, real separation, uint code, real lead)
+{
+  mask better = separation > best.separation + lead;
+  separating_axis result;
+  result.separation = choose(better, separation, best.separation);
+  result.code = choose(better, (natural)code, best.code);
+  return result;
+}
+
+/* One edge of a, along an axis of a whose two neighbours in cyclic order are u and v, against one edge of b:
+ * all in the axes of a. `across_b` is how far b reaches along the product of the two, `noise` the rounding
+ * error of the gap: the closer the edges come to parallel the less their product says. */
+SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge_v, real extent_u, real extent_v,
+                            real across_b, real noise)
+{
+  real length = edge_u * edge_u + edge_v * edge_v;
+  mask crossed = length > R(1e-8);
+  real gap = magnitude(offset_v * edge_u - offset_u * edge_v) - extent_u * magnitude(edge_v) -
+             extent_v * magnitude(edge_u) - across_b;
+  return choose(crossed, (gap - noise) / square_root(choose(crossed, length, (real)R(1.0))), (real)R(-1e30));
+}
+
+/* The three edges of a against one edge of b; across: how far b reaches along their three products. */
+SHARED separating_axis edges_against(separating_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
+                                     real lead, real noise)
+{
+  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise), code,
+                     lead);
+  best = better_axis(best, edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise),
+                     code + 3u, lead);
+  return better_axis(best, edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise),
+                     code + 6u, lead);
+}
+
+SHARED vec3 in_axes_of(oriented_box box, vec3 v) { return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v)); }
+SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
+SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
+
+/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place, metres. */
+SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop)
+{
+  vec3 to_b = in_axes_of(a, offset);
+  vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
+  vec3 size_x = absolute(x), size_y = absolute(y), size_z = absolute(z);
+  vec3 along_b = make_vec3(inner(to_b, x), inner(to_b, y), inner(to_b, z));
+
+  vec3 reach_of_b = add_scaled(add_scaled(scale(size_x, b.extent.x), size_y, b.extent.y), size_z, b.extent.z);
+  vec3 reach_of_a = make_vec3(inner(a.extent, size_x), inner(a.extent, size_y), inner(a.extent, size_z));
+  vec3 gap_a = subtract(subtract(absolute(to_b), a.extent), reach_of_b);
+  vec3 gap_b = subtract(subtract(absolute(along_b), b.extent), reach_of_a);
+
+  real span = sum_of(absolute(to_b)) + sum_of(a.extent) + sum_of(b.extent);
+  real noise = span * R(5e-7);
+  real lead = minimum(slop * R(0.1), minimum(least_of(a.extent), least_of(b.extent)) * R(0.01)) + noise * R(2.0);
+
+  separating_axis best;
+  best.separation = gap_a.x;
+  best.code = 0u;
+  best = better_axis(best, gap_a.y, 1u, lead);
+  best = better_axis(best, gap_a.z, 2u, lead);
+  best = better_axis(best, gap_b.x, 3u, lead);
+  best = better_axis(best, gap_b.y, 4u, lead);
+  best = better_axis(best, gap_b.z, 5u, lead);
+  best = edges_against(best, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, lead, noise);
+  best = edges_against(best, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, lead, noise);
+  return edges_against(best, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, lead, noise);
+}
+
+#endif

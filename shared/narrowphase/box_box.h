@@ -1,0 +1,190 @@
+/* box_box.h - two boxes touch with faces, in up to four points, or with two edges, in one.
+ *
+ *   separating axis -> a face of a or b -> clip the other box's face -> reduce to four points
+ *                   -> an edge of each  -> closest points of the two
+ *
+ * After the contact generation of E. Catto (GDC 2007) and D. Gregorius (GDC 2013, 2015), without a branch
+ * that depends on data, so that all lanes take one path.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_BOX_BOX_H
+#define TANDEM_SHARED_NARROWPHASE_BOX_BOX_H
+
+#include "shared/narrowphase/box_axes.h"
+#include "shared/narrowphase/point_reduction.h"
+
+/* Two boxes relative to a, and the axis between them. */
+typedef struct {
+  oriented_box a, b;
+  vec3 offset; /* centre of b seen from the centre of a */
+  vec3 normal; /* unit, from a to b */
+  natural code; /* of the axis: box_axes.h */
+} box_pair;
+
+SHARED natural bit_if(mask m, uint bit) { return choose(m, (natural)1u, (natural)0u) << bit; }
+
+/* Edge k of a and edge j of b, from the code of their axis. */
+SHARED natural edge_of_a(natural code)
+{
+  return choose(code >= 12u, (natural)2u, choose(code >= 9u, (natural)1u, (natural)0u));
+}
+SHARED natural edge_of_b(natural code) { return code - 6u - edge_of_a(code) * 3u; }
+
+SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, natural code)
+{
+  mask on_edges = code >= 6u;
+  natural k = choose(on_edges, edge_of_a(code), code), j = choose(on_edges, edge_of_b(code), code - 3u);
+  vec3 axis_a = pick3(k, a.x, a.y, a.z), axis_b = pick3(j, b.x, b.y, b.z);
+  vec3 across = outer(axis_a, axis_b);
+  vec3 axis = choose3(on_edges, across, choose3(code < 3u, axis_a, axis_b));
+  real length = choose(on_edges, length_of(across), (real)R(1.0));
+  return scale(axis, sign_of(inner(axis, offset)) / length);
+}
+
+/* From the middle of a box to the middle of that of its four edges along frame.axis that lies farthest in a direction. */
+SHARED vec3 support_edge(box_frame frame, vec3 direction)
+{
+  vec3 u = scale(frame.u, frame.extent_u * sign_of(inner(frame.u, direction)));
+  return add_scaled(u, frame.v, frame.extent_v * sign_of(inner(frame.v, direction)));
+}
+SHARED natural support_bits(box_frame frame, vec3 direction)
+{
+  return bit_if(inner(frame.u, direction) < R(0.0), 0u) | bit_if(inner(frame.v, direction) < R(0.0), 1u);
+}
+
+SHARED manifold edge_contact(box_pair pair)
+{
+  natural k = edge_of_a(pair.code), j = edge_of_b(pair.code);
+  box_frame a = frame_of(pair.a, k), b = frame_of(pair.b, j);
+  vec3 inward = negate(pair.normal);
+  vec3 middle_a = support_edge(a, pair.normal), middle_b = add(pair.offset, support_edge(b, inward));
+  vec3 between = subtract(middle_b, middle_a), across = outer(a.axis, b.axis);
+
+  /* Closest points middle_a + s axis_a and middle_b + t axis_b. */
+  real cosine = inner(a.axis, b.axis), along_a = inner(between, a.axis), along_b = inner(between, b.axis);
+  real inverse = R(1.0) / maximum(length_squared(across), R(1e-8));
+  real s = clamped((along_a - cosine * along_b) * inverse, -a.extent, a.extent);
+  real t = clamped((cosine * along_a - along_b) * inverse, -b.extent, b.extent);
+  vec3 on_a = add_scaled(middle_a, a.axis, s), on_b = add_scaled(middle_b, b.axis, t);
+
+  real separation = inner(between, pair.normal);
+  manifold m = single_contact(pair.normal, scale(add(on_a, on_b), R(0.5)), separation, separation == separation);
+  m.code = (natural)1u | (k << 1u) | (j << 3u) | (support_bits(a, pair.normal) << 5u) | (support_bits(b, inward) << 7u);
+  return m;
+}
+
+/* The plane of the reference face: axes u and v, outward normal; offset: centre of the incident box seen from
+ * the centre of the reference box. */
+SHARED vec3 in_face(box_frame reference, vec3 outward, vec3 v)
+{
+  return make_vec3(inner(reference.u, v), inner(reference.v, v), inner(outward, v));
+}
+
+SHARED manifold face_contacts(box_pair pair)
+{
+  mask a_is_reference = pair.code < 3u;
+  oriented_box incident_box = choose_box(a_is_reference, pair.b, pair.a);
+  natural k = choose(a_is_reference, pair.code, pair.code - 3u);
+  box_frame reference = frame_of(choose_box(a_is_reference, pair.a, pair.b), k);
+  vec3 outward = choose3(a_is_reference, pair.normal, negate(pair.normal));
+  natural j = most_parallel_axis(incident_box, outward);
+  box_frame incident = frame_of(incident_box, j);
+  real facing = -sign_of(inner(incident.axis, outward));
+
+  vec3 offset = in_face(reference, outward, choose3(a_is_reference, pair.offset, negate(pair.offset)));
+  vec3 to_face = in_face(reference, outward, scale(incident.axis, incident.extent * facing));
+  vec3 center = add(offset, to_face);
+  center.z = center.z - reference.extent;
+
+  /* Coordinates count from the middle of the smaller face, so a large one does not round it away. */
+  real extent_r = reference.extent_u + reference.extent_v, extent_i = incident.extent_u + incident.extent_v;
+  mask from_incident = extent_i < extent_r;
+  real zero = R(0.0);
+  real origin_u = choose(from_incident, center.x, zero), origin_v = choose(from_incident, center.y, zero);
+  clip_rectangle rectangle;
+  rectangle.low_u = -origin_u - reference.extent_u;
+  rectangle.high_u = reference.extent_u - origin_u;
+  rectangle.low_v = -origin_v - reference.extent_v;
+  rectangle.high_v = reference.extent_v - origin_v;
+  clip_face face;
+  face.center = make_vec3(choose(from_incident, zero, center.x), choose(from_incident, zero, center.y), center.z);
+  face.p = scale(in_face(reference, outward, incident.u), incident.extent_u);
+  face.q = scale(in_face(reference, outward, incident.v), incident.extent_v);
+  face.length_p = incident.extent_u;
+  face.length_q = incident.extent_v;
+  real slack = (extent_r + extent_i) * R(2e-6);
+
+  clip_point candidate[CLIP_CANDIDATES], four[4];
+  clip_faces(candidate, face, rectangle, slack);
+  reduce_points(four, candidate, minimum(extent_r, extent_i), slack);
+
+  /* From plane coordinates to offsets from the centre of a. */
+  real base_u = choose(a_is_reference, origin_u, choose(from_incident, to_face.x, -offset.x));
+  real base_v = choose(a_is_reference, origin_v, choose(from_incident, to_face.y, -offset.y));
+  real base_n = choose(a_is_reference, reference.extent, to_face.z - center.z);
+  manifold m;
+  m.normal = pair.normal;
+  for (int slot = 0; slot < 4; ++slot) {
+    vec3 point = add_scaled(scale(reference.u, base_u + four[slot].u), reference.v, base_v + four[slot].v);
+    point = add_scaled(point, outward, base_n + four[slot].separation * R(0.5));
+    m.point[slot] = extend(point, four[slot].separation);
+    m.kept[slot] = four[slot].valid;
+  }
+  m.code = bit_if(!a_is_reference, 1u) | (k << 2u) | bit_if(inner(reference.axis, outward) < zero, 4u) | (j << 5u) |
+           bit_if(facing < zero, 7u);
+  return m;
+}
+
+SHARED manifold choose_manifold(mask m, manifold a, manifold b)
+{
+  for (int slot = 0; slot < 4; ++slot) {
+    b.point[slot] = choose4(m, a.point[slot], b.point[slot]);
+    b.kept[slot] = choose(m, a.kept[slot], b.kept[slot]);
+  }
+  b.normal = choose3(m, a.normal, b.normal);
+  b.code = choose(m, a.code, b.code);
+  return b;
+}
+
+/* Each kind of contact is computed only if some item of the group has it. */
+SHARED manifold with_face_contacts(manifold m, mask wanted, box_pair pair)
+{
+  if (!any_of(wanted)) return m;
+  return choose_manifold(wanted, face_contacts(pair), m);
+}
+SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair)
+{
+  if (!any_of(wanted)) return m;
+  return choose_manifold(wanted, edge_contact(pair), m);
+}
+
+SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                                 GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
+                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, natural i)
+{
+  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  natural kind_a = shape_of(load_natural(traits, a)), kind_b = shape_of(load_natural(traits, b));
+  mask mine = (kind_a == (uint)SHAPE_BOX) & (kind_b == (uint)SHAPE_BOX);
+  if (!any_of(mine)) return;
+
+  vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
+  box_pair pair;
+  pair.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
+  pair.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
+  pair.offset = subtract(xyz(load_row(positions, b)), xyz(load_row(positions, a)));
+  separating_axis axis = separating_axis_of(pair.a, pair.b, pair.offset, parameters->slop);
+  pair.code = axis.code;
+  pair.normal = normal_of_axis(pair.a, pair.b, pair.offset, axis.code);
+
+  real reach = reach_of(parameters, load_motion(velocities, a), shape_a.w, load_motion(velocities, b), shape_b.w,
+                        pair.normal);
+  mask near = mine & (axis.separation < reach), on_edges = axis.code >= 6u;
+  manifold m = single_contact(pair.normal, pair.offset, reach, near & (!near));
+  m = with_face_contacts(m, near & (!on_edges), pair);
+  m = with_edge_contact(m, near & on_edges, pair);
+  store_manifold_if(mine, kept_within(m, reach), counts[CAPACITY_PAIRS], normals, points, counts_of_points, features,
+                    i);
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* manifold.h - what every pair type of the narrowphase hands on: one normal and up to four points.
+ *
+ * Each collide_ kernel runs over all pairs, works on those of its own two shapes and writes every
+ * output of them, touching or not, so that buffers never hold what an earlier step left behind.
+ * Geometry is computed relative to one of the two bodies: precision holds far from the origin.
+ *
+ *              normal (from a to b)
+ *                 ^
+ *      -----------|-----------  surface of b     A point lies midway between the two surfaces,
+ *                 o   point     - - - - - - -    given as an offset from the centre of a; its
+ *      -----------------------  surface of a     separation is negative where they overlap.
+ *
+ * A point keeps its identity from step to step by (code of the feature pair, slot): the code names the
+ * two faces or edges, the slot one of at most four points between them.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
+#define TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
+
+#include "shared/records.h"
+
+typedef struct {
+  vec3 normal;
+  vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
+  mask kept[4];
+  natural code; /* of the feature pair, 24 bits */
+} manifold;
+
+SHARED vec4 choose4(mask m, vec4 a, vec4 b)
+{
+  return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
+}
+SHARED real sign_of(real x) { return choose(x < R(0.0), (real)R(-1.0), (real)R(1.0)); }
+
+/* A manifold of one point. */
+SHARED manifold single_contact(vec3 normal, vec3 offset, real separation, mask kept)
+{
+  manifold m;
+  m.normal = normal;
+  m.code = 0u;
+  m.point[0] = extend(offset, separation);
+  m.kept[0] = kept;
+  for (int slot = 1; slot < 4; ++slot) {
+    m.point[slot] = m.point[0];
+    m.kept[slot] = kept & (!kept);
+  }
+  return m;
+}
+
+/* How far ahead of touching a contact is made: no gap is closed within the step unseen. */
+SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
+{
+  real closing = inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a +
+                 length_of(b.angular) * radius_b;
+  return parameters->speculative_distance + parameters->step * maximum(closing, R(0.0));
+}
+
+SHARED manifold kept_within(manifold m, real reach)
+{
+  for (int slot = 0; slot < 4; ++slot) m.kept[slot] = m.kept[slot] & (m.point[slot].w < reach);
+  return m;
+}
+
+/* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
+SHARED void store_manifold_if(mask mine, manifold m, natural stride, GLOBAL row *normals, GLOBAL row *points,
+                              GLOBAL uint *counts_of_points, GLOBAL uint *features, natural i)
+{
+  vec4 packed[4];
+  natural count = 0u, slots = 0u;
+  for (int k = 0; k < 4; ++k) packed[k] = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  for (int slot = 0; slot < 4; ++slot) {
+    for (int k = 0; k <= slot; ++k)
+      packed[k] = choose4(m.kept[slot] & (count == (natural)(uint)k), m.point[slot], packed[k]);
+    slots = choose(m.kept[slot], slots | ((natural)(uint)slot << (count * 2u)), slots);
+    count = choose(m.kept[slot], count + 1u, count);
+  }
+  mask touching = count > 0u;
+  vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
+  store_row_if(mine, normals, i, extend(choose3(touching, m.normal, nothing), R(0.0)));
+  for (int k = 0; k < 4; ++k) store_row_if(mine, points, stride * (uint)k + i, packed[k]);
+  store_natural_if(mine, counts_of_points, i, count);
+  store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
+}
+
+#endif

@@ -1,0 +1,10 @@
+/* fill.h - a buffer of one value. The simplest kernel there is, and so the pattern of all others:
+ * a plain function of one item here, a row in kernels.def, an entry in cl/parallel.cl. */
+#ifndef TANDEM_SHARED_PARALLEL_FILL_H
+#define TANDEM_SHARED_PARALLEL_FILL_H
+
+#include "shared/platform.h"
+
+SHARED void fill_item(GLOBAL uint *values, uint value, uint i) { values[i] = value; }
+
+#endif

@@ -1,0 +1,39 @@
+/* parameters.h - the numbers of a step that are the same for every item.
+ * Derived on the host by host/parameters.cpp from the settings of a run; plain 32-bit fields so that
+ * every compiler lays them out alike. */
+#ifndef TANDEM_SHARED_PARAMETERS_H
+#define TANDEM_SHARED_PARAMETERS_H
+
+#include "shared/platform.h"
+
+#if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
+#define PARAMETER_REAL float
+#else
+#define PARAMETER_REAL memory_real
+#endif
+
+#ifndef TANDEM_PARAMETERS_TYPE
+#define TANDEM_PARAMETERS_TYPE
+typedef struct {
+  PARAMETER_REAL step;              /* s, whole step */
+  PARAMETER_REAL substep;           /* s */
+  PARAMETER_REAL inverse_substep;   /* 1/s */
+  PARAMETER_REAL gravity_x, gravity_y, gravity_z; /* m/s^2 */
+  PARAMETER_REAL bias_rate;         /* 1/s, soft contact: penetration is removed at this rate */
+  PARAMETER_REAL mass_scale;        /* soft contact: share of the impulse of a rigid one */
+  PARAMETER_REAL impulse_scale;     /* soft contact: leak of the accumulated impulse */
+  PARAMETER_REAL static_bias_rate;  /* the same three against bodies that cannot move */
+  PARAMETER_REAL static_mass_scale;
+  PARAMETER_REAL static_impulse_scale;
+  PARAMETER_REAL push_speed;        /* m/s, penetration is never removed faster */
+  PARAMETER_REAL speculative_distance; /* m, contacts are made this far ahead of touching */
+  PARAMETER_REAL bounds_margin;     /* m, added to every bound */
+  PARAMETER_REAL slop;              /* m, penetration left in place */
+  PARAMETER_REAL restitution_speed; /* m/s, slower impacts do not bounce */
+  PARAMETER_REAL cell_size;         /* m, smallest cell of the uniform grid */
+  uint features;                    /* FEATURE_ bits */
+  uint reserved;
+} Parameters;
+#endif
+
+#endif

@@ -1,0 +1,204 @@
+/* contact.h - contact constraints from manifolds: effective masses, friction, bounce, warm start.
+ *
+ * Constraints stand in colour order. Normals are solved point by point; friction of a manifold is solved
+ * at its centre as one cone and one twist (Catto, Box2D version 3, "Solver2D", 2024):
+ *
+ *            n ^   ^ twist about n, limited by friction x normal impulse x twist radius
+ *       o------|------o
+ *        \     +----> t1, t2: |friction impulse| <= friction x sum of normal impulses
+ *         o-----------o
+ */
+#ifndef TANDEM_SHARED_SETUP_CONTACT_H
+#define TANDEM_SHARED_SETUP_CONTACT_H
+
+#include "shared/records.h"
+
+/* Slower sliding than this counts as sticking, where the static coefficient holds. m/s */
+#define STICKING_SPEED R(0.01)
+
+/* Codes of the combination rules: Combine of host/scene.h. Of two rules the first in this order wins. */
+SHARED real combined(natural rule_a, natural rule_b, real a, real b)
+{
+  natural rule = choose(rule_a < rule_b, rule_a, rule_b);
+  real product = a * b;
+  real result = choose(rule == 3u, product, square_root(product));
+  result = choose(rule == 2u, maximum(a, b), result);
+  result = choose(rule == 1u, minimum(a, b), result);
+  return choose(rule == 0u, R(0.5) * (a + b), result);
+}
+
+typedef struct { real static_friction, dynamic_friction, restitution; } surface;
+
+/* material.w: friction rule + 8 restitution rule. */
+SHARED surface surface_between(GLOBAL const row *material, natural material_a, natural material_b)
+{
+  vec4 a = load_row(material, material_a), b = load_row(material, material_b);
+  natural rules_a = to_natural(a.w), rules_b = to_natural(b.w);
+  surface s = {combined(rules_a & 7u, rules_b & 7u, a.x, b.x), combined(rules_a & 7u, rules_b & 7u, a.y, b.y),
+               combined(rules_a >> 3u, rules_b >> 3u, a.z, b.z)};
+  return s;
+}
+
+/* The two bodies of a constraint. offset: centre of b minus centre of a. */
+typedef struct {
+  natural a, b;
+  motion motion_a, motion_b;
+  symmetric3 inertia_a, inertia_b;
+  vec3 offset;
+} body_pair;
+
+SHARED vec3 velocity_at(motion m, vec3 arm) { return add(m.linear, outer(m.angular, arm)); }
+
+SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
+{
+  return subtract(velocity_at(bodies.motion_b, arm_b), velocity_at(bodies.motion_a, arm_a));
+}
+
+/* How much relative velocity along `second` a unit impulse along `first` gives. */
+SHARED real response(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 first, vec3 second)
+{
+  vec3 turn_a = symmetric_times(bodies.inertia_a, outer(arm_a, first));
+  vec3 turn_b = symmetric_times(bodies.inertia_b, outer(arm_b, first));
+  return (bodies.motion_a.inverse_mass + bodies.motion_b.inverse_mass) * inner(first, second) + inner(turn_a, outer(arm_a, second)) +
+         inner(turn_b, outer(arm_b, second));
+}
+
+SHARED real inverse_or_zero(real x) { return choose(x > R(0.0), R(1.0) / choose(x > R(0.0), x, (real)R(1.0)), (real)R(0.0)); }
+
+/* One mass for every direction of the tangent plane: the smallest, so that the cone can be projected as a
+ * circle and the iteration contracts. 1 / largest eigenvalue of the 2 x 2 response. */
+SHARED real friction_mass(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 normal)
+{
+  tangents t = tangents_of(normal);
+  real first = response(bodies, arm_a, arm_b, t.first, t.first);
+  real second = response(bodies, arm_a, arm_b, t.second, t.second);
+  real mixed = response(bodies, arm_a, arm_b, t.first, t.second);
+  real difference = first - second;
+  return inverse_or_zero(R(0.5) * (first + second + square_root(difference * difference + R(4.0) * mixed * mixed)));
+}
+
+SHARED real twist_mass(body_pair bodies, vec3 normal)
+{
+  return inverse_or_zero(inner(normal, symmetric_times(bodies.inertia_a, normal)) + inner(normal, symmetric_times(bodies.inertia_b, normal)));
+}
+
+/* The speed at which a point shall part: restitution x speed of impact. A point that touches only later in
+ * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no bounce. */
+SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, real approach, real pull, real separation)
+{
+  real ahead = maximum(separation, R(0.0));
+  real squared = maximum(approach * approach - R(2.0) * pull * ahead, R(0.0));
+  real impact = square_root(squared);
+  mask bounces = (restitution > R(0.0)) & (approach < R(0.0)) & (impact > parameters->restitution_speed);
+  return choose(bounces, restitution * impact, (real)R(-1.0));
+}
+
+SHARED natural slot_of(natural feature, natural point) { return (feature >> (point * 2u)) & 3u; }
+SHARED real component(vec4 v, natural k) { return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w)); }
+
+/* The impulse that the same feature carried in the last step; unused slots of the cache hold 0. */
+SHARED real cached_impulse(natural feature, natural point, natural old_feature, vec4 old)
+{
+  natural slot = slot_of(feature, point);
+  real found = R(0.0);
+  for (uint k = 0; k < 4u; ++k) found = choose(slot_of(old_feature, k) == slot, maximum(found, component(old, k)), found);
+  return choose((feature >> 8u) == (old_feature >> 8u), found, (real)R(0.0));
+}
+
+SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *body_position,
+                                GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, natural pair)
+{
+  body_pair bodies;
+  bodies.a = load_natural(pair_a, pair);
+  bodies.b = load_natural(pair_b, pair);
+  bodies.motion_a = load_motion(solver_velocity, bodies.a);
+  bodies.motion_b = load_motion(solver_velocity, bodies.b);
+  bodies.inertia_a = load_inertia(solver_inertia, bodies.a);
+  bodies.inertia_b = load_inertia(solver_inertia, bodies.b);
+  bodies.offset = subtract(xyz(load_row(body_position, bodies.b)), xyz(load_row(body_position, bodies.a)));
+  return bodies;
+}
+
+/* Acceleration of b against a along the normal under gravity. */
+SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, body_pair bodies, vec3 normal)
+{
+  real a = choose(bodies.motion_a.inverse_mass > R(0.0), load_row(body_mass, bodies.a * 2u).w, (real)R(0.0));
+  real b = choose(bodies.motion_b.inverse_mass > R(0.0), load_row(body_mass, bodies.b * 2u).w, (real)R(0.0));
+  return (b - a) * inner(make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), normal);
+}
+
+/* Mean distance of the points from their centre: the arm of the twisting friction. */
+SHARED real mean_radius(GLOBAL const row *manifold_points, natural pair, natural stride, natural points, vec3 center, real share)
+{
+  real sum = R(0.0);
+  for (uint k = 0; k < 4u; ++k)
+    sum = sum + choose(points > (natural)k, length_of(subtract(xyz(load_row(manifold_points, stride * k + pair)), center)), (real)R(0.0));
+  return sum * share;
+}
+
+SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
+                                  GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *solver_velocity,
+                                  GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                                  GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
+                                  GLOBAL const uint *manifold_count, GLOBAL const uint *manifold_feature,
+                                  GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
+                                  GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                                  GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b,
+                                  GLOBAL row *constraint_normal, GLOBAL row *constraint_points, GLOBAL row *constraint_center,
+                                  GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                  GLOBAL row *constraint_bounce, natural i)
+{
+  natural pair = load_natural(sort_value, i), stride = counts[CAPACITY_PAIRS];
+  body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
+  vec3 normal = xyz(load_row(manifold_normal, pair));
+  natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
+  surface between = surface_between(material, material_of(load_natural(body_traits, bodies.a)), material_of(load_natural(body_traits, bodies.b)));
+  real pull = relative_pull(parameters, body_mass, bodies, normal);
+
+  natural cached = load_natural(pair_cached, pair);
+  mask is_cached = cached != (natural)INDEX_NONE;
+  natural from = choose(is_cached, cached, (natural)0u);
+  natural old_feature = load_natural(cached_feature, from);
+  vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
+
+  vec3 center = make_vec3(R(0.0), R(0.0), R(0.0));
+  real impulse[4], wished[4];
+  for (uint k = 0; k < 4u; ++k) {
+    vec4 point = load_row(manifold_points, stride * k + pair);
+    mask used = points > (natural)k;
+    vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
+    center = choose3(used, add(center, arm_a), center);
+    real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
+    store_row(constraint_points, stride * k + i, extend(arm_a, choose(used, point.w, (real)R(0.0))));
+    store_row(constraint_points, stride * (k + 4u) + i, extend(arm_b, mass));
+    impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
+    wished[k] = choose(used, wished_speed(parameters, between.restitution, inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
+                       (real)R(-1.0));
+  }
+
+  real share = R(1.0) / to_real(points);
+  center = scale(center, share);
+  vec3 center_b = subtract(center, bodies.offset);
+  vec3 slide = relative_velocity(bodies, center, center_b);
+  slide = add_scaled(slide, normal, -inner(slide, normal));
+  real friction = choose(length_of(slide) < STICKING_SPEED, between.static_friction, between.dynamic_friction);
+
+  store_natural(constraint_pair, i, pair);
+  store_natural(constraint_a, i, bodies.a);
+  store_natural(constraint_b, i, bodies.b);
+  store_row(constraint_normal, i, extend(normal, friction));
+  store_row(constraint_center, i, extend(center, friction_mass(bodies, center, center_b, normal)));
+  store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, normal)));
+  store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
+  tangents t = tangents_of(normal);
+  real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
+  store_row(constraint_friction_impulse, i,
+            make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
+                      mean_radius(manifold_points, pair, stride, points, center, share)));
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
+    store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
+    store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  }
+}
+
+#endif

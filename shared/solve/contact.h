@@ -1,0 +1,213 @@
+/* contact.h - the soft-step contact solver: projected Gauss-Seidel over one colour at a time.
+ *
+ * Each substep: warm start, solve with soft bias, move bodies, solve again without bias (relax). The bias
+ * treats penetration as an overdamped spring, so pushing bodies apart adds no energy; relaxing takes the
+ * bias velocity out again. Separations are updated from the motion since the step began:
+ *
+ *     s = s0 + n . (dx_b - dx_a) + (r_b x n) . dtheta_b - (r_a x n) . dtheta_a
+ *
+ * After Catto, "Soft Contact" and "Substepping" (Box2D version 3, Solver2D, 2024); Macklin et al., "Small
+ * Steps in Physics Simulation", 2019. Constraints of one colour share no moving body.
+ */
+#ifndef TANDEM_SHARED_SOLVE_CONTACT_H
+#define TANDEM_SHARED_SOLVE_CONTACT_H
+
+#include "shared/setup/contact.h"
+
+typedef struct {
+  natural a, b;
+  motion motion_a, motion_b;
+  symmetric3 inertia_a, inertia_b;
+  vec3 normal;
+  real friction;
+} contact;
+
+SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, natural i)
+{
+  contact c;
+  c.a = load_natural(constraint_a, i);
+  c.b = load_natural(constraint_b, i);
+  c.motion_a = load_motion(solver_velocity, c.a);
+  c.motion_b = load_motion(solver_velocity, c.b);
+  c.inertia_a = load_inertia(solver_inertia, c.a);
+  c.inertia_b = load_inertia(solver_inertia, c.b);
+  vec4 normal = load_row(constraint_normal, i);
+  c.normal = xyz(normal);
+  c.friction = normal.w;
+  return c;
+}
+
+/* Bodies that cannot move are shared by constraints of one colour, so they are never written. */
+SHARED void store_contact_motion(GLOBAL row *solver_velocity, contact c)
+{
+  store_motion_if(c.motion_a.inverse_mass > R(0.0), solver_velocity, c.a, c.motion_a);
+  store_motion_if(c.motion_b.inverse_mass > R(0.0), solver_velocity, c.b, c.motion_b);
+}
+
+SHARED contact apply_turn(contact c, vec3 turn_a, vec3 turn_b, real impulse)
+{
+  c.motion_a.angular = add_scaled(c.motion_a.angular, symmetric_times(c.inertia_a, turn_a), -impulse);
+  c.motion_b.angular = add_scaled(c.motion_b.angular, symmetric_times(c.inertia_b, turn_b), impulse);
+  return c;
+}
+
+/* Impulse along a direction through arms whose cross products with it are turn_a, turn_b. */
+SHARED contact apply_impulse(contact c, vec3 direction, vec3 turn_a, vec3 turn_b, real impulse)
+{
+  c.motion_a.linear = add_scaled(c.motion_a.linear, direction, -(c.motion_a.inverse_mass * impulse));
+  c.motion_b.linear = add_scaled(c.motion_b.linear, direction, c.motion_b.inverse_mass * impulse);
+  return apply_turn(c, turn_a, turn_b, impulse);
+}
+
+SHARED real speed_along(contact c, vec3 direction, vec3 turn_a, vec3 turn_b)
+{
+  return inner(direction, subtract(c.motion_b.linear, c.motion_a.linear)) + inner(turn_b, c.motion_b.angular) - inner(turn_a, c.motion_a.angular);
+}
+
+SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                            GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity, natural i)
+{
+  natural stride = counts[CAPACITY_PAIRS];
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
+  vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
+  tangents t = tangents_of(c.normal);
+  vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
+  vec3 turn_a = add(outer(center_a, slide), scale(c.normal, friction.z));
+  vec3 turn_b = add(outer(center_b, slide), scale(c.normal, friction.z));
+  for (uint k = 0; k < 4u; ++k) {
+    vec3 push = scale(c.normal, component(impulses, (natural)k));
+    turn_a = add(turn_a, outer(xyz(load_row(constraint_points, stride * k + i)), push));
+    turn_b = add(turn_b, outer(xyz(load_row(constraint_points, stride * (k + 4u) + i)), push));
+    slide = add(slide, push);
+  }
+  store_contact_motion(solver_velocity, apply_impulse(c, slide, turn_a, turn_b, R(1.0)));
+}
+
+typedef struct { contact c; vec4 impulse; } solved;
+
+/* Twist about the normal and the cone of sliding friction at the centre of the manifold. */
+SHARED solved solve_friction(contact c, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
+{
+  real limit = c.friction * pressure;
+  real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular));
+  real twist_limit = limit * impulse.w;
+  real twist = clamped(impulse.z - center_b.w * spin, -twist_limit, twist_limit);
+  c = apply_turn(c, c.normal, c.normal, twist - impulse.z);
+
+  tangents t = tangents_of(c.normal);
+  vec3 arm_a = xyz(center_a), arm_b = xyz(center_b);
+  vec3 slide = subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a));
+  real first = impulse.x - center_a.w * inner(slide, t.first), second = impulse.y - center_a.w * inner(slide, t.second);
+  real squared = first * first + second * second;
+  mask slips = squared > limit * limit;
+  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  first = first * shrink;
+  second = second * shrink;
+  vec3 change = add(scale(t.first, first - impulse.x), scale(t.second, second - impulse.y));
+  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), {first, second, twist, impulse.w}};
+  return s;
+}
+
+typedef struct { real rate, mass_scale, impulse_scale; } softness;
+
+SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
+{
+  mask against_fixed = (c.motion_a.inverse_mass == R(0.0)) | (c.motion_b.inverse_mass == R(0.0));
+  softness s = {choose(against_fixed, (real)parameters->static_bias_rate, (real)parameters->bias_rate),
+                choose(against_fixed, (real)parameters->static_mass_scale, (real)parameters->mass_scale),
+                choose(against_fixed, (real)parameters->static_impulse_scale, (real)parameters->impulse_scale)};
+  return s;
+}
+
+/* What the bodies have moved since the step began. */
+typedef struct { vec3 translation, rotation_a, rotation_b; } drift;
+
+SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
+{
+  drift d = {subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))),
+             xyz(load_row(solver_delta, c.a * 2u + 1u)), xyz(load_row(solver_delta, c.b * 2u + 1u))};
+  return d;
+}
+
+/* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
+ * pushes them apart, unless relaxing. Returns the new accumulated impulse. */
+SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real separation, real speed, real mass, real old, uint biased)
+{
+  mask ahead = separation > R(0.0);
+  real push = maximum(soft.rate * minimum(separation + parameters->slop, R(0.0)), -parameters->push_speed);
+  mask rigid = ahead | (push == R(0.0));
+  real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
+  real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);
+  real impulse_scale = biased != 0u ? choose(rigid, (real)R(0.0), soft.impulse_scale) : (real)R(0.0);
+  return maximum(old - mass * mass_scale * (speed + bias) - impulse_scale * old, R(0.0));
+}
+
+SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                                GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, natural i)
+{
+  natural stride = counts[CAPACITY_PAIRS];
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(constraint_normal_impulse, i);
+  if (HAS_FEATURE(parameters, FEATURE_FRICTION)) {
+    real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
+    solved s = solve_friction(c, load_row(constraint_center, i), load_row(constraint_center, stride + i),
+                              load_row(constraint_friction_impulse, i), pressure);
+    c = s.c;
+    store_row(constraint_friction_impulse, i, s.impulse);
+  }
+
+  softness soft = softness_of(parameters, c);
+  drift moved = load_drift(solver_delta, c);
+  real closed = inner(c.normal, moved.translation);
+  real next[4];
+  for (uint k = 0; k < 4u; ++k) {
+    vec4 point_a = load_row(constraint_points, stride * k + i), point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    vec3 turn_a = outer(xyz(point_a), c.normal), turn_b = outer(xyz(point_b), c.normal);
+    real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
+    real old = component(impulses, (natural)k);
+    next[k] = normal_impulse(parameters, soft, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, old, biased);
+    c = apply_impulse(c, c.normal, turn_a, turn_b, next[k] - old);
+  }
+  store_row(constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
+    vec4 highest = load_row(constraint_bounce, stride + i);
+    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, next[0]), maximum(highest.y, next[1]), maximum(highest.z, next[2]),
+                                                       maximum(highest.w, next[3])));
+  }
+  store_contact_motion(solver_velocity, c);
+}
+
+/* After the last substep: points that were pressed part at their wished speed. */
+SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                   GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
+                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, natural i)
+{
+  natural stride = counts[CAPACITY_PAIRS];
+  vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
+  mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
+  if (!any_of(bounces)) return;
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(constraint_normal_impulse, i);
+  real next[4];
+  for (uint k = 0; k < 4u; ++k) {
+    vec3 turn_a = outer(xyz(load_row(constraint_points, stride * k + i)), c.normal);
+    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    vec3 turn_b = outer(xyz(point_b), c.normal);
+    real old = component(impulses, (natural)k), target = component(wished, (natural)k);
+    mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
+    real wanted = maximum(old - point_b.w * (speed_along(c, c.normal, turn_a, turn_b) - target), R(0.0));
+    next[k] = choose(applies, wanted, old);
+    c = apply_impulse(c, c.normal, turn_a, turn_b, next[k] - old);
+  }
+  store_row(constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
+  store_contact_motion(solver_velocity, c);
+}
+
+#endif

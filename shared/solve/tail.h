@@ -1,0 +1,48 @@
+/* tail.h - the constraints past the last colour, solved in order by one item.
+ *
+ * A body touched by more than COLOR_LIMIT others leaves a few constraints without a colour of their own.
+ * Slow, but right and the same everywhere; most scenes have none, and then these kernels are not launched.
+ */
+#ifndef TANDEM_SHARED_SOLVE_TAIL_H
+#define TANDEM_SHARED_SOLVE_TAIL_H
+
+#include "shared/solve/contact.h"
+
+#define FOR_EACH_IN_TAIL(i) for (uint i = counts[COLOR_START + COLOR_TAIL]; i < counts[COUNT_CONSTRAINTS]; ++i)
+
+SHARED void warm_start_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                 GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                                 GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                                 GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint only)
+{
+  (void)only;
+  FOR_EACH_IN_TAIL(i)
+  warm_start_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, constraint_normal_impulse,
+                  constraint_friction_impulse, solver_inertia, counts, solver_velocity, i);
+}
+
+SHARED void solve_tail_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                            GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
+                            GLOBAL row *solver_velocity, uint biased, uint only)
+{
+  (void)only;
+  FOR_EACH_IN_TAIL(i)
+  solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, solver_inertia,
+                      solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity,
+                      biased, i);
+}
+
+SHARED void apply_restitution_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                        GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce,
+                                        GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                                        GLOBAL row *solver_velocity, uint only)
+{
+  (void)only;
+  FOR_EACH_IN_TAIL(i)
+  apply_restitution_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_bounce, solver_inertia, counts,
+                         constraint_normal_impulse, solver_velocity, i);
+}
+
+#endif

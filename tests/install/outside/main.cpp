@@ -1,0 +1,25 @@
+/* A project of someone else: a ball falls for a second, with nothing but find_package(Tandem). */
+#include <cmath>
+#include <iostream>
+
+#include "host/scene.h"
+#include "host/world.h"
+
+int main()
+{
+  tandem::Scene scene;
+  scene.shapes.push_back({tandem::ShapeType::sphere, {0.5f, 0, 0}});
+  tandem::Body ball;
+  ball.name = "ball";
+  ball.position = {0, 10, 0};
+  scene.bodies.push_back(ball);
+#ifdef OUTSIDE_STEPS
+  tandem::validate(scene, "outside");
+  tandem::World world(scene, {}, {"serial", {}});
+  for (int i = 0; i < 60; ++i) world.step();
+  const float height = world.bodies()[0].position[1];
+  std::cout << "height after one second: " << height << " m\n";
+  /* y = 10 - g t^2 / 2 = 5 m; symplectic Euler with 240 substeps falls g t h / 2 = 0.021 m further. */
+  return std::abs(height - 5.0f) < 0.03f ? 0 : 1;
+#endif
+}
