@@ -31,7 +31,8 @@ struct RemoveAtEnd {
 
 /* A pose that tells its body and frame: the rotation about Y by an angle that passes half a turn. */
 Vec3 position_of(size_t body, int frame) { return {float(body), 0.1f * float(frame), -float(body) * float(frame)}; }
-Quat orientation_of(size_t body, int frame) {
+Quat orientation_of(size_t body, int frame)
+{
   double half_angle = 0.1 * double(body % 7) * frame + 0.05;
   double sign = frame % 3 == 1 ? -1 : 1; /* the same rotation, with the other sign */
   return {0, float(sign * std::sin(half_angle)), 0, float(sign * std::cos(half_angle))};
@@ -42,7 +43,8 @@ struct Frame {
   std::vector<Quat> orientations;
 };
 
-Frame frame_of(const Scene &scene, int frame) {
+Frame frame_of(const Scene &scene, int frame)
+{
   Frame result;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     bool moves = scene.bodies[i].motion != Motion::fixed;
@@ -52,7 +54,8 @@ Frame frame_of(const Scene &scene, int frame) {
   return result;
 }
 
-void record(const Scene &scene, int frames, uint32_t stride = 1) {
+void record(const Scene &scene, int frames, uint32_t stride = 1)
+{
   AnimationWriter writer(scene, path, stride);
   for (int frame = 0; frame < frames; ++frame) {
     Frame f = frame_of(scene, frame);
@@ -66,7 +69,8 @@ struct Glb {
   std::string binary;
 };
 
-uint32_t word(const std::string &bytes, size_t at) {
+uint32_t word(const std::string &bytes, size_t at)
+{
   uint32_t value;
   REQUIRE(at + 4 <= bytes.size());
   std::memcpy(&value, bytes.data() + at, 4);
@@ -74,7 +78,8 @@ uint32_t word(const std::string &bytes, size_t at) {
 }
 
 /* The container: magic, version, whole length; chunks on multiples of 4 bytes. */
-Glb read_container() {
+Glb read_container()
+{
   std::ifstream stream(path, std::ios::binary);
   std::string bytes((std::istreambuf_iterator<char>(stream)), {});
   REQUIRE(word(bytes, 0) == 0x46546c67);
@@ -94,21 +99,26 @@ Glb read_container() {
 }
 
 size_t component_bytes(const json &accessor) { return accessor["componentType"] == 5123 ? 2 : 4; }
-size_t components(const json &accessor) {
+size_t components(const json &accessor)
+{
   const std::string type = accessor["type"];
   return type == "SCALAR" ? 1 : type == "VEC3" ? 3 : 4;
 }
 
-std::vector<float> floats(const Glb &glb, size_t index) {
-  const json &accessor = glb.document["accessors"][index], &view = glb.document["bufferViews"][accessor["bufferView"].get<size_t>()];
+std::vector<float> floats(const Glb &glb, size_t index)
+{
+  const json &accessor = glb.document["accessors"][index],
+             &view = glb.document["bufferViews"][accessor["bufferView"].get<size_t>()];
   REQUIRE(accessor["componentType"] == 5126);
   std::vector<float> values(accessor["count"].get<size_t>() * components(accessor));
-  std::memcpy(values.data(), glb.binary.data() + view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u), 4 * values.size());
+  std::memcpy(values.data(), glb.binary.data() + view.value("byteOffset", 0u) + accessor.value("byteOffset", 0u),
+              4 * values.size());
   return values;
 }
 
 /* Views within the buffer, accessors within their views, aligned, no array empty, every number finite. */
-void check_storage(const Glb &glb) {
+void check_storage(const Glb &glb)
+{
   const json &document = glb.document;
   REQUIRE(document["buffers"].size() == 1);
   CHECK(document["buffers"][0]["byteLength"] == glb.binary.size());
@@ -118,8 +128,10 @@ void check_storage(const Glb &glb) {
     CHECK(view["byteOffset"].get<uint64_t>() + view["byteLength"].get<uint64_t>() <= glb.binary.size());
   }
   for (size_t i = 0; i < document["accessors"].size(); ++i) {
-    const json &accessor = document["accessors"][i], &view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
-    uint64_t offset = accessor.value("byteOffset", uint64_t(0)), bytes = accessor["count"].get<uint64_t>() * components(accessor) * component_bytes(accessor);
+    const json &accessor = document["accessors"][i],
+               &view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
+    uint64_t offset = accessor.value("byteOffset", uint64_t(0)),
+             bytes = accessor["count"].get<uint64_t>() * components(accessor) * component_bytes(accessor);
     CHECK(accessor["count"].get<uint64_t>() > 0);
     CHECK(offset % component_bytes(accessor) == 0);
     CHECK((offset + view["byteOffset"].get<uint64_t>()) % component_bytes(accessor) == 0);
@@ -131,7 +143,8 @@ void check_storage(const Glb &glb) {
     if (value.is_array()) CHECK(value.size() > 0);
 }
 
-void check_bounds(const Glb &glb, size_t index) {
+void check_bounds(const Glb &glb, size_t index)
+{
   const json &accessor = glb.document["accessors"][index];
   std::vector<float> values = floats(glb, index);
   size_t n = components(accessor);
@@ -145,7 +158,8 @@ void check_bounds(const Glb &glb, size_t index) {
   }
 }
 
-void check_animation(const Glb &glb, size_t frames) {
+void check_animation(const Glb &glb, size_t frames)
+{
   const json &animation = glb.document["animations"][0];
   REQUIRE(animation["samplers"].size() == animation["channels"].size());
   std::set<std::pair<size_t, std::string>> targets;
@@ -161,7 +175,8 @@ void check_animation(const Glb &glb, size_t frames) {
   }
 }
 
-tinygltf::Model reread() {
+tinygltf::Model reread()
+{
   tinygltf::TinyGLTF parser;
   tinygltf::Model model;
   std::string error, warning;
@@ -174,7 +189,8 @@ tinygltf::Model reread() {
 
 } // namespace
 
-TEST_CASE("a recorded animation is valid and holds the poses") {
+TEST_CASE("a recorded animation is valid and holds the poses")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("mixed:n=30");
   scene.bodies[6].name = "a \"quoted\" name";
@@ -196,7 +212,8 @@ TEST_CASE("a recorded animation is valid and holds the poses") {
   CHECK(model.materials.size() == palette.size());
   for (const json &channel : document["animations"][0]["channels"]) {
     size_t body = channel["target"]["node"];
-    std::vector<float> values = floats(glb, document["animations"][0]["samplers"][channel["sampler"].get<size_t>()]["output"]);
+    std::vector<float> values =
+        floats(glb, document["animations"][0]["samplers"][channel["sampler"].get<size_t>()]["output"]);
     for (int frame = 0; frame < frames; ++frame) {
       if (channel["target"]["path"] == "translation") {
         CHECK(std::memcmp(&values[size_t(3 * frame)], position_of(body, frame).data(), 12) == 0);
@@ -216,7 +233,8 @@ TEST_CASE("a recorded animation is valid and holds the poses") {
   CHECK((start == std::vector<double>{9, 0, 0}));
 }
 
-TEST_CASE("nodes have their body's size and colours tell bodies apart") {
+TEST_CASE("nodes have their body's size and colours tell bodies apart")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("mixed:n=40");
   record(scene, 2);
@@ -235,13 +253,15 @@ TEST_CASE("nodes have their body's size and colours tell bodies apart") {
     }
 }
 
-TEST_CASE("unit meshes are closed, face outwards and have the right volume") {
+TEST_CASE("unit meshes are closed, face outwards and have the right volume")
+{
   for (ShapeType type : {ShapeType::box, ShapeType::sphere}) {
     TriangleMesh mesh = unit_mesh(type);
     double volume = 0;
     for (size_t i = 0; i < mesh.indices.size(); i += 3) {
       Eigen::Vector3d corner[3], normal;
-      for (size_t c = 0; c < 3; ++c) corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
+      for (size_t c = 0; c < 3; ++c)
+        corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
       normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
       CHECK(normal.norm() > 1e-4);
       CHECK(normal.dot(Eigen::Vector3f(mesh.normals[mesh.indices[i]].data()).cast<double>()) > 0);
@@ -252,7 +272,8 @@ TEST_CASE("unit meshes are closed, face outwards and have the right volume") {
   for (const Vec3 &normal : unit_mesh(ShapeType::half_space).normals) CHECK(normal == Vec3{0, 1, 0});
 }
 
-TEST_CASE("the stride keeps every n-th frame") {
+TEST_CASE("the stride keeps every n-th frame")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("pyramid:rows=2");
   record(scene, 10, 4);
@@ -262,11 +283,13 @@ TEST_CASE("the stride keeps every n-th frame") {
   CHECK(times == std::vector<float>{0, float(4 / 60.0), float(8 / 60.0)});
 }
 
-TEST_CASE("what never moves has no channels, and nothing at all is still a file") {
+TEST_CASE("what never moves has no channels, and nothing at all is still a file")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("pyramid:rows=3");
   Frame still;
-  for (const Body &body : scene.bodies) still.positions.push_back(body.position), still.orientations.push_back(body.orientation);
+  for (const Body &body : scene.bodies)
+    still.positions.push_back(body.position), still.orientations.push_back(body.orientation);
   {
     AnimationWriter writer(scene, path);
     writer.add_frame(0, still.positions, still.orientations);
@@ -278,16 +301,21 @@ TEST_CASE("what never moves has no channels, and nothing at all is still a file"
   check_storage(glb);
   CHECK(glb.document["animations"][0]["channels"].size() == 2);
   CHECK(glb.document["animations"][0]["channels"][0]["target"]["node"] == 2);
-  { AnimationWriter(scene, path).finish(); }
+  {
+    AnimationWriter(scene, path).finish();
+  }
   glb = read_container();
   check_storage(glb);
   CHECK_FALSE(glb.document.contains("animations"));
   reread();
-  { AnimationWriter(Scene{}, path).finish(); }
+  {
+    AnimationWriter(Scene{}, path).finish();
+  }
   CHECK(read_container().document.size() == 1);
 }
 
-TEST_CASE("a pose that is not finite repeats the last one") {
+TEST_CASE("a pose that is not finite repeats the last one")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("pyramid:rows=1");
   {
@@ -306,7 +334,8 @@ TEST_CASE("a pose that is not finite repeats the last one") {
   CHECK(heights[3 * 3 + 1] == position_of(1, 3)[1]);
 }
 
-TEST_CASE("more bodies than 16 bits count") {
+TEST_CASE("more bodies than 16 bits count")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("spheres:n=70000");
   record(scene, 2);
@@ -319,10 +348,12 @@ TEST_CASE("more bodies than 16 bits count") {
   CHECK(last[4] == position_of(70000, 1)[1]);
 }
 
-TEST_CASE("mistakes are told at once") {
+TEST_CASE("mistakes are told at once")
+{
   RemoveAtEnd remove;
   Scene scene = load_scene("pyramid:rows=1");
-  CHECK_THROWS_WITH(AnimationWriter(scene, "no/such/folder/a.glb"), Contains("no/such/folder/a.glb: cannot write: No such file"));
+  CHECK_THROWS_WITH(AnimationWriter(scene, "no/such/folder/a.glb"),
+                    Contains("no/such/folder/a.glb: cannot write: No such file"));
   CHECK_THROWS_WITH(AnimationWriter(scene, "movie.mp4"), Contains("movie.mp4: an animation is written as .glb"));
   CHECK_THROWS_AS(AnimationWriter(scene, path, 0), InputError);
   {

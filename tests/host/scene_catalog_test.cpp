@@ -1,6 +1,6 @@
 /* scene_catalog_test.cpp - built-in scenes: published positions, determinism, no overlap at the start, refusals. */
-#include "host/scene_catalog.h"
 #include "host/random.h"
+#include "host/scene_catalog.h"
 #include "tests/catch.h"
 
 #include <Eigen/Dense>
@@ -14,7 +14,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-std::string complaint(const std::string &spec) {
+std::string complaint(const std::string &spec)
+{
   try {
     load_scene(spec);
   } catch (const InputError &error) {
@@ -32,19 +33,22 @@ struct Solid {
   Eigen::Matrix3d axes;
   bool moves;
 
-  double reach(const Vector &axis) const {
+  double reach(const Vector &axis) const
+  {
     return type == ShapeType::sphere ? size[0] : size.dot((axes.transpose() * axis).cwiseAbs());
   }
   double bounding_radius() const { return type == ShapeType::sphere ? size[0] : size.norm(); }
 };
 
-Solid solid(const Scene &scene, const Body &body) {
+Solid solid(const Scene &scene, const Body &body)
+{
   const Shape &shape = scene.shapes[body.shape];
   Eigen::Quaterniond q(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2]);
   return {shape.type, vector(body.position), vector(shape.size), q.toRotationMatrix(), body.motion == Motion::dynamic};
 }
 
-std::vector<Vector> candidate_axes(const Solid &a, const Solid &b) {
+std::vector<Vector> candidate_axes(const Solid &a, const Solid &b)
+{
   std::vector<Vector> axes;
   if (a.type == ShapeType::sphere && b.type == ShapeType::sphere) return {b.centre - a.centre};
   for (const Solid *s : {&a, &b})
@@ -61,7 +65,8 @@ std::vector<Vector> candidate_axes(const Solid &a, const Solid &b) {
   return axes;
 }
 
-double overlap(const Solid &a, const Solid &b) {
+double overlap(const Solid &a, const Solid &b)
+{
   if (a.type == ShapeType::half_space || b.type == ShapeType::half_space) {
     const Solid &space = a.type == ShapeType::half_space ? a : b, &other = a.type == ShapeType::half_space ? b : a;
     Vector normal = space.axes.col(1);
@@ -78,7 +83,8 @@ double overlap(const Solid &a, const Solid &b) {
   return least;
 }
 
-double deepest_overlap(const Scene &scene) {
+double deepest_overlap(const Scene &scene)
+{
   std::vector<Solid> solids;
   for (const Body &body : scene.bodies) solids.push_back(solid(scene, body));
   double deepest = -1e30;
@@ -88,7 +94,8 @@ double deepest_overlap(const Scene &scene) {
   return deepest;
 }
 
-uint64_t hash_of(const Scene &scene) {
+uint64_t hash_of(const Scene &scene)
+{
   uint64_t hash = 0xcbf29ce484222325u;
   auto mix = [&](float x) { hash = (hash ^ std::bit_cast<uint32_t>(x)) * 0x100000001b3u; };
   for (const Body &body : scene.bodies) {
@@ -101,7 +108,8 @@ uint64_t hash_of(const Scene &scene) {
 
 } // namespace
 
-TEST_CASE("the overlap oracle knows boxes, balls and planes") {
+TEST_CASE("the overlap oracle knows boxes, balls and planes")
+{
   Solid box{ShapeType::box, {0, 0, 0}, {1, 1, 1}, Eigen::Matrix3d::Identity(), true}, other = box;
   other.centre = {1.9, 0, 0};
   CHECK(overlap(box, other) == Approx(0.1));
@@ -114,7 +122,8 @@ TEST_CASE("the overlap oracle knows boxes, balls and planes") {
   CHECK(overlap(plane, ball) == Approx(0.1));
 }
 
-TEST_CASE("box-grid stands as published") {
+TEST_CASE("box-grid stands as published")
+{
   const int nx = 5, ny = 4, nz = 3;
   Scene scene = load_scene("box-grid:nx=5,ny=4,nz=3");
   REQUIRE(scene.bodies.size() == size_t(1 + nx * ny * nz));
@@ -141,10 +150,12 @@ TEST_CASE("box-grid stands as published") {
   CHECK(load_scene("box-grid").bodies.size() == 8001);
 }
 
-TEST_CASE("built-in scenes start without overlap, and touch nothing but what they stand on") {
-  for (const char *spec : {"box-grid:nx=4,ny=5,nz=4", "falling-boxes:n=400", "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
-                           "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
-                           "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77"}) {
+TEST_CASE("built-in scenes start without overlap, and touch nothing but what they stand on")
+{
+  for (const char *spec :
+       {"box-grid:nx=4,ny=5,nz=4", "falling-boxes:n=400", "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
+        "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
+        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77"}) {
     INFO(spec);
     CHECK(deepest_overlap(load_scene(spec)) < 1e-5);
   }
@@ -152,7 +163,8 @@ TEST_CASE("built-in scenes start without overlap, and touch nothing but what the
   CHECK(deepest_overlap(load_scene("pyramid:rows=3")) > -1e-5);
 }
 
-TEST_CASE("a seed decides a scene, to the bit, on every machine") {
+TEST_CASE("a seed decides a scene, to the bit, on every machine")
+{
   CHECK(hash_of(load_scene("mixed:seed=5")) == hash_of(load_scene("mixed:seed=5")));
   CHECK(hash_of(load_scene("mixed:seed=5")) != hash_of(load_scene("mixed:seed=6")));
   CHECK(hash_of(load_scene("spheres:seed=5")) != hash_of(load_scene("spheres:seed=6")));
@@ -161,7 +173,8 @@ TEST_CASE("a seed decides a scene, to the bit, on every machine") {
   CHECK(hash_of(load_scene("mixed:n=100")) == 0x6cfe9f46e7ba39c7u);
 }
 
-TEST_CASE("random numbers keep to their range and fill it") {
+TEST_CASE("random numbers keep to their range and fill it")
+{
   Random random(42);
   int buckets[10] = {};
   double mean_w = 0;
@@ -178,7 +191,8 @@ TEST_CASE("random numbers keep to their range and fill it") {
   CHECK(mean_w / 10000 == Approx(0.25).epsilon(0.05));
 }
 
-TEST_CASE("mixed uses every shape and material") {
+TEST_CASE("mixed uses every shape and material")
+{
   Scene scene = load_scene("mixed:n=200");
   std::vector<int> shapes(scene.shapes.size()), materials(scene.materials.size());
   for (const Body &body : scene.bodies) ++shapes[body.shape], ++materials[body.material];
@@ -186,7 +200,8 @@ TEST_CASE("mixed uses every shape and material") {
   for (int count : materials) CHECK(count > 0);
 }
 
-TEST_CASE("parameters default, apply and show in the scene's name") {
+TEST_CASE("parameters default, apply and show in the scene's name")
+{
   SceneSpec spec = parse_scene_spec("spheres:n=7,restitution=0.5");
   CHECK(spec.values.at("n") == 7);
   CHECK(spec.values.at("radius") == 0.5);
@@ -203,8 +218,10 @@ TEST_CASE("parameters default, apply and show in the scene's name") {
     }
 }
 
-TEST_CASE("bad specifications are refused with what exists") {
-  CHECK_THAT(complaint("box-gird"), Contains("unknown scene 'box-gird'") && Contains("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
+TEST_CASE("bad specifications are refused with what exists")
+{
+  CHECK_THAT(complaint("box-gird"), Contains("unknown scene 'box-gird'") &&
+                                        Contains("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
   CHECK_THAT(complaint("pile.urdf"), Contains(".json, .gltf or .glb"));
   CHECK_THAT(complaint(""), Contains("unknown scene ''"));
   CHECK_THAT(complaint("box-grid:mx=3"), Contains("unknown parameter 'mx'; parameters: nx, ny, nz"));

@@ -13,7 +13,8 @@ namespace {
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Scene small_scene() {
+Scene small_scene()
+{
   Scene scene;
   scene.shapes = {box_shape(1, 2, 3), sphere_shape(0.5f), half_space_shape()};
   scene.bodies.resize(3);
@@ -24,7 +25,8 @@ Scene small_scene() {
   return scene;
 }
 
-std::string complaint(const std::function<void(Scene &)> &spoil) {
+std::string complaint(const std::function<void(Scene &)> &spoil)
+{
   Scene scene = small_scene();
   spoil(scene);
   try {
@@ -36,7 +38,8 @@ std::string complaint(const std::function<void(Scene &)> &spoil) {
 }
 
 /* Sum of m r² over small cubes of the shape's bounding box whose centres lie inside. */
-Vec3 summed_inertia(const Shape &shape, double mass) {
+Vec3 summed_inertia(const Shape &shape, double mass)
+{
   const int cells = 80;
   double sum[3] = {0, 0, 0}, count = 0;
   for (int i = 0; i < cells; ++i)
@@ -58,18 +61,26 @@ Vec3 summed_inertia(const Shape &shape, double mass) {
 
 } // namespace
 
-TEST_CASE("a sound scene passes validation") { CHECK(complaint([](Scene &) {}).empty()); }
+TEST_CASE("a sound scene passes validation")
+{
+  CHECK(complaint([](Scene &) {}).empty());
+}
 
-TEST_CASE("validation names file, thing and reason") {
-  CHECK(complaint([](Scene &s) { s.bodies[1].mass = -2; }) == "test.json: body 1: mass is -2; a finite number above 0 is needed");
-  CHECK(complaint([](Scene &s) { s.bodies[2].position[1] = nan_value; }).find("test.json: body 2 'floor': position is [0, nan, 0]") == 0);
+TEST_CASE("validation names file, thing and reason")
+{
+  CHECK(complaint([](Scene &s) { s.bodies[1].mass = -2; }) ==
+        "test.json: body 1: mass is -2; a finite number above 0 is needed");
+  CHECK(complaint([](Scene &s) {
+          s.bodies[2].position[1] = nan_value;
+        }).find("test.json: body 2 'floor': position is [0, nan, 0]") == 0);
   CHECK_THAT(complaint([](Scene &s) { s.shapes[0].size[1] = 0; }), Contains("shape 0: a half extent is 0"));
   CHECK_THAT(complaint([](Scene &s) { s.shapes[1].size = {-1, -1, -1}; }), Contains("shape 1: radius is -1"));
   CHECK_THAT(complaint([](Scene &s) { s.shapes[0].size[2] = infinity; }), Contains("shape 0: size"));
   CHECK_THAT(complaint([](Scene &s) { s.shapes[0].type = ShapeType(9); }), Contains("unknown shape type"));
 }
 
-TEST_CASE("validation refuses what the solver could not bear") {
+TEST_CASE("validation refuses what the solver could not bear")
+{
   std::function<void(Scene &)> spoilers[] = {
       [](Scene &s) { s.gravity[0] = infinity; },
       [](Scene &s) { s.materials.clear(); },
@@ -80,16 +91,26 @@ TEST_CASE("validation refuses what the solver could not bear") {
       [](Scene &s) { s.bodies[0].shape = 3; },
       [](Scene &s) { s.bodies[0].material = 1; },
       [](Scene &s) { s.bodies[0].motion = Motion(5); },
-      [](Scene &s) { s.bodies[0].orientation = {0, 0, 0, 0}; },
-      [](Scene &s) { s.bodies[0].orientation = {0, 0, 0, 2}; },
-      [](Scene &s) { s.bodies[0].orientation = {nan_value, 0, 0, 1}; },
+      [](Scene &s) {
+        s.bodies[0].orientation = {0, 0, 0, 0};
+      },
+      [](Scene &s) {
+        s.bodies[0].orientation = {0, 0, 0, 2};
+      },
+      [](Scene &s) {
+        s.bodies[0].orientation = {nan_value, 0, 0, 1};
+      },
       [](Scene &s) { s.bodies[0].linear_velocity[2] = infinity; },
       [](Scene &s) { s.bodies[0].angular_velocity[0] = nan_value; },
       [](Scene &s) { s.bodies[0].mass = 0; },
       [](Scene &s) { s.bodies[0].mass = infinity; },
       [](Scene &s) { s.bodies[0].mass = 1e-42f; },
-      [](Scene &s) { s.bodies[0].inertia = {1, 0, 1}; },
-      [](Scene &s) { s.bodies[0].inertia = {1, -1, 1}; },
+      [](Scene &s) {
+        s.bodies[0].inertia = {1, 0, 1};
+      },
+      [](Scene &s) {
+        s.bodies[0].inertia = {1, -1, 1};
+      },
       [](Scene &s) { s.bodies[0].gravity_factor = nan_value; },
       [](Scene &s) { s.bodies[0].linear_damping = -1; },
       [](Scene &s) { s.bodies[0].angular_damping = infinity; },
@@ -107,7 +128,8 @@ TEST_CASE("validation refuses what the solver could not bear") {
         }).empty());
 }
 
-TEST_CASE("inertia agrees with summed volume elements") {
+TEST_CASE("inertia agrees with summed volume elements")
+{
   for (const Shape &shape : {box_shape(1, 2, 3), box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.7f)}) {
     Vec3 expected = summed_inertia(shape, 2.5), actual = inertia_of(shape, 2.5f);
     for (size_t axis = 0; axis < 3; ++axis) CHECK(actual[axis] == Approx(expected[axis]).epsilon(0.002));
