@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tiny_gltf.h>
+#include <unistd.h>
 
 using namespace tandem;
 using Catch::Matchers::Contains;
@@ -23,7 +24,9 @@ using json = nlohmann::json;
 
 namespace {
 
-const std::string path = "animation_test.glb";
+/* Tests of one tree run at the same time, each in its own process. */
+const std::string path =
+    (std::filesystem::temp_directory_path() / ("tandem_animation_" + std::to_string(getpid()) + ".glb")).string();
 
 struct RemoveAtEnd {
   ~RemoveAtEnd() { std::remove(path.c_str()); }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <set>
+#include <unistd.h>
 
 using namespace tandem;
 using Catch::Matchers::Contains;
@@ -20,10 +21,14 @@ namespace {
 
 const std::string scenes = std::string(TANDEM_SOURCE_DIR) + "/tests/scenes/";
 
+/* Tests of one tree run at the same time, each in its own process. */
+const std::string temporary_path =
+    (fs::temp_directory_path() / ("tandem_scene_" + std::to_string(getpid()) + ".gltf")).string();
+
 /* A .gltf file that lives as long as the object. */
 struct TemporaryFile {
   std::string path;
-  explicit TemporaryFile(const std::string &text, const std::string &name = "scene_gltf_test.gltf") : path(name)
+  explicit TemporaryFile(const std::string &text, const std::string &name = temporary_path) : path(name)
   {
     std::ofstream(path, std::ios::binary) << text;
   }
@@ -208,7 +213,7 @@ TEST_CASE("filters do what the extension says, for several systems too")
 
 TEST_CASE("what is not supported is refused with the node's name")
 {
-  const std::string prefix = "scene_gltf_test.gltf: node 'Cup': ";
+  const std::string prefix = temporary_path + ": node 'Cup': ";
   auto shape = [](const std::string &text) { return Parts{.nodes = cup(""), .shapes = text}; };
   CHECK(complaint(shape(R"({"type":"capsule","capsule":{}})")) ==
         prefix + "collider.geometry: shape type capsule is not supported yet; sphere, box and plane are");
@@ -307,7 +312,7 @@ TEST_CASE("damaged node trees and files are refused")
     CHECK_THROWS_AS(read_scene_gltf(file.path), InputError);
   }
   TemporaryFile malformed("{\"asset\": {\n \"version\" 2}}");
-  CHECK_THROWS_WITH(read_scene_gltf(malformed.path), Contains("scene_gltf_test.gltf:2:12: malformed JSON"));
+  CHECK_THROWS_WITH(read_scene_gltf(malformed.path), Contains(temporary_path + ":2:12: malformed JSON"));
 }
 
 TEST_CASE("a collider scaled to nothing is disabled")

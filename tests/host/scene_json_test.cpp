@@ -7,7 +7,9 @@
 #include <bit>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
+#include <unistd.h>
 
 using namespace tandem;
 using Catch::Matchers::Contains;
@@ -119,7 +121,8 @@ TEST_CASE("a written scene reads back to the same bits")
   check_same(odd, parse_scene_json(text, "odd"));
   CHECK(to_scene_json(parse_scene_json(text, "odd")) == text);
   Scene mixed = load_scene("mixed:n=50");
-  std::string path = "scene_json_test_mixed.json";
+  std::string path =
+      (std::filesystem::temp_directory_path() / ("tandem_mixed_" + std::to_string(getpid()) + ".json")).string();
   write_scene_json(mixed, path);
   check_same(mixed, load_scene(path));
   std::remove(path.c_str());
