@@ -24,8 +24,8 @@ __kernel void collide_sphere_box(__global const uint *pair_a, __global const uin
     __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    collide_sphere_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity,
-        parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+    collide_sphere_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
+        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }
 
 __kernel void collide_box_box(__global const uint *pair_a, __global const uint *pair_b,
@@ -35,8 +35,8 @@ __kernel void collide_box_box(__global const uint *pair_a, __global const uint *
     __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    collide_box_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity,
-        parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+    collide_box_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
+        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }
 
 __kernel void collide_sphere_half_space(__global const uint *pair_a, __global const uint *pair_b,
@@ -46,8 +46,8 @@ __kernel void collide_sphere_half_space(__global const uint *pair_a, __global co
     __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    collide_sphere_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity,
-        parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+    collide_sphere_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
+        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }
 
 __kernel void collide_box_half_space(__global const uint *pair_a, __global const uint *pair_b,
@@ -57,6 +57,6 @@ __kernel void collide_box_half_space(__global const uint *pair_a, __global const
     __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    collide_box_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity,
-        parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+    collide_box_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
+        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }

@@ -27,6 +27,7 @@ __kernel void scan_tiles(__global const uint *values, __global const uint *count
 {
   __local uint local_memory[SCAN_WORDS];
   scan_tiles_group(values, counts, out, sums, length, level, from, to, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void scan_add(__global const uint *counts, __global uint *out, __global const uint *sums, uint length,
@@ -34,6 +35,7 @@ __kernel void scan_add(__global const uint *counts, __global uint *out, __global
 {
   __local uint local_memory[1];
   scan_add_group(counts, out, sums, length, level, from, to, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void scan_total(__global const uint *counts, __global uint *out, __global const uint *sums,
@@ -54,6 +56,7 @@ __kernel void sort_histogram(__global const uint *keys, __global const uint *cou
 {
   __local uint local_memory[SORT_WORDS];
   sort_histogram_group(keys, counts, histogram, length, shift, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_histogram64(__global const ulong *keys, __global const uint *counts,
@@ -61,6 +64,7 @@ __kernel void sort_histogram64(__global const ulong *keys, __global const uint *
 {
   __local uint local_memory[SORT_WORDS];
   sort_histogram64_group(keys, counts, histogram, length, shift, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter(__global const uint *keys, __global const uint *values, __global const uint *counts,
@@ -70,6 +74,7 @@ __kernel void sort_scatter(__global const uint *keys, __global const uint *value
   __local uint local_memory[SORT_WORDS];
   sort_scatter_group(keys, values, counts, histogram, sorted_keys, sorted_values, length, shift, local_memory,
                      GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter64(__global const ulong *keys, __global const uint *counts,
@@ -78,4 +83,5 @@ __kernel void sort_scatter64(__global const ulong *keys, __global const uint *co
 {
   __local uint local_memory[SORT_WORDS];
   sort_scatter64_group(keys, counts, histogram, sorted_keys, length, shift, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }

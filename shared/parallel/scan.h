@@ -13,7 +13,7 @@
 
 #define SCAN_ITEMS 256u /* virtual items of a tile, each with TILE / SCAN_ITEMS values */
 #define SCAN_CHUNKS 16u /* of the items' sums */
-#define SCAN_WORDS (SCAN_ITEMS + SCAN_CHUNKS + 1u)
+#define SCAN_WORDS (SCAN_ITEMS + 2u * SCAN_CHUNKS + 1u)
 
 /* Values at a level: tiles of tiles of the length. */
 SHARED uint length_at_level(uint length, uint level)
@@ -22,10 +22,10 @@ SHARED uint length_at_level(uint length, uint level)
   return length;
 }
 
-/* Exclusive scan of SCAN_ITEMS words of local memory; the total ends in word SCAN_ITEMS + SCAN_CHUNKS. */
-SHARED void scan_items(LOCAL uint *words)
+/* Exclusive scan of SCAN_ITEMS words of local memory; returns where the total stands. */
+SHARED uint scan_items(LOCAL uint *words)
 {
-  LOCAL uint *chunks = words + SCAN_ITEMS;
+  LOCAL uint *chunks = words + SCAN_ITEMS, *offsets = chunks + SCAN_CHUNKS;
   FOR_EACH_ITEM(chunk, SCAN_CHUNKS)
   {
     uint sum = 0;
@@ -36,18 +36,14 @@ SHARED void scan_items(LOCAL uint *words)
     }
     chunks[chunk] = sum;
   }
-  FOR_EACH_ITEM(only, 1u)
+  FOR_EACH_ITEM(chunk, SCAN_CHUNKS + 1u)
   {
     uint sum = 0;
-    (void)only;
-    for (uint k = 0; k < SCAN_CHUNKS; ++k) {
-      uint value = chunks[k];
-      chunks[k] = sum;
-      sum += value;
-    }
-    chunks[SCAN_CHUNKS] = sum;
+    for (uint k = 0; k < chunk; ++k) sum += chunks[k];
+    offsets[chunk] = sum;
   }
-  FOR_EACH_ITEM(item, SCAN_ITEMS) words[item] += chunks[item / (SCAN_ITEMS / SCAN_CHUNKS)];
+  FOR_EACH_ITEM(item, SCAN_ITEMS) words[item] += offsets[item / (SCAN_ITEMS / SCAN_CHUNKS)];
+  return SCAN_ITEMS + 2u * SCAN_CHUNKS;
 }
 
 /* values[from ..], at this level, scanned tile by tile into out[from ..]; totals of tiles into sums[to ..]. */
@@ -61,7 +57,7 @@ SHARED void scan_tiles_group(GLOBAL const uint *values, GLOBAL const uint *count
     for (uint k = first; k < first + TILE / SCAN_ITEMS && k < n; ++k) sum += values[from + k];
     local_memory[item] = sum;
   }
-  scan_items(local_memory);
+  uint total = scan_items(local_memory);
   FOR_EACH_ITEM(item, SCAN_ITEMS)
   {
     uint sum = local_memory[item], first = group * TILE + item * (TILE / SCAN_ITEMS);
@@ -70,8 +66,9 @@ SHARED void scan_tiles_group(GLOBAL const uint *values, GLOBAL const uint *count
       out[from + k] = sum;
       sum += value;
     }
-    if (item == 0u && group * TILE < n) sums[to + group] = local_memory[SCAN_ITEMS + SCAN_CHUNKS];
   }
+  FOR_EACH_ITEM(only, 1u)
+  if (group * TILE < n) sums[to + group + only] = local_memory[total];
 }
 
 SHARED void scan_add_group(GLOBAL const uint *counts, GLOBAL uint *out, GLOBAL const uint *sums, uint length, uint level, uint from, uint to,
