@@ -106,6 +106,8 @@ DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info),
   }
   options = "-cl-std=CL1.2";
   if (candidate.promises_exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
+  /* Oclgrind 21.10 stops at a hint for optimisers that Clang leaves in what it inlined. */
+  if (info.platform_name == "Oclgrind") options += " -cl-opt-disable";
 }
 
 } // namespace tandem::opencl

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/embedded_kernels.h"
 #include "host/opencl/api.h"
 #include "host/opencl/device.h"
 
@@ -31,5 +32,9 @@ struct DeviceContext {
 
 /* Empty if the device gives the host's bits, else what differs. Runs once a device and process. */
 std::string self_test(const Candidate &candidate);
+
+/* The same of an open device, every time: over `count` inputs (a multiple of TILE). `program`: cl/self_test.cl, or what
+ * a test made of it. */
+std::string self_test(const DeviceContext &context, uint32_t count, const EmbeddedProgram &program);
 
 } // namespace tandem::opencl

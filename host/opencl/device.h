@@ -25,6 +25,10 @@ struct DeviceInfo {
 /* Every device of every platform, each with the verdict of its self-test. Empty without any platform. */
 std::vector<DeviceInfo> list_devices();
 
+/* Empty if this program's own arithmetic, which MiniCL runs and devices are measured by, rounds as IEEE 754 says;
+ * else what does not (a compiler option or a library changed it). */
+std::string host_self_test();
+
 /* `choice`: "" the best supported device, "P.D" platform and device number, or part of a platform's, a device's or a
  * type's name, in any case ("pocl" too): the first supported match. `text` is the whole name for messages.
  * InputError: no platform, no such device, or one that cannot give the host's bits (unless allow_inexact). */

@@ -69,6 +69,13 @@ bool shares_memory(const DeviceContext &context)
   }
 }
 
+/* The marker is for rusticl 22.3, whose clFinish does not wait for commands that a clFlush has already sent. */
+cl_int finish_queue(const DeviceContext &context)
+{
+  const cl_int code = clEnqueueMarkerWithWaitList(context.queue(), 0, nullptr, nullptr);
+  return code == CL_SUCCESS ? clFinish(context.queue()) : code;
+}
+
 } // namespace
 
 DeviceStorage::DeviceStorage(const DeviceContext &context) : context_(context), shares_(shares_memory(context)) {}
@@ -97,13 +104,15 @@ void *DeviceStorage::allocate(size_t bytes, void *host_memory)
 void DeviceStorage::release(void *handle)
 {
   const std::unique_ptr<DeviceBuffer> buffer(static_cast<DeviceBuffer *>(handle));
-  if (buffer->shared_with) clFinish(context_.queue());
+  if (buffer->shared_with) finish_queue(context_);
   clReleaseMemObject(buffer->memory);
 }
 
+/* Waits for the unmap too: a driver that keeps a copy takes the host's bytes only when it gets there. */
 void DeviceStorage::pass_ownership(const DeviceBuffer &buffer, size_t offset, size_t bytes, cl_map_flags flags)
 {
   unmap(context_, buffer.memory, map(context_, buffer.memory, offset, bytes, flags));
+  wait();
 }
 
 void DeviceStorage::write(void *handle, size_t offset, const void *from, size_t bytes)
@@ -127,7 +136,7 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
 
 void DeviceStorage::wait()
 {
-  const cl_int code = clFinish(context_.queue());
+  const cl_int code = finish_queue(context_);
   if (code != CL_SUCCESS) fail(context_, "waiting for the work", 0, code);
 }
 

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 #include "host/scene.h"
 
 using namespace tandem;
@@ -88,10 +88,10 @@ TEST_CASE("the last writer is read, whichever of host, MiniCL and OpenCL it was"
       memory.upload(Buffer::primitive_a, &random, 4, 4 * (round * 7));
       right[round * 7] = random;
     }
-    if (round % 5 == 0) REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, length) == right);
+    if (round % 5 == 0) REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
     if (round % 7 == 0) REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, 1, begin).front() == right[begin]);
   }
-  REQUIRE(memory.read<uint32_t>(Buffer::primitive_a, length) == right);
+  REQUIRE((memory.read<uint32_t>(Buffer::primitive_a, length) == right));
 }
 
 TEST_CASE("a device that shares the host's memory works in the host's bytes")
@@ -133,14 +133,17 @@ TEST_CASE("profiling times the kernels that ran, and only those")
   Memory memory;
   memory.resize(Buffer::primitive_a, 400000);
   run_fill(*backend, memory, 0, 100000, 1, 100000);
-  REQUIRE(backend->take_kernel_nanoseconds()[index_of(Kernel::fill)] == 0);
+  const auto time_of_fill = [&] { return backend->take_kernel_times()[index_of(Kernel::fill)]; };
+  REQUIRE(time_of_fill().launches == 0);
   backend->set_profiling(true);
   for (int i = 0; i < 5000; ++i) run_fill(*backend, memory, 0, 10, 2, 10);
-  auto nanoseconds = backend->take_kernel_nanoseconds();
-  REQUIRE(nanoseconds[index_of(Kernel::fill)] > 0);
-  nanoseconds[index_of(Kernel::fill)] = 0;
-  REQUIRE(nanoseconds == std::vector<double>(kernel_count, 0.0));
-  REQUIRE(backend->take_kernel_nanoseconds()[index_of(Kernel::fill)] == 0);
+  const auto times = backend->take_kernel_times();
+  for (size_t k = 0; k < kernel_count; ++k) REQUIRE(times[k].launches == (kernel_at(k) == Kernel::fill ? 5000 : 0));
+  REQUIRE(times[index_of(Kernel::fill)].nanoseconds > 0);
+  REQUIRE(time_of_fill().launches == 0);
+  backend->set_profiling(false);
+  run_fill(*backend, memory, 0, 10, 2, 10);
+  REQUIRE(time_of_fill().nanoseconds == 0);
 }
 
 TEST_CASE("an allocation that no device can hold is refused with its size and the device's name")

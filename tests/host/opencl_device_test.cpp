@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "host/opencl/program.h"
 #include "host/scene.h"
 
 using namespace tandem;
@@ -17,6 +18,16 @@ std::string refusal_of(const std::string &text)
     return error.what();
   }
   return "accepted";
+}
+
+/* The verdict of a self-test in which `from` reads `to` on the device: a stand-in for a device that errs so. */
+std::string with_planted(const opencl::DeviceContext &context, const std::string &from, const std::string &to)
+{
+  std::string source = opencl::embedded_program("self_test").source;
+  const size_t at = source.find(from);
+  REQUIRE(at != std::string::npos);
+  source.replace(at, from.size(), to);
+  return opencl::self_test(context, 1024, EmbeddedProgram{"self_test", source.c_str()});
 }
 
 } // namespace
@@ -35,6 +46,27 @@ TEST_CASE("every listed device has a verdict, and an address that opens it")
     if (info.supported) REQUIRE(make_backend(text)->name() == text);
     else REQUIRE(refusal_of(text).find(info.reason) != std::string::npos);
   }
+}
+
+TEST_CASE("this program's own arithmetic is that of IEEE 754") { REQUIRE(opencl::host_self_test() == ""); }
+
+TEST_CASE("the self-test names every operation that a device gets wrong")
+{
+  const opencl::Candidate *device = test_device();
+  if (!device) return;
+  const opencl::DeviceContext context(*device);
+  REQUIRE(with_planted(context, "", "") == "");
+  using Catch::Matchers::Contains;
+  CHECK_THAT(with_planted(context, "square_root(real x) { return", "square_root(real x) { return 1.0000001f *"),
+             Contains("square root") && !Contains("division"));
+  CHECK_THAT(with_planted(context, "a / b)", "a * (1.0f / b))"), Contains("division") && !Contains("square root"));
+  CHECK_THAT(with_planted(context, ", a + b)", ", (fabs(a + b) < 1.17549435e-38f ? 0.0f : a + b))"),
+             Contains("addition") && !Contains("subtraction"));
+  CHECK_THAT(with_planted(context, ", a * b + c)", ", fma(a, b, c))"),
+             Contains("contraction of a * b + c") && !Contains("contraction of a * b - c"));
+  CHECK_THAT(with_planted(context, " atomic_max(", " atomic_min("), Contains("integer atomics"));
+  CHECK_THAT(with_planted(context, "= (ulong)p * q", "= (ulong)(p * q)"), Contains("64-bit product") && !Contains("32-bit"));
+  CHECK_THAT(with_planted(context, "memory[TILE - 1u - i]", "memory[TILE - 1u - i / 2u]"), Contains("local memory and barriers"));
 }
 
 TEST_CASE("devices are found by part of a name, in any case")
