@@ -38,16 +38,14 @@ __kernel void extent_tiles(__global const row *bounds, __global const uint *coun
                            RANGE)
 {
   __local uint local_memory[EXTENT_VALUES * EXTENT_WIDTH];
-  FOR_EACH_GROUP(group)
-  extent_tiles_group(bounds, counts, bounds_sums, local_memory, group);
+  extent_tiles_group(bounds, counts, bounds_sums, local_memory, GROUP_NUMBER);
 }
 
 __kernel void extent_whole(__global const Parameters *parameters, __global const row *bounds_sums,
                            __global row *grid, __global uint *counts, RANGE)
 {
   __local uint local_memory[EXTENT_VALUES * EXTENT_WIDTH];
-  FOR_EACH_GROUP(group)
-  extent_whole_group(parameters, bounds_sums, grid, counts, local_memory, group);
+  extent_whole_group(parameters, bounds_sums, grid, counts, local_memory, GROUP_NUMBER);
 }
 
 __kernel void grid_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,

@@ -15,11 +15,9 @@
   for (uint i = range[first] + (uint)get_global_id(0), end_of_range = range[last]; i < end_of_range; \
        i += (uint)get_global_size(0))
 
-/* One work-group per TILE items. The barrier closes the last phase: PoCL 3.1 cannot compile one that is left open
- * at the end of a loop. */
-#define FOR_EACH_GROUP(group)                                                                                  \
-  for (uint group = (uint)get_group_id(0), end_of_groups = (range[last] - range[first] + TILE - 1u) / TILE; \
-       group < end_of_groups;                                                                                \
-       barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), group += (uint)get_num_groups(0))
+/* One work-group per TILE items. No loop stands around the phases of a group (PoCL 3.1 cannot form the
+ * work-group's loops then), so a launch has at least as many groups as tiles, and functions of groups
+ * leave alone what lies behind the end. */
+#define GROUP_NUMBER ((uint)get_group_id(0))
 
 #endif

@@ -29,44 +29,42 @@ __kernel void scan_reduce(__global const uint *counts, __global const uint *valu
                           uint unit, uint per_unit, RANGE)
 {
   __local uint local_memory[SCAN_STRIPS];
-  FOR_EACH_GROUP(group) scan_reduce_group(counts, values, sums, length, unit, per_unit, local_memory, group);
+  scan_reduce_group(counts, values, sums, length, unit, per_unit, local_memory, GROUP_NUMBER);
 }
 
 __kernel void scan_in_order(__global const uint *counts, __global const uint *values, __global uint *result,
                             __global uint *total, uint length, uint unit, uint per_unit, uint block, RANGE)
 {
   __local uint local_memory[SCAN_LOCAL_WORDS];
-  FOR_EACH_GROUP(group)
-  scan_in_order_group(counts, values, result, total, length, unit, per_unit, block, local_memory, group);
+  scan_in_order_group(counts, values, result, total, length, unit, per_unit, block, local_memory, GROUP_NUMBER);
 }
 
 __kernel void scan_tiles(__global const uint *counts, __global const uint *values, __global const uint *sums,
                          __global uint *result, uint length, uint unit, uint per_unit, RANGE)
 {
   __local uint local_memory[SCAN_LOCAL_WORDS];
-  FOR_EACH_GROUP(group) scan_tiles_group(counts, values, sums, result, length, unit, per_unit, local_memory, group);
+  scan_tiles_group(counts, values, sums, result, length, unit, per_unit, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_histogram(__global const uint *counts, __global const uint *keys, __global uint *histogram, uint length,
                              uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_DIGITS];
-  FOR_EACH_GROUP(group) sort_histogram_group(counts, keys, histogram, length, shift, bits, local_memory, group);
+  sort_histogram_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_histogram64(__global const uint *counts, __global const ulong *keys, __global uint *histogram,
                                   uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_DIGITS];
-  FOR_EACH_GROUP(group) sort_histogram64_group(counts, keys, histogram, length, shift, bits, local_memory, group);
+  sort_histogram64_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_scatter(__global const uint *counts, __global const uint *keys, __global const uint *offsets,
                                 __global uint *sorted_keys, uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_scatter_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, group);
+  sort_scatter_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_scatter_pairs(__global const uint *counts, __global const uint *keys, __global const uint *values,
@@ -74,16 +72,14 @@ __kernel void sort_scatter_pairs(__global const uint *counts, __global const uin
                                  uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_scatter_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, group);
+  sort_scatter_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_scatter64(__global const uint *counts, __global const ulong *keys, __global const uint *offsets,
                                      __global ulong *sorted_keys, uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_scatter64_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, group);
+  sort_scatter64_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
 }
 
 __kernel void sort_scatter64_pairs(__global const uint *counts, __global const ulong *keys, __global const uint *values,
@@ -91,7 +87,5 @@ __kernel void sort_scatter64_pairs(__global const uint *counts, __global const u
                                       uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  FOR_EACH_GROUP(group)
-  sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory,
-                                group);
+  sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
 }

@@ -11,5 +11,5 @@ __kernel void self_test(__global const float *numbers, __global const uint *word
 __kernel void self_test_phases(__global const uint *words, __global uint *results, RANGE)
 {
   __local uint memory[LOCAL_WORDS];
-  FOR_EACH_GROUP(group) self_test_group(words, results, memory, group);
+  self_test_group(words, results, memory, GROUP_NUMBER);
 }

@@ -19,7 +19,7 @@ struct Launch {
   std::vector<uint32_t> values;
   uint32_t first = COUNT_ZERO; /* entries of counts: the range is [counts[first], counts[last]) */
   uint32_t last = COUNT_ZERO;
-  uint32_t expected = 0; /* about how many items: sizes a device's launch, never its result */
+  uint32_t expected = 0; /* about how many items: sizes a device's launch, never its result. GROUP: at least as many */
 };
 
 /* Arguments in the order of the kernel's row: a handle of the backend's storage, or a value. */

@@ -6,7 +6,7 @@ static inline real square_root(real x)
   for (int lane = 0; lane < width; ++lane) x.v[lane] = __builtin_sqrtf(x.v[lane]);
   return x;
 }
-static inline bool any(mask m)
+static inline bool any_of(mask m)
 {
   int32_t all = 0;
   for (int lane = 0; lane < width; ++lane) all |= m.v[lane];

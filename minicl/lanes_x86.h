@@ -11,7 +11,7 @@
 
 #if TANDEM_LANES == 16
 static inline real square_root(real x) { return real((float_lanes)_mm512_sqrt_ps((__m512)x.v)); }
-static inline bool any(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
+static inline bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
 static inline real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
@@ -43,7 +43,7 @@ static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return 
 
 #elif TANDEM_LANES == 8
 static inline real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
-static inline bool any(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+static inline bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
 static inline real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
@@ -70,7 +70,7 @@ static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return 
 
 #else
 static inline real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
-static inline bool any(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+static inline bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 static inline real load_real(const memory_real *from, natural i)
 {
   real r;

@@ -144,8 +144,8 @@ private:
 
   static size_t group_count(Form form, uint32_t expected, size_t group_size)
   {
-    const size_t items = std::clamp<size_t>(expected, 1, most_items);
-    return form == Form::group ? (items + TILE - 1) / TILE : (items + group_size - 1) / group_size;
+    const size_t items = std::max<size_t>(expected, 1);
+    return form == Form::group ? (items + TILE - 1) / TILE : (std::min(items, most_items) + group_size - 1) / group_size;
   }
 
   void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch, const std::vector<BoundArgument> &bound,

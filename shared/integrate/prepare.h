@@ -12,7 +12,7 @@
 SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, natural body, uint stage)
 {
   mask bad = !finite;
-  if (any(bad)) atomic_min_if(bad, counts, COUNT_NONFINITE, body | (natural)(stage << 28u));
+  if (any_of(bad)) atomic_min_if(bad, counts, COUNT_NONFINITE, body | (natural)(stage << 28u));
 }
 
 SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(make_vec3(q.w, q.w, q.w)); }

@@ -148,12 +148,12 @@ SHARED manifold choose_manifold(mask m, manifold a, manifold b)
 /* Each kind of contact is computed only if some item of the group has it. */
 SHARED manifold with_face_contacts(manifold m, mask wanted, box_pair pair)
 {
-  if (!any(wanted)) return m;
+  if (!any_of(wanted)) return m;
   return choose_manifold(wanted, face_contacts(pair), m);
 }
 SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair)
 {
-  if (!any(wanted)) return m;
+  if (!any_of(wanted)) return m;
   return choose_manifold(wanted, edge_contact(pair), m);
 }
 
@@ -166,7 +166,7 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
   natural kind_a = shape_of(load_natural(traits, a)), kind_b = shape_of(load_natural(traits, b));
   mask mine = (kind_a == (uint)SHAPE_BOX) & (kind_b == (uint)SHAPE_BOX);
-  if (!any(mine)) return;
+  if (!any_of(mine)) return;
 
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
   box_pair pair;

@@ -44,7 +44,7 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask box_first = (shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_HALF_SPACE);
   mask mine = box_first | ((shape_a == (uint)SHAPE_HALF_SPACE) & (shape_b == (uint)SHAPE_BOX));
-  if (!any(mine)) return;
+  if (!any_of(mine)) return;
 
   natural body = choose(box_first, a, b), plane = choose(box_first, b, a);
   vec4 shape = load_row(shapes, body);

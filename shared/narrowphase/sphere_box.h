@@ -49,7 +49,7 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask sphere_first = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_BOX);
   mask mine = sphere_first | ((shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_SPHERE));
-  if (!any(mine)) return;
+  if (!any_of(mine)) return;
 
   natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
   real radius = load_row(shapes, sphere).x;

@@ -18,7 +18,7 @@ SHARED void collide_sphere_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask sphere_first = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_HALF_SPACE);
   mask mine = sphere_first | ((shape_a == (uint)SHAPE_HALF_SPACE) & (shape_b == (uint)SHAPE_SPHERE));
-  if (!any(mine)) return;
+  if (!any_of(mine)) return;
 
   natural sphere = choose(sphere_first, a, b), plane = choose(sphere_first, b, a);
   real radius = load_row(shapes, sphere).x, zero = R(0.0);

@@ -13,7 +13,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask mine = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_SPHERE);
-  if (!any(mine)) return;
+  if (!any_of(mine)) return;
 
   real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x;
   vec3 between = subtract(xyz(load_row(positions, b)), xyz(load_row(positions, a)));

@@ -192,7 +192,7 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   natural stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
   mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
-  if (!any(bounces)) return;
+  if (!any_of(bounces)) return;
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   real next[4];

@@ -1,9 +1,8 @@
 /* embed_kernels - expands every cl/NAME.cl with its includes into one C++ source.
  *
  * The .cl files stay real files; the library carries their expansion, so an installed program
- * needs no source tree (inventory A4). Each header is expanded once, where it is first included;
- * lists (.def) every time, since each inclusion gives their rows another meaning. #line directives
- * keep the compiler's messages on the file and line that people edit.
+ * needs no source tree (inventory A4). Each header is expanded once, where it is first included, and a .def list every time;
+ * #line directives keep the compiler's messages on the file and line that people edit.
  *
  * Usage: embed_kernels ROOT OUTPUT.cpp cl/one.cl cl/two.cl ...
  */
@@ -27,7 +26,8 @@ std::string included_name(const std::string &line)
 
 void expand(const std::string &root, const std::string &name, std::set<std::string> &seen, std::ostream &out)
 {
-  if (!seen.insert(name).second && !name.ends_with(".def")) return;
+  const bool is_list = name.ends_with(".def"); /* expanded anew wherever it is included */
+  if (!is_list && !seen.insert(name).second) return;
   std::ifstream in(root + "/" + name);
   if (!in) throw std::runtime_error("cannot read " + root + "/" + name);
   out << "#line 1 \"" << name << "\"\n";
