@@ -111,17 +111,17 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
 {
   const uint words = units_of(counts[length], unit) * per_unit;
   const uint n = units_of(words, block);
-  LOCAL uint *carry = local_memory + SCAN_SMALL_AT + 48u;
+  LOCAL uint *carry = local_memory + SCAN_SMALL_AT + 48u; /* sum of the tiles before an even, an odd tile */
   if (group != 0u) return;
   FOR_EACH_ITEM(s, 1u) carry[0] = 0u;
   for (uint tile = 0u; tile < units_of(n, SCAN_TILE); ++tile) {
     const uint count = items_in_tile(n, SCAN_TILE, tile);
     scan_load(values, tile * SCAN_TILE, count, local_memory);
-    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] += carry[0];
-    FOR_EACH_ITEM(s, 1u) carry[0] += local_memory[SCAN_SMALL_AT + SMALL_STRIPS];
+    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] += carry[tile & 1u];
+    FOR_EACH_ITEM(s, 1u) carry[(tile + 1u) & 1u] = carry[tile & 1u] + local_memory[SCAN_SMALL_AT + SMALL_STRIPS];
     scan_store(result, tile * SCAN_TILE, count, 0u, local_memory);
   }
-  FOR_EACH_ITEM(s, 1u) total[words] = carry[0];
+  FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];
 }
 
 /* Exclusive sums of tile `group`, which start at sums[group]. */
