@@ -39,13 +39,21 @@ __kernel void extent_tiles(__global const row *bounds, __global const uint *coun
 {
   __local uint local_memory[EXTENT_VALUES * EXTENT_WIDTH];
   extent_tiles_group(bounds, counts, bounds_sums, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
-__kernel void extent_whole(__global const Parameters *parameters, __global const row *bounds_sums,
-                           __global row *grid, __global uint *counts, RANGE)
+__kernel void extent_whole(__global const uint *counts, __global row *bounds_sums, RANGE)
 {
   __local uint local_memory[EXTENT_VALUES * EXTENT_WIDTH];
-  extent_whole_group(parameters, bounds_sums, grid, counts, local_memory, GROUP_NUMBER);
+  extent_whole_group(counts, bounds_sums, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void lay_out(__global const Parameters *parameters, __global const row *bounds_sums,
+                      __global row *grid, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  lay_out_item(parameters, bounds_sums, grid, counts, i);
 }
 
 __kernel void grid_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,

@@ -20,4 +20,8 @@
  * leave alone what lies behind the end. */
 #define GROUP_NUMBER ((uint)get_group_id(0))
 
+/* Closes the last phase of a group. PoCL 3.1 cuts a kernel into regions at its barriers, and without one
+ * here the last phase's loop and the kernel's exit fall into one region, which it compiles wrongly. */
+#define END_GROUP barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
+
 #endif

@@ -30,6 +30,7 @@ __kernel void scan_reduce(__global const uint *counts, __global const uint *valu
 {
   __local uint local_memory[SCAN_STRIPS];
   scan_reduce_group(counts, values, sums, length, unit, per_unit, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void scan_in_order(__global const uint *counts, __global const uint *values, __global uint *result,
@@ -37,6 +38,7 @@ __kernel void scan_in_order(__global const uint *counts, __global const uint *va
 {
   __local uint local_memory[SCAN_LOCAL_WORDS];
   scan_in_order_group(counts, values, result, total, length, unit, per_unit, block, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void scan_tiles(__global const uint *counts, __global const uint *values, __global const uint *sums,
@@ -44,6 +46,7 @@ __kernel void scan_tiles(__global const uint *counts, __global const uint *value
 {
   __local uint local_memory[SCAN_LOCAL_WORDS];
   scan_tiles_group(counts, values, sums, result, length, unit, per_unit, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_histogram(__global const uint *counts, __global const uint *keys, __global uint *histogram, uint length,
@@ -51,6 +54,7 @@ __kernel void sort_histogram(__global const uint *counts, __global const uint *k
 {
   __local uint local_memory[SORT_DIGITS];
   sort_histogram_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_histogram64(__global const uint *counts, __global const ulong *keys, __global uint *histogram,
@@ -58,6 +62,7 @@ __kernel void sort_histogram64(__global const uint *counts, __global const ulong
 {
   __local uint local_memory[SORT_DIGITS];
   sort_histogram64_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter(__global const uint *counts, __global const uint *keys, __global const uint *offsets,
@@ -65,6 +70,7 @@ __kernel void sort_scatter(__global const uint *counts, __global const uint *key
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter_pairs(__global const uint *counts, __global const uint *keys, __global const uint *values,
@@ -73,6 +79,7 @@ __kernel void sort_scatter_pairs(__global const uint *counts, __global const uin
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter64(__global const uint *counts, __global const ulong *keys, __global const uint *offsets,
@@ -80,6 +87,7 @@ __kernel void sort_scatter64(__global const uint *counts, __global const ulong *
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter64_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void sort_scatter64_pairs(__global const uint *counts, __global const ulong *keys, __global const uint *values,
@@ -88,4 +96,5 @@ __kernel void sort_scatter64_pairs(__global const uint *counts, __global const u
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }

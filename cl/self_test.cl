@@ -12,4 +12,5 @@ __kernel void self_test_phases(__global const uint *words, __global uint *result
 {
   __local uint memory[LOCAL_WORDS];
   self_test_group(words, results, memory, GROUP_NUMBER);
+  END_GROUP;
 }

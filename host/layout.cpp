@@ -24,7 +24,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::SWEEP_PAIRS: return sizes.sweep ? sizes.pairs : 0;
   case Capacity::SWEEP_BODIES: return sizes.sweep ? size_t{sizes.bodies} + 1 : 0;
   case Capacity::CELLS: return sizes.grid ? size_t{sizes.cells} + 1 : 0;
-  case Capacity::TILES: return spatial ? (size_t{sizes.bodies} + TILE - 1) / TILE : 0;
+  case Capacity::TILES: return spatial ? (size_t{sizes.bodies} + TILE) / TILE : 0;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(static_cast<uint32_t>(sortable));
   case Capacity::SCAN_SUMS:

@@ -78,6 +78,7 @@ private:
   {
     run(Kernel::extent_tiles);
     run(Kernel::extent_whole);
+    run(Kernel::lay_out);
   }
 
   void scan_pairs(Buffer starts)

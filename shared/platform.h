@@ -41,7 +41,8 @@ typedef unsigned short half_word;
 #define SQUARE_ROOT(x) sqrt(x)
 #define FLOAT_BITS(x) as_uint(x)
 
-/* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. */
+/* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. A phase of a
+ * single item holds no loop of its own: PoCL 3.1 then runs that loop once for every item. */
 #define FOR_EACH_ITEM(i, n)                                                                   \
   for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); \
        i < (uint)(n); i += (uint)get_local_size(0))

@@ -4,7 +4,7 @@
  * same names over 4, 8 or 16 lanes; a LANES kernel is written against this page alone.
  *
  *   choose(m, a, b)          m ? a : b, both sides evaluated
- *   any_of(m)                   some item of the group has it (uniform, so `if` may use it)
+ *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds
  */
 #ifndef TANDEM_SHARED_REAL_H
@@ -23,7 +23,6 @@
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)
 typedef float memory_real;
-#define any any_of_item /* OpenCL has another any_of(), true where the sign bit is set */
 #endif
 typedef memory_real real;
 typedef uint natural;

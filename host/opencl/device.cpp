@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 #include "host/opencl/context.h"
 #include "host/scene.h"
 

@@ -69,6 +69,21 @@ SHARED void join_tree(LOCAL real *extents)
       store_extent_local(extents, item, join_extents(load_extent_local(extents, item), load_extent_local(extents, item + reach)));
 }
 
+SHARED void store_extent_tile(GLOBAL row *bounds_sums, uint tile, extent e)
+{
+  store_row(bounds_sums, tile * EXTENT_ROWS, extend(e.lower, e.size));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 1u, extend(e.upper, R(0.0)));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 2u, extend(e.sum, R(0.0)));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 3u, extend(e.squares, R(0.0)));
+}
+SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
+{
+  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS);
+  extent e = {xyz(lower), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 1u)), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 2u)),
+              xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 3u)), lower.w};
+  return e;
+}
+
 /* One group over TILE small bodies -> EXTENT_ROWS rows of bounds_sums. */
 SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *bounds_sums, LOCAL uint *local_memory, uint group)
 {
@@ -84,22 +99,7 @@ SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *coun
     store_extent_local(extents, item, e);
   }
   join_tree(extents);
-  FOR_EACH_ITEM(first, 1u)
-  {
-    extent e = load_extent_local(extents, first);
-    store_row(bounds_sums, group * EXTENT_ROWS, extend(e.lower, e.size));
-    store_row(bounds_sums, group * EXTENT_ROWS + 1u, extend(e.upper, R(0.0)));
-    store_row(bounds_sums, group * EXTENT_ROWS + 2u, extend(e.sum, R(0.0)));
-    store_row(bounds_sums, group * EXTENT_ROWS + 3u, extend(e.squares, R(0.0)));
-  }
-}
-
-SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
-{
-  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS);
-  extent e = {xyz(lower), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 1u)), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 2u)),
-              xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 3u)), lower.w};
-  return e;
+  FOR_EACH_ITEM(first, 1u) store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
 }
 
 /* Cells along one axis, at least 1 and at most what 30 bits of three axes allow. */
@@ -139,9 +139,8 @@ SHARED uint widest_axis(extent whole, real bodies)
   return variance.y >= variance.z ? 1u : 2u;
 }
 
-/* One group over all tiles. */
-SHARED void extent_whole_group(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts,
-                               LOCAL uint *local_memory, uint group)
+/* One group over all tiles: the whole extent replaces the first tile's. */
+SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL row *bounds_sums, LOCAL uint *local_memory, uint group)
 {
   (void)group;
   LOCAL real *extents = (LOCAL real *)local_memory;
@@ -153,13 +152,16 @@ SHARED void extent_whole_group(GLOBAL const Parameters *parameters, GLOBAL const
     store_extent_local(extents, item, e);
   }
   join_tree(extents);
-  FOR_EACH_ITEM(first, 1u)
-  {
-    extent whole = load_extent_local(extents, first);
-    uint bodies = counts[COUNT_SMALL];
-    lay_out_grid(whole, parameters->cell_size, grid, counts);
-    counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
-  }
+  FOR_EACH_ITEM(first, 1u) store_extent_tile(bounds_sums, first, load_extent_local(extents, first));
+}
+
+/* One item: the layout of the grid and the axis of the sweep. */
+SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint i)
+{
+  extent whole = load_extent_tile(bounds_sums, i);
+  uint bodies = counts[COUNT_SMALL];
+  lay_out_grid(whole, parameters->cell_size, grid, counts);
+  counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
 }
 
 #endif

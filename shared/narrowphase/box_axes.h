@@ -8,8 +8,8 @@
  *   code 3-5    face normals of b
  *   code 6-14   edge of a x edge of b: 6 + 3 k + j
  *
- * A face carries up to four points and an edge one, so a later axis must lead by more than what rounding,
- * or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
+ * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
+ * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
@@ -43,19 +43,23 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
   return choose(crossed, (gap - noise) / square_root(choose(crossed, length, (real)R(1.0))), (real)R(-1e30));
 }
 
-/* The three edges of a against one edge of b; across: how far b reaches along their three products. */
+/* The three edges of a against one edge of b; across: how far b reaches along their three products. Of the edges the
+ * best one wins: only its closest points are sure to lie on both. */
 SHARED separating_axis edges_against(separating_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
-                                     real lead, real noise)
+                                     real noise)
 {
-  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise), code,
-                     lead);
+  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise),
+                     code, noise);
   best = better_axis(best, edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise),
-                     code + 3u, lead);
+                     code + 3u, noise);
   return better_axis(best, edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise),
-                     code + 6u, lead);
+                     code + 6u, noise);
 }
 
-SHARED vec3 in_axes_of(oriented_box box, vec3 v) { return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v)); }
+SHARED vec3 in_axes_of(oriented_box box, vec3 v)
+{
+  return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v));
+}
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
 
@@ -84,9 +88,17 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   best = better_axis(best, gap_b.x, 3u, lead);
   best = better_axis(best, gap_b.y, 4u, lead);
   best = better_axis(best, gap_b.z, 5u, lead);
-  best = edges_against(best, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, lead, noise);
-  best = edges_against(best, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, lead, noise);
-  return edges_against(best, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, lead, noise);
+
+  separating_axis edges;
+  edges.separation = R(-1e30);
+  edges.code = 6u;
+  edges = edges_against(edges, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, noise);
+  edges = edges_against(edges, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, noise);
+  edges = edges_against(edges, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, noise);
+  mask on_edges = edges.separation > best.separation + lead;
+  best.separation = choose(on_edges, edges.separation, best.separation);
+  best.code = choose(on_edges, edges.code, best.code);
+  return best;
 }
 
 #endif

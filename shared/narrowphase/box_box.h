@@ -40,7 +40,7 @@ SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, natural 
   return scale(axis, sign_of(inner(axis, offset)) / length);
 }
 
-/* From the middle of a box to the middle of that of its four edges along frame.axis that lies farthest in a direction. */
+/* From the middle of a box to the middle of that of its edges along frame.axis that lies farthest in a direction. */
 SHARED vec3 support_edge(box_frame frame, vec3 direction)
 {
   vec3 u = scale(frame.u, frame.extent_u * sign_of(inner(frame.u, direction)));

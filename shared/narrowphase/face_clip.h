@@ -50,8 +50,8 @@ SHARED clip_point point_on_side(vec3 middle, vec3 extent, real t, clip_rectangle
 }
 
 /* The side middle + t extent, |t| <= 1, cut to the rectangle widened by slack (Liang and Barsky, 1984). */
-SHARED void clip_side(clip_point *first, vec3 middle, vec3 extent, real inverse_u, real inverse_v, clip_rectangle inside,
-                      real slack)
+SHARED void clip_side(clip_point *first, vec3 middle, vec3 extent, real inverse_u, real inverse_v,
+                      clip_rectangle inside, real slack)
 {
   real u_low = (inside.low_u - slack - middle.x) * inverse_u, u_high = (inside.high_u + slack - middle.x) * inverse_u;
   real v_low = (inside.low_v - slack - middle.y) * inverse_v, v_high = (inside.high_v + slack - middle.y) * inverse_v;

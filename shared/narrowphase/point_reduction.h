@@ -3,8 +3,8 @@
  *              1                 slot 0: farthest along a fixed direction of the reference face
  *          .--*--.               slot 2: farthest from slot 0
  *        *         *             slots 1, 3: farthest to the right and left of the line between
- *      2   `--*--'   0           Then the deepest point, if not among them, replaces the nearest.
- *              3
+ *      2   `--*--'   0           (if one side is empty: farthest outside the triangle of the other three)
+ *              3                 Then the deepest point, if not among them, replaces the nearest.
  *
  * A point must lead the earlier ones by more than rounding can, so equal corners go to the first
  * candidate and slots stay with their points from step to step. The fixed direction is turned away from
@@ -70,6 +70,29 @@ SHARED void keep_deepest(clip_point *four, clip_point deepest, real lead)
   for (int k = 0; k < 4; ++k) four[k] = choose_point(missed & (slot == (natural)(uint)k), deepest, four[k]);
 }
 
+/* Twice the area of the triangle a, b, c: positive if c lies to the left of the way from a to b. */
+SHARED real area_left_of(clip_point a, clip_point b, clip_point c)
+{
+  return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+}
+
+/* Where the polygon lies on one side of the line from four[0] to four[2], the slot of the empty side takes what lies
+ * farthest outside the triangle. */
+SHARED void fill_empty_side(clip_point *four, const clip_point *candidate, real narrow)
+{
+  mask right_only = four[1].valid & (!four[3].valid), left_only = four[3].valid & (!four[1].valid);
+  if (!any_of(right_only | left_only)) return;
+  clip_point tip = choose_point(right_only, four[1], four[3]);
+  clip_point start = choose_point(right_only, four[0], four[2]), end = choose_point(right_only, four[2], four[0]);
+  leader best = leader_above(tip, narrow);
+  for (int k = 0; k < CLIP_CANDIDATES; ++k) {
+    real outside = maximum(area_left_of(start, candidate[k], tip), area_left_of(candidate[k], end, tip));
+    best = challenged(best, candidate[k], outside, best.score * R(1e-3));
+  }
+  four[1] = choose_point(left_only, best.point, four[1]);
+  four[3] = choose_point(right_only, best.point, four[3]);
+}
+
 /* span: size of the polygon at most; noise: rounding error of its corners. */
 SHARED void reduce_points(clip_point *four, const clip_point *candidate, real span, real noise)
 {
@@ -84,11 +107,10 @@ SHARED void reduce_points(clip_point *four, const clip_point *candidate, real sp
     real distance = squared_distance(candidate[k], first.point);
     second = challenged(second, candidate[k], distance, second.score * R(1e-3));
   }
-  real line_u = second.point.u - first.point.u, line_v = second.point.v - first.point.v;
-  real narrow = square_root(line_u * line_u + line_v * line_v) * lead;
+  real narrow = square_root(squared_distance(first.point, second.point)) * lead;
   leader right = leader_above(first.point, narrow), left = right;
   for (int k = 0; k < CLIP_CANDIDATES; ++k) {
-    real across = line_u * (candidate[k].v - first.point.v) - line_v * (candidate[k].u - first.point.u);
+    real across = area_left_of(first.point, second.point, candidate[k]);
     left = challenged(left, candidate[k], across, left.score * R(1e-3));
     right = challenged(right, candidate[k], -across, right.score * R(1e-3));
   }
@@ -96,6 +118,7 @@ SHARED void reduce_points(clip_point *four, const clip_point *candidate, real sp
   four[1] = right.point;
   four[2] = second.point;
   four[3] = left.point;
+  fill_empty_side(four, candidate, narrow);
   keep_deepest(four, deepest.point, lead);
 }
 

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 #include "host/scene.h"
 
 using namespace tandem;

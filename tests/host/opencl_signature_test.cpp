@@ -8,9 +8,11 @@ using namespace tandem;
 
 namespace {
 
+/* PoCL renames what has the name of a built-in function: length, round. */
 std::string argument_name(const cl::Kernel &kernel, cl_uint index)
 {
-  return kernel.getArgInfo<CL_KERNEL_ARG_NAME>(index).c_str();
+  const std::string name = kernel.getArgInfo<CL_KERNEL_ARG_NAME>(index).c_str();
+  return name.rfind("_cl_", 0) == 0 ? name.substr(4) : name;
 }
 
 bool is_pointer(const cl::Kernel &kernel, cl_uint index)
@@ -53,7 +55,7 @@ TEST_CASE("every row of kernels.def has its OpenCL entry, with the same argument
     INFO("kernel " << row.name << " in cl/" << name_of(row.stage) << ".cl");
     cl::Program &program = programs[static_cast<size_t>(row.stage)];
     if (!program())
-      program = opencl::build_program(context, opencl::embedded_program(name_of(row.stage)), "-cl-kernel-arg-info");
+      program = opencl::build_program(context, opencl::embedded_program(name_of(row.stage)), "-cl-kernel-arg-info -D FEATURES=0u");
     cl::Kernel kernel;
     REQUIRE_NOTHROW(kernel = cl::Kernel(program, row.name));
     compare(row, kernel);

@@ -1,4 +1,4 @@
-/* backend.h - launches kernels on one OpenCL device. */
+/* device_backend.h - launches kernels on one OpenCL device. */
 #pragma once
 
 #include <memory>

@@ -1,9 +1,9 @@
-/* backend.cpp - programs and kernels of a scene's features, and their launches into one in-order queue.
+/* device_backend.cpp - programs and kernels of a scene's features, and their launches into one in-order queue.
  *
  * A step makes some two hundred launches of a few microseconds each, so run() allocates nothing and sets only
  * the arguments that changed since the kernel's last launch.
  */
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 
 #include <algorithm>
 #include <array>

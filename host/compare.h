@@ -1,0 +1,73 @@
+/* compare.h - one scene on several backends in lockstep, every kernel's outputs compared bit for bit.
+ *
+ * Exactness is a claim about every kernel, so it is checked after every launch, not at the end: the
+ * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
+ * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
+ * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
+ * two buffers side by side.
+ */
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/buffer_place.h"
+#include "host/world.h"
+
+namespace tandem {
+
+/* Changes memory after a launch on one of the worlds: how tests prove that a difference is found. */
+using Tamper = std::function<void(size_t world, uint64_t step, World &, const Launch &)>;
+
+/* A change of one number by the least possible, after the first launch of `kernel` in `step` on `world`.
+ * `scalar` counts in scalars of the buffer. */
+struct PlantedError {
+  size_t world = 1; /* index into ComparisonRequest::backends */
+  Kernel kernel{};
+  uint64_t step = 0;
+  Buffer buffer{};
+  size_t scalar = 0;
+};
+Tamper plant(const PlantedError &error);
+
+struct ComparisonRequest {
+  Settings settings;
+  Placement placement;               /* `on` is replaced by each of the backends */
+  std::vector<std::string> backends; /* two or more; the first is the reference */
+  uint64_t steps = 1;
+  Tamper tamper;                                 /* optional */
+  std::function<void(uint64_t done)> after_step; /* optional: progress */
+};
+
+/* The first difference. Without a buffer (has_buffer false) the note alone says what differed. */
+struct Difference {
+  uint64_t step = 0;   /* 0 in the first */
+  uint32_t launch = 0; /* which launch of the step, 0 the first */
+  std::string backends[2];
+  std::optional<Kernel> kernel;
+  std::optional<Buffer> buffer;
+  size_t scalar = 0; /* index of the number in the buffer, in scalars */
+  BufferPlace place{};
+  BufferValue values[2];
+  std::optional<uint64_t> ulps;
+  uint64_t differing = 0; /* numbers of this buffer that differ */
+  std::vector<uint32_t> bodies; /* of the scene: the item's body, or the two of its pair */
+  std::string breakpoint;       /* for gdb on the serial backend: function and condition */
+  std::string note;             /* what else there is to say; empty if nothing */
+};
+
+struct Comparison {
+  bool equal = true;
+  uint64_t steps = 0; /* run on every backend; the last may have differed */
+  uint64_t kernels_compared = 0;
+  uint64_t bytes_compared = 0;
+  std::optional<Difference> first_difference;
+};
+
+/* InputError on fewer than two backends, and as World's constructor. */
+Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
+
+} // namespace tandem

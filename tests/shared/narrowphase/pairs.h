@@ -1,0 +1,198 @@
+/* pairs.h - two-body scenes for the narrowphase tests: buffers, launches through the kernel tables, results.
+ *
+ * Results come back in double precision, so that the references of the tests compute with them directly.
+ */
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "minicl/kernel_table.h"
+#include "shared/parameters.h"
+
+namespace tandem::narrowphase_tests {
+
+using Vector = Eigen::Vector3d;
+
+enum Shape : uint32_t { sphere = 0, box = 1, half_space = 2 };
+
+/* Kept in float, as the kernels read it: both sides of a comparison start from the same numbers. */
+struct TestBody {
+  Shape shape = box;
+  Eigen::Vector3f size{1, 1, 1};
+  Eigen::Vector3f position{0, 0, 0};
+  Eigen::Quaternionf orientation{1, 0, 0, 0};
+  Eigen::Vector3f linear{0, 0, 0}, angular{0, 0, 0};
+
+  Vector center() const { return position.cast<double>(); }
+  Vector extent() const { return size.cast<double>(); }
+  Eigen::Matrix3d axes() const { return orientation.cast<double>().normalized().toRotationMatrix(); }
+  float bounding_radius() const { return shape == sphere ? size.x() : shape == box ? size.norm() : 0.0f; }
+};
+
+struct Point {
+  Vector offset;
+  double separation;
+  uint32_t slot;
+};
+
+struct Contact {
+  Vector normal;
+  std::vector<Point> points;
+  uint32_t code;
+};
+
+/* Every output word of a launch, for comparisons bit by bit. */
+struct Outputs {
+  std::vector<row> normals, points;
+  std::vector<uint32_t> counts, features;
+
+  bool operator==(const Outputs &other) const
+  {
+    const auto same = [](const std::vector<row> &a, const std::vector<row> &b) {
+      return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(row)) == 0;
+    };
+    return same(normals, other.normals) && same(points, other.points) && counts == other.counts &&
+           features == other.features;
+  }
+};
+
+class PairScene {
+public:
+  static constexpr uint32_t spare_pairs = 5; /* capacity beyond the pairs: the stride of planes is not their number */
+  static constexpr uint32_t untouched = 0xcdcdcdcdu;
+
+  PairScene()
+  {
+    std::memset(&parameters, 0, sizeof parameters);
+    parameters.step = 1.0f / 60;
+    parameters.speculative_distance = 0.02f;
+    parameters.slop = 0.005f;
+  }
+
+  void add(const TestBody &a, const TestBody &b)
+  {
+    pair_a_.push_back(add_body(a));
+    pair_b_.push_back(add_body(b));
+  }
+  /* The same two bodies, the other way round. */
+  void add_swapped(size_t pair)
+  {
+    const uint32_t a = pair_b_[pair], b = pair_a_[pair];
+    pair_a_.push_back(a);
+    pair_b_.push_back(b);
+  }
+  /* Up to a multiple of the widest lanes. */
+  void pad()
+  {
+    while (pair_a_.size() % 16 != 0) add_swapped(0);
+  }
+  size_t size() const { return pair_a_.size(); }
+  const TestBody &a(size_t pair) const { return bodies_[pair_a_[pair]]; }
+  const TestBody &b(size_t pair) const { return bodies_[pair_b_[pair]]; }
+
+  Outputs run(const std::vector<Kernel> &kernels, const minicl::KernelTable &table = minicl::scalar_kernels)
+  {
+    pad();
+    const size_t pairs = size(), capacity = pairs + spare_pairs;
+    counts_.assign(COUNT_TOTAL, 0);
+    counts_[COUNT_PAIRS] = static_cast<uint32_t>(pairs);
+    counts_[CAPACITY_PAIRS] = static_cast<uint32_t>(capacity);
+    Outputs outputs;
+    row unwritten;
+    std::memset(&unwritten, 0xcd, sizeof unwritten);
+    outputs.normals.assign(capacity, unwritten);
+    outputs.points.assign(4 * capacity, unwritten);
+    outputs.counts.assign(capacity, untouched);
+    outputs.features.assign(capacity, untouched);
+    for (Kernel kernel : kernels) {
+      std::vector<void *> arguments;
+      for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
+      table.run[index_of(kernel)](arguments.data(), 0, static_cast<uint32_t>(pairs));
+    }
+    return outputs;
+  }
+
+  Contact contact(const Outputs &outputs, size_t pair) const
+  {
+    Contact contact;
+    contact.normal = xyz(outputs.normals[pair]);
+    contact.code = outputs.features[pair] >> 8;
+    for (uint32_t k = 0; k < outputs.counts[pair]; ++k) {
+      const row &point = outputs.points[k * outputs.counts.size() + pair];
+      contact.points.push_back({xyz(point), point.w, outputs.features[pair] >> (2 * k) & 3u});
+    }
+    return contact;
+  }
+
+  Parameters parameters;
+
+private:
+  static Vector xyz(const row &r) { return {r.x, r.y, r.z}; }
+  static row to_row(const Eigen::Vector3f &v, float w) { return {v.x(), v.y(), v.z(), w}; }
+
+  uint32_t add_body(const TestBody &body)
+  {
+    bodies_.push_back(body);
+    shapes_.push_back(to_row(body.size, body.bounding_radius()));
+    traits_.push_back(body.shape | 2u << 3 | 7u << 8);
+    positions_.push_back(to_row(body.position, 0));
+    orientations_.push_back({body.orientation.x(), body.orientation.y(), body.orientation.z(), body.orientation.w()});
+    velocities_.push_back(to_row(body.linear, 1));
+    velocities_.push_back(to_row(body.angular, 0));
+    return static_cast<uint32_t>(bodies_.size() - 1);
+  }
+
+  void *storage(Buffer buffer, Outputs &outputs)
+  {
+    switch (buffer) {
+    case Buffer::pair_a: return pair_a_.data();
+    case Buffer::pair_b: return pair_b_.data();
+    case Buffer::body_traits: return traits_.data();
+    case Buffer::body_shape: return shapes_.data();
+    case Buffer::body_position: return positions_.data();
+    case Buffer::body_orientation: return orientations_.data();
+    case Buffer::body_velocity: return velocities_.data();
+    case Buffer::parameters: return &parameters;
+    case Buffer::counts: return counts_.data();
+    case Buffer::manifold_normal: return outputs.normals.data();
+    case Buffer::manifold_points: return outputs.points.data();
+    case Buffer::manifold_count: return outputs.counts.data();
+    case Buffer::manifold_feature: return outputs.features.data();
+    default: throw std::logic_error("a narrowphase kernel reads a buffer unknown to its tests");
+    }
+  }
+
+  std::vector<TestBody> bodies_;
+  std::vector<row> shapes_, positions_, orientations_, velocities_;
+  std::vector<uint32_t> traits_, pair_a_, pair_b_, counts_;
+};
+
+class Random {
+public:
+  explicit Random(uint64_t seed) : engine_(seed) {}
+  double uniform(double low, double high)
+  {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+  uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
+  double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
+  double sign() { return below(2) ? 1.0 : -1.0; }
+  Vector in_cube(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
+  Vector direction()
+  {
+    for (;;) {
+      const Vector v = in_cube(1);
+      if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+    }
+  }
+  Eigen::Quaterniond orientation() { return Eigen::Quaterniond(Eigen::AngleAxisd(uniform(0, 2 * M_PI), direction())); }
+
+private:
+  std::mt19937_64 engine_;
+};
+
+} // namespace tandem::narrowphase_tests

@@ -1,0 +1,198 @@
+/* Spheres against spheres, boxes and half-spaces: closed forms in double precision. */
+#include "tests/catch.h"
+
+#include "tests/shared/narrowphase/box_reference.h"
+
+using namespace tandem;
+using namespace tandem::narrowphase_tests;
+
+namespace {
+
+constexpr size_t pairs = 20000;
+
+TestBody random_body(Random &random, Shape shape, double low, double high)
+{
+  TestBody body;
+  body.shape = shape;
+  for (int k = 0; k < 3; ++k) body.size[k] = static_cast<float>(random.logarithmic(low, high));
+  body.orientation = random.orientation().cast<float>();
+  body.linear = (random.in_cube(3)).cast<float>();
+  body.angular = (random.in_cube(3)).cast<float>();
+  return body;
+}
+
+double scale_of(const TestBody &body) { return body.shape == sphere ? body.size.x() : body.size.norm(); }
+
+/* What a contact must be, however it was found. */
+struct Expected {
+  Vector normal; /* from a to b */
+  double separation;
+  Vector point;  /* midway, in the world */
+  bool normal_is_unique;
+};
+
+/* Speculative distance plus what two bodies can close in a step. */
+double reach(const PairScene &scene, size_t pair, const Vector &normal)
+{
+  const TestBody &a = scene.a(pair), &b = scene.b(pair);
+  const double closing = -(b.linear - a.linear).cast<double>().dot(normal) +
+                         double(a.angular.norm()) * a.bounding_radius() +
+                         double(b.angular.norm()) * b.bounding_radius();
+  return scene.parameters.speculative_distance + scene.parameters.step * std::max(0.0, closing);
+}
+
+template <class Reference>
+void compare(PairScene &scene, Kernel kernel, Reference reference)
+{
+  const Outputs outputs = scene.run({kernel});
+  size_t touching = 0, apart = 0, wrong = 0;
+  for (size_t pair = 0; pair < scene.size(); ++pair) {
+    const Expected expected = reference(scene.a(pair), scene.b(pair));
+    const Contact contact = scene.contact(outputs, pair);
+    const Vector between = scene.b(pair).center() - scene.a(pair).center();
+    const double tolerance = 2e-6 * (between.norm() + scale_of(scene.a(pair)) + scale_of(scene.b(pair)));
+    const double limit = reach(scene, pair, expected.normal);
+    if (std::abs(expected.separation - limit) < tolerance * 4) continue;
+    const bool touches = expected.separation < limit;
+    (touches ? touching : apart) += 1;
+    bool good = outputs.counts[pair] == (touches ? 1u : 0u);
+    if (good && touches) {
+      const Point &point = contact.points[0];
+      good = std::abs(point.separation - expected.separation) < tolerance && contact.code == 0 && point.slot == 0;
+      if (expected.normal_is_unique)
+        good = good && (contact.normal - expected.normal).norm() < 1e-3 &&
+               (scene.a(pair).center() + point.offset - expected.point).norm() < 2e-3 * tolerance / 2e-6;
+      good = good && std::abs(contact.normal.norm() - 1) < 1e-6;
+    }
+    if (!good && wrong++ < 3) {
+      CAPTURE(pair, expected.separation, limit, outputs.counts[pair], contact.normal, expected.normal);
+      CHECK(good);
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(touching > scene.size() / 4);
+  CHECK(apart > scene.size() / 100);
+}
+
+/* b at a given gap from a along a direction, plus noise: touching, apart and overlapping alike. */
+double random_gap(Random &random, double size)
+{
+  switch (random.below(4)) {
+  case 0: return random.uniform(-1, 1) * 1e-6 * size;
+  case 1: return random.uniform(-0.05, 0.05) * size;
+  case 2: return random.uniform(0, 0.5) * size;
+  default: return -random.uniform(0, 1) * size;
+  }
+}
+
+} // namespace
+
+TEST_CASE("sphere against sphere: distance of centres less the radii")
+{
+  Random random(1);
+  PairScene scene;
+  while (scene.size() < pairs) {
+    const bool extreme = random.below(4) == 0;
+    TestBody a = random_body(random, sphere, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
+    TestBody b = random_body(random, sphere, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
+    const double sum = double(a.size.x()) + b.size.x();
+    a.position = random.in_cube(1).cast<float>();
+    const double distance = std::max(0.0, sum + random_gap(random, std::min(a.size.x(), b.size.x())));
+    b.position = a.position + (random.direction() * distance).cast<float>();
+    scene.add(a, b);
+  }
+  compare(scene, Kernel::collide_sphere_sphere, [](const TestBody &a, const TestBody &b) {
+    const Vector between = b.center() - a.center();
+    const double distance = between.norm(), separation = distance - a.size.x() - b.size.x();
+    const Vector normal = distance > 0 ? Vector(between / distance) : Vector(Vector::UnitY());
+    return Expected{normal, separation, a.center() + normal * (a.size.x() + separation / 2), distance > 1e-6};
+  });
+}
+
+TEST_CASE("coincident spheres part upward")
+{
+  PairScene scene;
+  TestBody ball;
+  ball.shape = sphere;
+  scene.add(ball, ball);
+  const Contact contact = scene.contact(scene.run({Kernel::collide_sphere_sphere}), 0);
+  REQUIRE(contact.points.size() == 1);
+  CHECK(contact.normal == Vector(0, 1, 0));
+  CHECK(contact.points[0].separation == -2);
+}
+
+TEST_CASE("sphere against box: the nearest point, or the face of least depth")
+{
+  Random random(2);
+  PairScene scene;
+  while (scene.size() < pairs) {
+    const bool extreme = random.below(4) == 0;
+    TestBody ball = random_body(random, sphere, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
+    TestBody brick = random_body(random, box, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
+    brick.position = random.in_cube(1).cast<float>();
+    /* From a point of the surface outward. */
+    Vector on_surface = random.in_cube(1);
+    const uint32_t kept = random.below(3);
+    on_surface[kept] = random.sign();
+    if (random.below(2)) on_surface[(kept + 1) % 3] = random.sign();
+    const Vector outward = (brick.axes() * on_surface.array().round().matrix()).normalized();
+    const double size = std::min<double>(ball.size.x(), brick.size.minCoeff());
+    const bool inside = random.below(3) == 0;
+    const double gap = inside ? -ball.size.x() - random.uniform(0, 1) * size : random_gap(random, size);
+    const Vector center = brick.center() + brick.axes() * on_surface.cwiseProduct(brick.extent()) +
+                          outward * (ball.size.x() + gap);
+    ball.position = center.cast<float>();
+    if (random.below(2)) scene.add(ball, brick);
+    else scene.add(brick, ball);
+  }
+  compare(scene, Kernel::collide_sphere_box, [](const TestBody &a, const TestBody &b) {
+    const bool sphere_first = a.shape == sphere;
+    const TestBody &ball = sphere_first ? a : b, &brick = sphere_first ? b : a;
+    const Vector local = brick.axes().transpose() * (ball.center() - brick.center());
+    const Vector nearest = local.cwiseMax(-brick.extent()).cwiseMin(brick.extent());
+    const double distance = (local - nearest).norm();
+    Vector outward;
+    double surface = distance;
+    bool unique = true;
+    if (distance > 0) {
+      outward = (local - nearest) / distance;
+      unique = distance > 1e-3 * (brick.extent().norm() + local.norm());
+    } else {
+      const Vector depth = brick.extent() - local.cwiseAbs();
+      int face;
+      surface = -depth.minCoeff(&face);
+      outward = Vector::Unit(face) * (local[face] < 0 ? -1 : 1);
+      const double margin = 1e-5 * brick.extent().norm();
+      unique = (depth.array() < depth.minCoeff() + margin).count() == 1 && std::abs(local[face]) > margin &&
+               depth.minCoeff() > margin;
+    }
+    const double separation = surface - ball.size.x();
+    const Vector world = brick.axes() * outward;
+    return Expected{sphere_first ? Vector(-world) : world, separation,
+                    ball.center() - world * (ball.size.x() + separation / 2), unique};
+  });
+}
+
+TEST_CASE("sphere against half-space: height above the plane")
+{
+  Random random(3);
+  PairScene scene;
+  while (scene.size() < pairs) {
+    TestBody ball = random_body(random, sphere, 1e-3, 1e3);
+    TestBody ground = random_body(random, half_space, 1, 1);
+    ground.position = random.in_cube(1).cast<float>();
+    const Vector up = ground.axes().col(1);
+    const Vector along = ground.axes().col(0) * random.uniform(-5, 5);
+    ball.position = (ground.center() + along + up * (ball.size.x() + random_gap(random, ball.size.x()))).cast<float>();
+    if (random.below(2)) scene.add(ball, ground);
+    else scene.add(ground, ball);
+  }
+  compare(scene, Kernel::collide_sphere_half_space, [](const TestBody &a, const TestBody &b) {
+    const bool sphere_first = a.shape == sphere;
+    const TestBody &ball = sphere_first ? a : b, &ground = sphere_first ? b : a;
+    const Vector up = ground.axes().col(1);
+    const double separation = up.dot(ball.center() - ground.center()) - ball.size.x();
+    return Expected{sphere_first ? Vector(-up) : up, separation,
+                    ball.center() - up * (ball.size.x() + separation / 2), true};
+  });
+}

@@ -1,0 +1,79 @@
+/* All pair types, mixed, at every width and in both directions: the same bits in every word of every output. */
+#include "tests/catch.h"
+
+#include "tests/shared/narrowphase/pairs.h"
+
+using namespace tandem;
+using namespace tandem::narrowphase_tests;
+
+namespace {
+
+const std::vector<Kernel> all_kernels = {Kernel::collide_sphere_sphere, Kernel::collide_sphere_box,
+                                         Kernel::collide_box_box, Kernel::collide_sphere_half_space,
+                                         Kernel::collide_box_half_space};
+
+TestBody random_body(Random &random, bool may_be_half_space)
+{
+  TestBody body;
+  body.shape = Shape(random.below(may_be_half_space ? 3 : 2));
+  for (int k = 0; k < 3; ++k) body.size[k] = static_cast<float>(random.logarithmic(0.1, 2));
+  if (random.below(3)) body.orientation = random.orientation().cast<float>();
+  body.position = random.in_cube(1).cast<float>();
+  body.linear = random.in_cube(2).cast<float>();
+  body.angular = random.in_cube(2).cast<float>();
+  return body;
+}
+
+PairScene mixed_pairs()
+{
+  Random random(11);
+  PairScene scene;
+  while (scene.size() < 20000) {
+    TestBody a = random_body(random, true), b = random_body(random, a.shape != half_space);
+    if (random.below(16) == 0) b.position = a.position;
+    if (random.below(16) == 0) b.orientation = a.orientation;
+    scene.add(a, b);
+  }
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("narrowphase: every width and direction gives the same bits")
+{
+  PairScene scene = mixed_pairs();
+  const Outputs expected = scene.run(all_kernels);
+  CHECK(scene.run(all_kernels, minicl::backward_kernels) == expected);
+  for (uint32_t lanes : {4u, 8u, 16u}) {
+    const minicl::KernelTable *table = minicl::lanes_table(lanes);
+    if (lanes > minicl::widest_lanes()) continue;
+    REQUIRE(table != nullptr);
+    INFO(lanes << " lanes");
+    CHECK(scene.run(all_kernels, *table) == expected);
+  }
+}
+
+TEST_CASE("narrowphase: the order of the kernels does not matter, and each pair is written whole")
+{
+  PairScene scene = mixed_pairs();
+  const Outputs expected = scene.run(all_kernels);
+  CHECK(scene.run({all_kernels.rbegin(), all_kernels.rend()}) == expected);
+  const size_t pairs = scene.size(), capacity = expected.counts.size();
+  for (size_t pair = 0; pair < capacity; ++pair) {
+    const bool written = pair < pairs;
+    REQUIRE((expected.counts[pair] != PairScene::untouched) == written);
+    REQUIRE((expected.features[pair] != PairScene::untouched) == written);
+    uint32_t word;
+    for (uint32_t k = 0; k < 4; ++k) {
+      std::memcpy(&word, &expected.points[k * capacity + pair].w, sizeof word);
+      REQUIRE((word != PairScene::untouched) == written);
+    }
+  }
+  size_t finite = 0;
+  for (size_t pair = 0; pair < pairs; ++pair)
+    for (const Point &point : scene.contact(expected, pair).points) finite += point.offset.allFinite();
+  size_t points = 0;
+  for (size_t pair = 0; pair < pairs; ++pair) points += expected.counts[pair];
+  CHECK(finite == points);
+  CHECK(points > pairs / 2);
+}

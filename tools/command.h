@@ -1,0 +1,29 @@
+/* command.h - the subcommands of `tandem`, one file each.
+ *
+ * A function adds its options to the parser and returns what to run once they are parsed. Exit status:
+ * 0 fine, 1 the check failed (or a device did), 2 bad use or input, thrown as InputError.
+ */
+#pragma once
+
+#include <functional>
+
+#include <CLI/CLI.hpp>
+
+namespace tandem {
+
+struct Command {
+  CLI::App *parser;
+  std::function<int()> execute;
+};
+
+Command devices_command(CLI::App &parser);
+Command scenes_command(CLI::App &parser);
+Command run_command(CLI::App &parser);
+Command diff_command(CLI::App &parser);
+Command plan_command(CLI::App &parser);
+Command bench_command(CLI::App &parser);
+
+/* Part of the command's contract, not built yet: each says so and exits with 2. */
+std::vector<Command> later_commands(CLI::App &parser);
+
+} // namespace tandem

@@ -1,0 +1,40 @@
+/* measure.h - runs a world for some steps and times them.
+ *
+ *   steps   0 ....... N/2 ..........................  N - 1
+ *           warm-up    timed, timed, ..., profiled (every 8th, left out of step_ms), timed ...
+ *
+ * The clock is read with all devices finished. Measuring single kernels slows launches, so the steps that
+ * are profiled are not those that are timed.
+ */
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/world.h"
+
+namespace tandem {
+
+struct Spread {
+  double median = 0, minimum = 0, maximum = 0;
+};
+Spread spread_of(std::vector<double> values); /* zeros for none */
+
+struct StageTime {
+  std::string name;
+  std::string backend;
+  double milliseconds = 0; /* a step */
+};
+
+struct Measurement {
+  Spread step_milliseconds;
+  std::vector<StageTime> stages; /* pipeline order */
+  uint64_t timed_steps = 0, profiled_steps = 0;
+};
+
+/* `after_step(done)` is called outside of the timed span. */
+Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step);
+
+} // namespace tandem

@@ -1,0 +1,79 @@
+/* output.cpp - see output.h. */
+#include "tools/output.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "host/scene.h"
+
+namespace tandem {
+namespace {
+
+[[noreturn]] void refuse(const std::string &option, const std::string &path)
+{
+  throw InputError(fmt::format("{} {}: cannot write this file: {}", option, path, std::strerror(errno)));
+}
+
+} // namespace
+
+void check_writable(const std::string &option, const std::string &path)
+{
+  if (path.empty() || path == "-") return;
+  const bool existed = std::filesystem::exists(path);
+  std::FILE *file = std::fopen(path.c_str(), "ab");
+  if (!file) refuse(option, path);
+  std::fclose(file);
+  if (!existed) std::filesystem::remove(path);
+}
+
+void write_file(const std::string &option, const std::string &path, const std::string &contents)
+{
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+  file.close();
+  if (!file) refuse(option, path);
+}
+
+void JsonOutput::write(const Json &json) const
+{
+  if (path.empty()) return;
+  const std::string text = json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (takes_standard_output()) fmt::print("{}", text);
+  else write_file("--json", path, text);
+}
+
+std::string Table::text(const std::string &indent) const
+{
+  std::vector<size_t> widths;
+  for (const auto &row : rows_)
+    for (size_t c = 0; c < row.size(); ++c) {
+      if (c == widths.size()) widths.push_back(0);
+      widths[c] = std::max(widths[c], row[c].size());
+    }
+  std::string text;
+  for (const auto &row : rows_) {
+    std::string line = indent;
+    for (size_t c = 0; c < row.size(); ++c)
+      line += (c ? "  " : "") + (c && right_ ? fmt::format("{:>{}}", row[c], widths[c]) : fmt::format("{:<{}}", row[c], widths[c]));
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return text;
+}
+
+std::string bytes_text(uint64_t bytes)
+{
+  if (bytes < 1024) return fmt::format("{} B", bytes);
+  if (bytes < 1024 * 1024) return fmt::format("{:.1f} KiB", static_cast<double>(bytes) / 1024);
+  if (bytes < 1024ull * 1024 * 1024) return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1024 * 1024));
+  return fmt::format("{:.2f} GiB", static_cast<double>(bytes) / (1024.0 * 1024 * 1024));
+}
+
+std::string hash_text(uint64_t hash) { return fmt::format("{:016x}", hash); }
+
+} // namespace tandem

@@ -1,0 +1,213 @@
+/* run.cpp - `tandem run`: simulate a scene, say how long each stage took and what came out. */
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "host/animation.h"
+#include "host/world.h"
+#include "tools/command.h"
+#include "tools/measure.h"
+#include "tools/output.h"
+#include "tools/progress.h"
+#include "tools/scene_options.h"
+#include "tools/trace.h"
+
+namespace tandem {
+namespace {
+
+struct RunOptions {
+  explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
+  SceneOptions scene;
+  std::string save, image, trace;
+  JsonOutput json;
+};
+
+void add_options(CLI::App &parser, RunOptions &options)
+{
+  parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
+  parser.add_option("--image", options.image, "not supported yet")->type_name("F.png");
+  parser.add_option("--trace", options.trace,
+                    "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
+      ->type_name("F.json");
+  parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
+  parser.footer("Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
+                "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
+                "stages alone.");
+}
+
+void check_files(const RunOptions &options)
+{
+  if (!options.image.empty()) throw InputError("--image is not supported yet; --save F.glb writes an animation");
+  check_writable("--save", options.save);
+  check_writable("--trace", options.trace);
+  options.json.check();
+}
+
+/* The animation while it is recorded; nothing without --save. */
+class Recording {
+public:
+  Recording(const std::string &path, World &world) : world_(world)
+  {
+    if (path.empty()) return;
+    writer_ = std::make_unique<AnimationWriter>(world.scene(), path);
+    add_frame(0);
+  }
+  void add_frame(uint64_t step)
+  {
+    if (!writer_) return;
+    std::vector<Vec3> positions;
+    std::vector<Quat> orientations;
+    for (const BodyState &body : world_.bodies()) {
+      positions.push_back(body.position);
+      orientations.push_back(body.orientation);
+    }
+    writer_->add_frame(static_cast<double>(step) * static_cast<double>(world_.settings().step), positions, orientations);
+  }
+  void finish()
+  {
+    if (writer_) writer_->finish();
+  }
+
+private:
+  World &world_;
+  std::unique_ptr<AnimationWriter> writer_;
+};
+
+struct Outcome {
+  std::string scene;
+  uint64_t steps;
+  Measurement measurement;
+  Statistics statistics;
+  uint64_t hash, body_hash;
+};
+
+Json stages_json(const Measurement &measurement)
+{
+  Json stages = Json::array();
+  for (const StageTime &stage : measurement.stages)
+    stages.push_back({{"name", stage.name}, {"backend", stage.backend}, {"ms", stage.milliseconds}});
+  return stages;
+}
+
+Json outcome_json(const Outcome &outcome, World &world, const Placement &placement)
+{
+  const Spread &step = outcome.measurement.step_milliseconds;
+  const Statistics &statistics = outcome.statistics;
+  return {{"scene", outcome.scene},
+          {"backend", placement.on},
+          {"solver", world.settings().solver},
+          {"bodies", world.scene().bodies.size()},
+          {"steps", outcome.steps},
+          {"dt", world.settings().step},
+          {"step_ms", {{"median", step.median}, {"min", step.minimum}, {"max", step.maximum}}},
+          {"stages", stages_json(outcome.measurement)},
+          {"pairs", statistics.pairs},
+          {"contacts", statistics.contacts},
+          {"colors", statistics.colors},
+          {"max_penetration", statistics.max_penetration},
+          {"mean_penetration", statistics.mean_penetration},
+          {"kinetic_energy", statistics.kinetic_energy},
+          {"nonfinite", statistics.nonfinite},
+          {"overflow", statistics.overflow},
+          {"memory_bytes", world.memory().total_bytes()},
+          {"kernels_built", world.kernels().size()},
+          {"build_ms", world.build_milliseconds()},
+          {"hash", hash_text(outcome.hash)},
+          {"body_hash", hash_text(outcome.body_hash)}};
+}
+
+std::string stage_table(const Measurement &measurement)
+{
+  Table table({"stage", "ms/step", "backend"});
+  double sum = 0;
+  for (const StageTime &stage : measurement.stages) {
+    table.add({stage.name, fmt::format("{:.3f}", stage.milliseconds), stage.backend});
+    sum += stage.milliseconds;
+  }
+  table.add({"kernels, sum", fmt::format("{:.3f}", sum), ""});
+  const Spread &step = measurement.step_milliseconds;
+  table.add({"whole step", fmt::format("{:.3f}", step.median), ""});
+  return table.text("  ") + fmt::format("  whole step: median of {} steps, {:.3f} to {:.3f} ms\n", measurement.timed_steps,
+                                        step.minimum, step.maximum);
+}
+
+std::string facts_table(const Outcome &outcome, World &world)
+{
+  const Statistics &statistics = outcome.statistics;
+  Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
+  table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
+  table.add({"colours", fmt::format("{}", statistics.colors)});
+  table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
+                                        statistics.mean_penetration * 1e3)});
+  table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
+  table.add({"memory", bytes_text(world.memory().total_bytes())});
+  table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
+  table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
+  return table.text("  ");
+}
+
+void print_outcome(const Outcome &outcome, World &world, const Placement &placement)
+{
+  fmt::print("{}: {} bodies, {} steps of {:.6g} s on {}\n\n", outcome.scene, world.scene().bodies.size(), outcome.steps,
+             world.settings().step, placement.on);
+  fmt::print("{}\n{}", stage_table(outcome.measurement), facts_table(outcome, world));
+}
+
+/* What a user must not miss, whatever else is printed. */
+void print_warnings(const Outcome &outcome, World &world)
+{
+  for (const Quarantine &quarantine : world.quarantined())
+    fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
+               quarantine.name, quarantine.step, quarantine.stage);
+  if (outcome.statistics.overflow)
+    fmt::print(stderr, "tandem: {} steps ran again with larger buffers\n", outcome.statistics.overflow);
+}
+
+Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
+{
+  Recording recording(options.save, world);
+  std::optional<Trace> trace;
+  if (!options.trace.empty()) trace.emplace(world);
+  Progress progress("simulating", steps);
+  Outcome outcome{options.scene.scene_text(), steps, {}, {}, 0, 0};
+  if (trace) trace->begin_step();
+  outcome.measurement = measure(world, steps, [&](uint64_t done) {
+    if (trace) trace->end_step(done - 1);
+    recording.add_frame(done);
+    progress.update(done);
+    if (trace) trace->begin_step();
+  });
+  recording.finish();
+  if (trace) write_file("--trace", options.trace, trace->json());
+  outcome.statistics = world.statistics();
+  outcome.hash = world.state_hash();
+  outcome.body_hash = world.body_hash();
+  return outcome;
+}
+
+int execute(const RunOptions &options)
+{
+  const Settings settings = options.scene.settings();
+  const Placement placement = options.scene.placement();
+  const uint64_t steps = options.scene.steps();
+  check_files(options);
+  World world(options.scene.scene(), settings, placement);
+  const Outcome outcome = simulate(world, options, steps);
+  if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
+  print_warnings(outcome, world);
+  options.json.write(outcome_json(outcome, world, placement));
+  return 0;
+}
+
+} // namespace
+
+Command run_command(CLI::App &parser)
+{
+  CLI::App *command = parser.add_subcommand("run", "simulate a scene");
+  auto options = std::make_shared<RunOptions>(*command);
+  add_options(*command, *options);
+  return {command, [options] { return execute(*options); }};
+}
+
+} // namespace tandem

@@ -1,0 +1,119 @@
+/* scene_options.cpp - see scene_options.h. Numbers are read here rather than by the parser, so that a
+ * bad one is named with what would be right. */
+#include "tools/scene_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/scene_catalog.h"
+
+namespace tandem {
+namespace {
+
+constexpr uint64_t most_steps = 1'000'000'000;
+
+std::string one_of(const char *what, const std::vector<std::string> &names)
+{
+  return fmt::format("{}: {}", what, fmt::join(names, ", "));
+}
+
+} // namespace
+
+uint64_t whole_number(const std::string &option, const std::string &text, uint64_t lowest, uint64_t highest)
+{
+  uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < lowest || value > highest)
+    throw InputError(fmt::format("{} '{}': use a whole number from {} to {}", option, text, lowest, highest));
+  return value;
+}
+
+double real_number(const std::string &option, const std::string &text)
+{
+  char *end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value))
+    throw InputError(fmt::format("{} '{}': use a finite number", option, text));
+  return value;
+}
+
+SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
+{
+  const Settings defaults;
+  step_ = "1/60";
+  substeps_ = std::to_string(defaults.substeps);
+  iterations_ = std::to_string(defaults.iterations);
+  solver_ = defaults.solver;
+  broadphase_ = defaults.broadphase;
+  narrowphase_ = defaults.narrowphase;
+  batching_ = defaults.batching;
+  const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
+    parser.add_option(name, value, what)->type_name(type)->capture_default_str();
+  };
+  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb) or name:key=value,...")->required()->type_name("");
+  if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");
+  option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
+  option("--steps", steps_, "how many steps", "N");
+  option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
+  option("--substeps", substeps_, "substeps of a step", "N");
+  option("--iterations", iterations_, "solver passes of a substep", "N");
+  option("--solver", solver_, one_of("solver", solver_names()), "NAME");
+  option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
+  option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
+  option("--batching", batching_, one_of("batching", batching_names()), "NAME");
+  parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
+  parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
+}
+
+Settings SceneOptions::settings() const
+{
+  Settings settings;
+  if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
+  else settings.step = static_cast<float>(real_number("--dt", step_));
+  settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
+  settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
+  settings.solver = solver_;
+  settings.broadphase = broadphase_;
+  settings.narrowphase = narrowphase_;
+  settings.batching = batching_;
+  settings.specialise = !no_specialise_;
+  validate(settings);
+  return settings;
+}
+
+Placement SceneOptions::placement() const
+{
+  Placement placement;
+  placement.on = on_;
+  if (!place_.empty()) placement.exceptions = parse_placement(place_);
+  placement.allow_inexact = inexact_;
+  return placement;
+}
+
+uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1, most_steps); }
+
+Scene SceneOptions::scene() const { return load_scene(scene_); }
+
+std::string SceneOptions::typed_again() const
+{
+  const Settings defaults;
+  std::string text;
+  const auto add = [&](const char *name, const std::string &value, const std::string &standard) {
+    if (value != standard) text += fmt::format(" {} {}", name, value);
+  };
+  add("--dt", step_, "1/60");
+  add("--substeps", substeps_, std::to_string(defaults.substeps));
+  add("--iterations", iterations_, std::to_string(defaults.iterations));
+  add("--solver", solver_, defaults.solver);
+  add("--broadphase", broadphase_, defaults.broadphase);
+  add("--narrowphase", narrowphase_, defaults.narrowphase);
+  add("--batching", batching_, defaults.batching);
+  if (no_specialise_) text += " --no-specialise";
+  return text;
+}
+
+} // namespace tandem

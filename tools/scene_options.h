@@ -1,0 +1,40 @@
+/* scene_options.h - the options that say what is simulated and how; run, diff and plan share them. */
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "host/scene.h"
+#include "host/settings.h"
+
+namespace tandem {
+
+/* Whole number in [lowest, highest]; InputError names the option. */
+uint64_t whole_number(const std::string &option, const std::string &text, uint64_t lowest, uint64_t highest);
+/* Any finite number, as strtod reads it. */
+double real_number(const std::string &option, const std::string &text);
+
+class SceneOptions {
+public:
+  /* `one_backend`: adds --on; diff names its backends otherwise. */
+  SceneOptions(CLI::App &parser, bool one_backend);
+
+  /* After parsing. InputError on the first option that makes no sense. */
+  Settings settings() const;
+  Placement placement() const;
+  uint64_t steps() const;
+  Scene scene() const;
+  const std::string &scene_text() const { return scene_; }
+
+  /* The options that differ from their defaults, as they would be typed again. */
+  std::string typed_again() const;
+
+private:
+  std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
+  std::string solver_, broadphase_, narrowphase_, batching_;
+  bool no_specialise_ = false, inexact_ = false;
+};
+
+} // namespace tandem
