@@ -214,11 +214,11 @@ struct World::Implementation {
   Scene scene;
   Settings settings;
   Specialisation special;
-  Memory memory;
+  std::map<std::string, std::unique_ptr<Backend>> backends;
+  Memory memory; /* after the backends, whose storages it gives its buffers back to */
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<Kernel> kernels;
-  std::map<std::string, std::unique_ptr<Backend>> backends;
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;

@@ -35,17 +35,19 @@ SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
 
 typedef struct { quat orientation; vec3 angular; } spin;
 
-SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
+/* Where the moments are equal L and w are parallel and w stays: without this rounding would turn it, and a body would
+ * depend on whether the scene has others that need the gyroscopic term. */
+SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, mask uneven, real h)
 {
   mask finite = (inverse_moments.x > R(0.0)) & (inverse_moments.y > R(0.0)) & (inverse_moments.z > R(0.0));
   vec3 ones = make_vec3(R(1.0), R(1.0), R(1.0));
   vec3 inverse = choose3(finite, inverse_moments, ones);
   vec3 moments = make_vec3(R(1.0) / inverse.x, R(1.0) / inverse.y, R(1.0) / inverse.z);
   vec3 momentum = spin_of(q, moments, angular);
-  vec3 middle = spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum);
+  vec3 middle = choose3(uneven, spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum), angular);
   spin s;
   s.orientation = turned(q, scale(middle, h));
-  s.angular = spin_of(s.orientation, inverse, momentum);
+  s.angular = choose3(uneven, spin_of(s.orientation, inverse, momentum), angular);
   return s;
 }
 
@@ -67,11 +69,12 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
 
   quat q = quat_from(load_row(solver_orientation, i));
   if (HAS_FEATURE(parameters, FEATURE_GYROSCOPIC)) {
-    spin s = turn_freely(q, m.angular, xyz(mass), h);
+    mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
+    spin s = turn_freely(q, m.angular, xyz(mass), uneven, h);
     q = s.orientation;
-    m.angular = choose3(m.inverse_mass > R(0.0), s.angular, m.angular);
-    store_motion_if(m.inverse_mass > R(0.0), solver_velocity, i, m);
-    store_inertia(solver_inertia, i, rotate_diagonal(rotation_of(q), xyz(mass)));
+    m.angular = s.angular;
+    store_motion_if(uneven, solver_velocity, i, m);
+    store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(q), xyz(mass)));
   } else {
     q = turned(q, scale(m.angular, h));
   }
