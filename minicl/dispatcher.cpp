@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -48,6 +49,8 @@ class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
+        /* More threads than processors, when asked for: results must not depend on it, and tests look. */
+        workers_(tbb::global_control::max_allowed_parallelism, std::max<size_t>(options.threads, tbb::this_task_arena::max_concurrency())),
         scalar_(options.order == Order::forward ? scalar_kernels : backward_kernels), lanes_(lanes_table(options.lanes))
   {
   }
@@ -133,6 +136,7 @@ private:
   Order order_;
   tbb::task_arena arena_;
   uint32_t threads_;
+  tbb::global_control workers_;
   const KernelTable &scalar_;
   const KernelTable *lanes_;
   bool profiling_ = false;
