@@ -203,11 +203,11 @@ struct World::Implementation {
   Scene scene;
   Settings settings;
   Specialisation special;
+  std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which gives their buffers back */
   Memory memory;
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<Kernel> kernels;
-  std::map<std::string, std::unique_ptr<Backend>> backends;
   std::array<Backend *, kernel_count> placed{};
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;
