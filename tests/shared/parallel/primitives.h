@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/launcher.h"
-#include "host/opencl/backend.h"
+#include "host/opencl/device_backend.h"
 #include "host/primitives.h"
 #include "tests/catch.h"
 #include "tests/host/opencl_device.h"
