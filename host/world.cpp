@@ -36,7 +36,7 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), special(specialise(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
     if (!settings.specialise) special.features = all_features();
@@ -45,7 +45,7 @@ struct World::Implementation {
     plan.capacity_cells = cells_for(plan.bodies);
     plan.capacity_pairs = 5 * plan.bodies + 1024;
     record_kernels();
-    place(placement);
+    place(wanted);
     allocate();
     upload_scene();
     guess_counts();
@@ -88,7 +88,7 @@ struct World::Implementation {
     return text;
   }
 
-  /* All that can fail comes before the first change of `placed`. */
+  /* All that can fail comes before the first change of what is placed. */
   void place(const Placement &placement)
   {
     std::map<Backend *, std::vector<Kernel>> own;
@@ -96,6 +96,7 @@ struct World::Implementation {
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
+    wanted = placement;
   }
 
   /* What the next step inherits is kept; everything else is written before it is read. */
@@ -197,6 +198,8 @@ struct World::Implementation {
       throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
     }
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+    record_kernels(); /* longer scans and sorts take other kernels */
+    place(wanted);
     guess_counts();
   }
 
@@ -213,9 +216,10 @@ struct World::Implementation {
 
   Scene scene;
   Settings settings;
+  Placement wanted;
   Specialisation special;
-  std::map<std::string, std::unique_ptr<Backend>> backends;
-  Memory memory; /* after the backends, whose storages it gives its buffers back to */
+  std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
+  Memory memory;
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<Kernel> kernels;

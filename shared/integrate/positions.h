@@ -35,19 +35,17 @@ SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
 
 typedef struct { quat orientation; vec3 angular; } spin;
 
-/* Where the moments are equal L and w are parallel and w stays: without this rounding would turn it, and a body would
- * depend on whether the scene has others that need the gyroscopic term. */
-SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, mask uneven, real h)
+SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
 {
   mask finite = (inverse_moments.x > R(0.0)) & (inverse_moments.y > R(0.0)) & (inverse_moments.z > R(0.0));
   vec3 ones = make_vec3(R(1.0), R(1.0), R(1.0));
   vec3 inverse = choose3(finite, inverse_moments, ones);
   vec3 moments = make_vec3(R(1.0) / inverse.x, R(1.0) / inverse.y, R(1.0) / inverse.z);
   vec3 momentum = spin_of(q, moments, angular);
-  vec3 middle = choose3(uneven, spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum), angular);
+  vec3 middle = spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum);
   spin s;
   s.orientation = turned(q, scale(middle, h));
-  s.angular = choose3(uneven, spin_of(s.orientation, inverse, momentum), angular);
+  s.angular = spin_of(s.orientation, inverse, momentum);
   return s;
 }
 
@@ -68,17 +66,17 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   store_row(solver_delta, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
 
   quat q = quat_from(load_row(solver_orientation, i));
+  quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, FEATURE_GYROSCOPIC)) {
+    /* Per body, so that a body's bits do not depend on what else is in the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
-    spin s = turn_freely(q, m.angular, xyz(mass), uneven, h);
-    q = s.orientation;
+    spin s = turn_freely(q, m.angular, xyz(mass), h);
+    next = quat_from(choose4(uneven, quat_to_row(s.orientation), quat_to_row(next)));
     m.angular = s.angular;
     store_motion_if(uneven, solver_velocity, i, m);
-    store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(q), xyz(mass)));
-  } else {
-    q = turned(q, scale(m.angular, h));
+    store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(next), xyz(mass)));
   }
-  store_row(solver_orientation, i, quat_to_row(q));
+  store_row(solver_orientation, i, quat_to_row(next));
 }
 
 #endif

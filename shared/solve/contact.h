@@ -45,6 +45,16 @@ SHARED void store_contact_motion(GLOBAL row *solver_velocity, contact c)
   store_motion_if(c.motion_b.inverse_mass > R(0.0), solver_velocity, c.b, c.motion_b);
 }
 
+/* An impulse of 0 is not applied: adding 0 would turn -0 into +0, and so depend on what shares the lanes. */
+SHARED contact with_motion_if(mask wanted, contact c, contact moved)
+{
+  c.motion_a.linear = choose3(wanted, moved.motion_a.linear, c.motion_a.linear);
+  c.motion_a.angular = choose3(wanted, moved.motion_a.angular, c.motion_a.angular);
+  c.motion_b.linear = choose3(wanted, moved.motion_b.linear, c.motion_b.linear);
+  c.motion_b.angular = choose3(wanted, moved.motion_b.angular, c.motion_b.angular);
+  return c;
+}
+
 SHARED contact apply_turn(contact c, vec3 turn_a, vec3 turn_b, real impulse)
 {
   c.motion_a.angular = add_scaled(c.motion_a.angular, symmetric_times(c.inertia_a, turn_a), -impulse);
@@ -155,12 +165,13 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION)) {
+  mask rough = c.friction > R(0.0);
+  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     solved s = solve_friction(c, load_row(constraint_center, i), load_row(constraint_center, stride + i),
                               load_row(constraint_friction_impulse, i), pressure);
-    c = s.c;
-    store_row(constraint_friction_impulse, i, s.impulse);
+    c = with_motion_if(rough, c, s.c);
+    store_row_if(rough, constraint_friction_impulse, i, s.impulse);
   }
 
   softness soft = softness_of(parameters, c);
@@ -194,6 +205,7 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
   if (!any_of(bounces)) return;
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact before = c;
   vec4 impulses = load_row(constraint_normal_impulse, i);
   real next[4];
   for (uint k = 0; k < 4u; ++k) {
@@ -206,8 +218,8 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
     next[k] = choose(applies, wanted, old);
     c = apply_impulse(c, c.normal, turn_a, turn_b, next[k] - old);
   }
-  store_row(constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
-  store_contact_motion(solver_velocity, c);
+  store_row_if(bounces, constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
+  store_contact_motion(solver_velocity, with_motion_if(bounces, before, c));
 }
 
 #endif
