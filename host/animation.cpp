@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace tandem {
 struct CloseFile {
@@ -47,10 +48,12 @@ struct Recording {
   Recording(const std::string &target_path, uint32_t keep_every);
   ~Recording();
 
-  [[noreturn]] void fail(const char *what) const {
+  [[noreturn]] void fail(const char *what) const
+  {
     throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(errno ? errno : EIO)));
   }
-  void put(std::FILE *file, const void *data, size_t bytes) const {
+  void put(std::FILE *file, const void *data, size_t bytes) const
+  {
     errno = 0;
     if (std::fwrite(data, 1, bytes, file) != bytes) fail("cannot write");
   }
@@ -75,12 +78,14 @@ constexpr uint64_t most_bytes = 0xffffffffu; /* GLB lengths are 32 bits wide */
 constexpr uint64_t block_bytes = 64u << 20;  /* memory for turning frames into bodies */
 constexpr uint32_t float_type = 5126, uint16_type = 5123, vertex_target = 34962, index_target = 34963;
 
-bool finite(const Vec3 &p, const Quat &q) {
+bool finite(const Vec3 &p, const Quat &q)
+{
   return std::isfinite(p[0] + p[1] + p[2]) && std::isfinite(q[0] + q[1] + q[2] + q[3]);
 }
 
 /* The file asks for unit length, more exactly than a long simulation keeps it. */
-Quat normalized(const Quat &q) {
+Quat normalized(const Quat &q)
+{
   double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (!(length > 0)) return {0, 0, 0, 1};
   return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
@@ -93,17 +98,20 @@ class JsonStream {
 public:
   JsonStream(std::FILE *file, uint64_t &bytes) : file_(file), bytes_(bytes) {}
   ~JsonStream() { flush(); }
-  void raw(std::string_view text) {
+  void raw(std::string_view text)
+  {
     buffer_ += text;
     separator_ = "";
     if (buffer_.size() > 1u << 16) flush();
   }
-  void item(std::string_view text) {
+  void item(std::string_view text)
+  {
     buffer_ += separator_;
     raw(text);
     separator_ = ",";
   }
-  void flush() {
+  void flush()
+  {
     std::fwrite(buffer_.data(), 1, buffer_.size(), file_); /* errors stay set: finish() asks ferror */
     bytes_ += buffer_.size();
     buffer_.clear();
@@ -128,13 +136,15 @@ struct Geometry {
   std::vector<uint8_t> bytes;
   std::vector<View> views; /* three per shape: positions, normals, indices */
 
-  template <typename T> void append(const std::vector<T> &values, uint32_t target) {
+  template <typename T> void append(const std::vector<T> &values, uint32_t target)
+  {
     size_t offset = bytes.size(), size = values.size() * sizeof(T);
     views.push_back({offset, size, target});
     bytes.resize((offset + size + 3) / 4 * 4);
     std::memcpy(bytes.data() + offset, values.data(), size);
   }
-  void add(ShapeType shape) {
+  void add(ShapeType shape)
+  {
     if (std::find(shapes.begin(), shapes.end(), shape) != shapes.end()) return;
     TriangleMesh mesh = unit_mesh(shape);
     append(mesh.positions, vertex_target);
@@ -143,19 +153,25 @@ struct Geometry {
     shapes.push_back(shape);
     meshes.push_back(std::move(mesh));
   }
-  size_t index_of(ShapeType shape) const { return size_t(std::find(shapes.begin(), shapes.end(), shape) - shapes.begin()); }
+  size_t index_of(ShapeType shape) const
+  {
+    return size_t(std::find(shapes.begin(), shapes.end(), shape) - shapes.begin());
+  }
 };
 
-std::string vec3_accessor(size_t view, const std::vector<Vec3> &values, bool bounds) {
+std::string vec3_accessor(size_t view, const std::vector<Vec3> &values, bool bounds)
+{
   Vec3 low = values[0], high = values[0];
   for (const Vec3 &v : values)
     for (size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], v[i]), high[i] = std::max(high[i], v[i]);
   std::string extra = bounds ? fmt::format(R"(,"min":{},"max":{})", text(low), text(high)) : "";
-  return fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"VEC3"{}}})", view, float_type, values.size(), extra);
+  return fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"VEC3"{}}})", view, float_type,
+                     values.size(), extra);
 }
 
 /* How far the quad of a half space reaches: twice as far as the farthest body. */
-float half_space_reach(const Scene &scene) {
+float half_space_reach(const Scene &scene)
+{
   float reach = 25;
   for (const Body &body : scene.bodies)
     if (scene.shapes[body.shape].type != ShapeType::half_space)
@@ -163,7 +179,8 @@ float half_space_reach(const Scene &scene) {
   return 2 * reach;
 }
 
-Vec3 scale_of(const Shape &shape, float reach) {
+Vec3 scale_of(const Shape &shape, float reach)
+{
   if (shape.type == ShapeType::half_space) return {reach, 1, reach};
   if (shape.type == ShapeType::sphere) return {shape.size[0], shape.size[0], shape.size[0]};
   return shape.size;
@@ -171,7 +188,8 @@ Vec3 scale_of(const Shape &shape, float reach) {
 
 bool same_pose(const Pose &a, const Pose &b) { return a.position == b.position && a.orientation == b.orientation; }
 
-uint32_t color_of(const Scene &scene, size_t index) {
+uint32_t color_of(const Scene &scene, size_t index)
+{
   const Body &body = scene.bodies[index];
   if (body.motion == Motion::fixed) return 0;
   if (body.motion == Motion::kinematic) return 1;
@@ -181,7 +199,8 @@ uint32_t color_of(const Scene &scene, size_t index) {
   return first_moving_color + key % moving_colors;
 }
 
-void collect_bodies(const Scene &scene, Recording &r) {
+void collect_bodies(const Scene &scene, Recording &r)
+{
   float reach = half_space_reach(scene);
   std::map<std::pair<ShapeType, uint32_t>, uint32_t> known;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -213,7 +232,8 @@ struct Layout {
   size_t times_accessor() const { return geometry.views.size(); }
 };
 
-Layout layout_of(const Recording &r) {
+Layout layout_of(const Recording &r)
+{
   Layout layout;
   for (const ColoredMesh &mesh : r.meshes) layout.geometry.add(mesh.shape);
   for (uint32_t k = 0; k < r.moved.size(); ++k)
@@ -223,7 +243,8 @@ Layout layout_of(const Recording &r) {
   return layout;
 }
 
-void write_nodes(JsonStream &json, const Recording &r) {
+void write_nodes(JsonStream &json, const Recording &r)
+{
   json.raw(R"(,"scene":0,"scenes":[{"nodes":[)");
   for (size_t i = 0; i < r.bodies.size(); ++i) json.item(fmt::format("{}", i));
   json.raw(R"(]}],"nodes":[)");
@@ -231,30 +252,35 @@ void write_nodes(JsonStream &json, const Recording &r) {
     const RecordedBody &body = r.bodies[i];
     std::string name = body.name.empty() ? fmt::format("body {}", i) : body.name;
     json.item(fmt::format(R"({{"name":{},"mesh":{},"translation":{},"rotation":{},"scale":{}}})",
-                          nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), body.mesh,
-                          text(body.rest.position), text(body.rest.orientation), text(body.scale)));
+                          nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                          body.mesh, text(body.rest.position), text(body.rest.orientation), text(body.scale)));
   }
   json.raw("]");
 }
 
-void write_meshes(JsonStream &json, const Recording &r, const Geometry &geometry) {
+void write_meshes(JsonStream &json, const Recording &r, const Geometry &geometry)
+{
   json.raw(R"(,"materials":[)");
   for (const auto &color : palette)
-    json.item(fmt::format(R"({{"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":0.7}}}})",
-                          color[0], color[1], color[2]));
+    json.item(fmt::format(
+        R"({{"pbrMetallicRoughness":{{"baseColorFactor":[{},{},{},1],"metallicFactor":0,"roughnessFactor":0.7}}}})",
+        color[0], color[1], color[2]));
   json.raw(R"(],"meshes":[)");
   for (const ColoredMesh &mesh : r.meshes) {
     size_t first = 3 * geometry.index_of(mesh.shape);
-    json.item(fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{},"material":{}}}]}})", first,
-                          first + 1, first + 2, mesh.color));
+    json.item(
+        fmt::format(R"({{"primitives":[{{"attributes":{{"POSITION":{},"NORMAL":{}}},"indices":{},"material":{}}}]}})",
+                    first, first + 1, first + 2, mesh.color));
   }
   json.raw("]");
 }
 
-void write_views(JsonStream &json, const Layout &layout) {
+void write_views(JsonStream &json, const Layout &layout)
+{
   json.raw(fmt::format(R"(,"buffers":[{{"byteLength":{}}}],"bufferViews":[)", layout.binary_bytes()));
   for (const View &view : layout.geometry.views)
-    json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", view.offset, view.bytes, view.target));
+    json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{},"target":{}}})", view.offset, view.bytes,
+                          view.target));
   if (!layout.animated.empty()) {
     json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})", layout.times_at(), layout.time_bytes));
     json.item(fmt::format(R"({{"buffer":0,"byteOffset":{},"byteLength":{}}})", layout.poses_at(), layout.pose_bytes));
@@ -262,18 +288,20 @@ void write_views(JsonStream &json, const Layout &layout) {
   json.raw("]");
 }
 
-void write_accessors(JsonStream &json, const Recording &r, const Layout &layout) {
+void write_accessors(JsonStream &json, const Recording &r, const Layout &layout)
+{
   size_t frames = r.times.size(), times = layout.times_accessor();
   json.raw(R"(,"accessors":[)");
   for (size_t shape = 0; shape < layout.geometry.meshes.size(); ++shape) {
     const TriangleMesh &mesh = layout.geometry.meshes[shape];
     json.item(vec3_accessor(3 * shape, mesh.positions, true));
     json.item(vec3_accessor(3 * shape + 1, mesh.normals, false));
-    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * shape + 2, uint16_type, mesh.indices.size()));
+    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * shape + 2,
+                          uint16_type, mesh.indices.size()));
   }
   if (!layout.animated.empty())
-    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[{}],"max":[{}]}})", times, float_type,
-                          frames, r.times.front(), r.times.back()));
+    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[{}],"max":[{}]}})",
+                          times, float_type, frames, r.times.front(), r.times.back()));
   for (size_t k = 0; k < layout.animated.size(); ++k) {
     uint64_t offset = r.pose_bytes(k);
     const char *form = R"({{"bufferView":{},"byteOffset":{},"componentType":{},"count":{},"type":"{}"}})";
@@ -283,7 +311,8 @@ void write_accessors(JsonStream &json, const Recording &r, const Layout &layout)
   json.raw("]");
 }
 
-void write_animation(JsonStream &json, const Recording &r, const Layout &layout) {
+void write_animation(JsonStream &json, const Recording &r, const Layout &layout)
+{
   if (layout.animated.empty()) return;
   size_t times = layout.times_accessor(), samplers = 2 * layout.animated.size();
   json.raw(R"(,"animations":[{"name":"simulation","samplers":[)");
@@ -296,7 +325,8 @@ void write_animation(JsonStream &json, const Recording &r, const Layout &layout)
   json.raw("]}]");
 }
 
-uint64_t write_json(const Recording &r, const Layout &layout) {
+uint64_t write_json(const Recording &r, const Layout &layout)
+{
   uint64_t length = 0;
   JsonStream json(r.target.get(), length);
   json.raw(R"({"asset":{"version":"2.0","generator":"Tandem"})");
@@ -312,7 +342,8 @@ uint64_t write_json(const Recording &r, const Layout &layout) {
   return length;
 }
 
-void write_json_chunk(const Recording &r, const Layout &layout) {
+void write_json_chunk(const Recording &r, const Layout &layout)
+{
   std::array<uint32_t, 5> header{0x46546c67, 2, 0, 0, 0x4e4f534a}; /* "glTF", version, length; length, "JSON" */
   r.put(r.target.get(), header.data(), sizeof header);
   uint64_t length = write_json(r, layout);
@@ -330,22 +361,26 @@ void write_json_chunk(const Recording &r, const Layout &layout) {
 /* --- the poses ----------------------------------------------------------------------------------- */
 
 /* q and -q are the same rotation; interpolation takes the short way only between near ones. */
-Quat nearer_sign(Quat q, const Quat &before) {
+Quat nearer_sign(Quat q, const Quat &before)
+{
   if (q[0] * before[0] + q[1] * before[1] + q[2] * before[2] + q[3] * before[3] < 0)
     for (float &x : q) x = -x;
   return q;
 }
 
 /* The poses of one frame of the bodies moving[low] … */
-void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &row) {
+void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &row)
+{
   errno = 0;
   auto at = off_t((frame * r.moving.size() + low) * sizeof(Pose));
-  if (fseeko(r.spool.get(), at, SEEK_SET) != 0 || std::fread(row.data(), sizeof(Pose), row.size(), r.spool.get()) != row.size())
+  if (fseeko(r.spool.get(), at, SEEK_SET) != 0 ||
+      std::fread(row.data(), sizeof(Pose), row.size(), r.spool.get()) != row.size())
     r.fail("cannot read back the recorded frames");
 }
 
 /* Turns frames of bodies into bodies of frames, as many bodies at a time as fit into a block. */
-void write_poses(const Recording &r, const Layout &layout) {
+void write_poses(const Recording &r, const Layout &layout)
+{
   const std::vector<uint32_t> &animated = layout.animated;
   const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(Pose))));
   for (size_t begin = 0; begin < animated.size(); begin += per_block) {
@@ -373,7 +408,8 @@ void write_poses(const Recording &r, const Layout &layout) {
 
 /* --- opening and closing --------------------------------------------------------------------- */
 
-AnimationWriter::AnimationWriter(const Scene &scene, const std::string &path, uint32_t stride) {
+AnimationWriter::AnimationWriter(const Scene &scene, const std::string &path, uint32_t stride)
+{
   if (path.size() < 4 || path.compare(path.size() - 4, 4, ".glb") != 0)
     throw InputError(fmt::format("{}: an animation is written as .glb; name the file so", path));
   if (stride == 0) throw InputError(fmt::format("{}: a stride of 0 keeps no frame; at least 1 is needed", path));
@@ -383,7 +419,9 @@ AnimationWriter::AnimationWriter(const Scene &scene, const std::string &path, ui
 
 AnimationWriter::~AnimationWriter() = default;
 
-Recording::Recording(const std::string &target_path, uint32_t keep_every) : path(target_path), spool_path(target_path + ".frames"), stride(keep_every) {
+Recording::Recording(const std::string &target_path, uint32_t keep_every)
+    : path(target_path), spool_path(target_path + ".frames"), stride(keep_every)
+{
   target.reset(std::fopen(path.c_str(), "wb"));
   if (!target) fail("cannot write");
   spool.reset(std::fopen(spool_path.c_str(), "w+b"));
@@ -393,7 +431,8 @@ Recording::Recording(const std::string &target_path, uint32_t keep_every) : path
   throw InputError(fmt::format("{}: cannot write: {}", spool_path, std::strerror(reason)));
 }
 
-Recording::~Recording() {
+Recording::~Recording()
+{
   spool.reset();
   std::remove(spool_path.c_str());
   target.reset();
@@ -404,20 +443,24 @@ Recording::~Recording() {
 
 size_t AnimationWriter::frame_count() const { return recording_->times.size(); }
 
-void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, std::span<const Quat> orientations) {
+void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, std::span<const Quat> orientations)
+{
   Recording &r = *recording_;
   if (positions.size() != r.bodies.size() || orientations.size() != r.bodies.size())
-    throw InputError(fmt::format("{}: a frame of {} positions and {} orientations; the scene has {} bodies", r.path, positions.size(),
-                                 orientations.size(), r.bodies.size()));
+    throw InputError(fmt::format("{}: a frame of {} positions and {} orientations; the scene has {} bodies", r.path,
+                                 positions.size(), orientations.size(), r.bodies.size()));
+  if (r.finished) throw std::logic_error("a frame after finish()");
   if (r.added++ % r.stride != 0) return;
   if (!std::isfinite(time) || (!r.times.empty() && !(float(time) > r.times.back())))
-    throw InputError(fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
+    throw InputError(
+        fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
   bool first = r.times.empty();
   r.times.push_back(float(time));
   /* Half is left to the JSON, whose size is not known before the end. */
   if (r.pose_bytes(r.moving.size()) > most_bytes / 2)
-    throw InputError(fmt::format("{}: {} frames of {} moving bodies do not fit into the 4 GiB of a .glb; keep fewer frames", r.path,
-                                 r.times.size(), r.moving.size()));
+    throw InputError(
+        fmt::format("{}: {} frames of {} moving bodies do not fit into the 4 GiB of a .glb; keep fewer frames", r.path,
+                    r.times.size(), r.moving.size()));
   for (size_t k = 0; k < r.moving.size(); ++k) {
     uint32_t body = r.moving[k];
     if (finite(positions[body], orientations[body])) r.last[k] = {positions[body], normalized(orientations[body])};
@@ -427,8 +470,10 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
   r.put(r.spool.get(), r.last.data(), r.last.size() * sizeof(Pose));
 }
 
-void AnimationWriter::finish() {
+void AnimationWriter::finish()
+{
   Recording &r = *recording_;
+  if (r.finished) return;
   Layout layout = layout_of(r);
   write_json_chunk(r, layout);
   if (layout.binary_bytes() > 0) {

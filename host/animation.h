@@ -35,7 +35,7 @@ public:
    * pass the 4 GiB that the format holds. */
   void add_frame(double time, std::span<const Vec3> positions, std::span<const Quat> orientations);
 
-  /* Writes the file. Throws InputError when it cannot be written. */
+  /* Writes the file; a second call does nothing. Throws InputError when it cannot be written. */
   void finish();
 
   size_t frame_count() const;

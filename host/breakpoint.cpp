@@ -19,39 +19,95 @@ std::string_view name_of_buffer(Buffer buffer) { return row_of(buffer).name; }
 /* Rows of pairs come in three orders: that of the pairs, of the constraints (by colour), of the cache. */
 bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with("constraint_"); }
 
-bool runs_over_constraints(const KernelRow &row)
+bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
 {
-  return row.items == COUNT_CONSTRAINTS || row.items == COUNT_COMMIT_CONSTRAINTS ||
-         std::any_of(row.arguments.begin(), row.arguments.end(), [&](const Argument &argument) {
-           return row.items == items_given && argument.kind == Argument::Kind::buffer && is_by_constraint(argument.buffer);
-         });
+  return std::any_of(row.arguments.begin(), row.arguments.end(), [&](const Argument &argument) {
+    return argument.kind == Argument::Kind::buffer && wanted(argument.buffer);
+  });
 }
 
-/* The iteration of the launch whose constraint is about `value`, by one of the index buffers. */
-std::optional<uint32_t> search(World &world, const Launch &launch, Buffer index, size_t value)
+/* What the iterations of a kernel stand for, and what the items of a buffer do. */
+enum class Domain { bodies, bodies_in_grid_order, pairs, constraints, place, unknown };
+
+Domain domain_of(const KernelRow &row)
 {
-  const uint32_t first = count_of(world, launch.first), last = count_of(world, launch.last);
+  switch (row.items) {
+  case COUNT_BODIES:
+    return names_buffer(row, [](Buffer buffer) { return buffer == Buffer::cell_start; }) ? Domain::bodies_in_grid_order
+                                                                                         : Domain::bodies;
+  case COUNT_BODIES_PLUS_ONE:
+  case COUNT_COMMIT_BODIES:
+  case COUNT_COMMIT_BODIES_PLUS_ONE: return Domain::bodies;
+  case COUNT_PAIRS:
+  case COUNT_COMMIT_PAIRS: return Domain::pairs;
+  case COUNT_CONSTRAINTS:
+  case COUNT_COMMIT_CONSTRAINTS: return Domain::constraints;
+  case COUNT_SMALL: return Domain::place;
+  case items_given: return names_buffer(row, is_by_constraint) ? Domain::constraints : Domain::place;
+  default: return Domain::unknown;
+  }
+}
+
+Domain domain_of(Buffer buffer)
+{
+  switch (row_of(buffer).capacity) {
+  case Capacity::BODIES:
+  case Capacity::BODIES_PLUS_ONE: return Domain::bodies;
+  case Capacity::PAIRS: return is_by_constraint(buffer) ? Domain::constraints : Domain::pairs;
+  case Capacity::SORTABLE:
+  case Capacity::NOTHING: return Domain::place;
+  default: return Domain::unknown;
+  }
+}
+
+/* The entry in [first, last) of an index buffer that holds `value`. */
+std::optional<uint32_t> search(World &world, Buffer index, uint32_t first, uint32_t last, uint32_t value)
+{
   if (last <= first || !is_allocated(world, index, last - 1)) return {};
   const std::vector<uint32_t> indices = world.memory().read<uint32_t>(index, last - first, first);
-  const auto found = std::find(indices.begin(), indices.end(), static_cast<uint32_t>(value));
+  const auto found = std::find(indices.begin(), indices.end(), value);
   if (found == indices.end()) return {};
   return first + static_cast<uint32_t>(found - indices.begin());
 }
 
-std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch, Buffer buffer, size_t item)
+/* The iteration of a kernel over constraints that wrote the row of a body or of a pair. */
+std::optional<uint32_t> constraint_of(World &world, const Launch &launch, Domain written, uint32_t item)
+{
+  const uint32_t first = count_of(world, launch.first), last = count_of(world, launch.last);
+  if (written == Domain::pairs) return search(world, Buffer::constraint_pair, first, last, item);
+  if (written != Domain::bodies) return {};
+  const auto as_first = search(world, Buffer::constraint_a, first, last, item);
+  return as_first ? as_first : search(world, Buffer::constraint_b, first, last, item);
+}
+
+/* The grid's kernels walk the large bodies, then the others sorted by cell. */
+std::optional<uint32_t> place_in_grid_order(World &world, uint32_t body)
+{
+  const uint32_t large = count_of(world, COUNT_LARGE);
+  if (body < large) return body;
+  const auto place = search(world, Buffer::sort_value, 0, count_of(world, COUNT_SMALL), body);
+  return place ? std::optional<uint32_t>(*place + large) : std::nullopt;
+}
+
+std::optional<uint32_t> owner_of_pair(World &world, uint32_t pair)
+{
+  if (!is_allocated(world, Buffer::pair_a, pair)) return {};
+  return world.memory().read<uint32_t>(Buffer::pair_a, 1, pair).at(0);
+}
+
+/* Nothing where several iterations wrote the place (atomics), or where the kernel scatters. */
+std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch, Buffer buffer, uint32_t item)
 {
   const KernelRow &row = row_of(launch.kernel);
-  const Capacity capacity = row_of(buffer).capacity;
-  if (row.form == Form::group)
-    return capacity == Capacity::TILES ? std::optional<uint32_t>(static_cast<uint32_t>(item)) : std::nullopt;
-  if (runs_over_constraints(row) && capacity == Capacity::BODIES) {
-    const auto as_first = search(world, launch, Buffer::constraint_a, item);
-    return as_first ? as_first : search(world, launch, Buffer::constraint_b, item);
+  const Domain runs = domain_of(row), written = domain_of(buffer);
+  if (row.form == Form::group) return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
+  if (runs == Domain::unknown || written == Domain::unknown) return {};
+  if (runs == Domain::constraints && written != Domain::constraints) return constraint_of(world, launch, written, item);
+  if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order) {
+    const std::optional<uint32_t> body = written == Domain::pairs ? owner_of_pair(world, item) : std::optional(item);
+    return body && runs == Domain::bodies_in_grid_order ? place_in_grid_order(world, *body) : body;
   }
-  if (runs_over_constraints(row) && capacity == Capacity::PAIRS && !is_by_constraint(buffer))
-    return search(world, launch, Buffer::constraint_pair, item);
-  if (capacity == Capacity::PAIRS || capacity == Capacity::BODIES || capacity == Capacity::BODIES_PLUS_ONE)
-    return static_cast<uint32_t>(item);
+  if (runs == written || written == Domain::place) return item;
   return {};
 }
 
@@ -62,6 +118,19 @@ std::vector<uint32_t> pair_bodies(World &world, Buffer a, Buffer b, size_t item)
 }
 
 } // namespace
+
+const char *iteration_name(Kernel kernel)
+{
+  if (row_of(kernel).form == Form::group) return "group";
+  switch (kernel) {
+  case Kernel::brute_force_count:
+  case Kernel::brute_force_write: return "a";
+  case Kernel::sweep_starts: return "body";
+  case Kernel::grid_cells: return "cell";
+  case Kernel::color_starts: return "color";
+  default: return row_of(kernel).items == COUNT_ONE ? "" : "i";
+  }
+}
 
 size_t pair_capacity(World &world) { return count_of(world, CAPACITY_PAIRS); }
 
@@ -83,10 +152,9 @@ std::vector<uint32_t> bodies_of_item(World &world, Buffer buffer, size_t item)
 std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, size_t item, uint64_t step)
 {
   const KernelRow &row = row_of(launch.kernel);
-  const bool group = row.form == Form::group;
-  const auto iteration = iteration_that_wrote(world, launch, buffer, item);
-  const std::string which = iteration ? fmt::format("{} == {} && ", group ? "group" : "i", *iteration) : "";
-  return fmt::format("{}_{} if {}tandem::current_step == {}", row.name, group ? "group" : "item", which, step);
+  const auto iteration = iteration_that_wrote(world, launch, buffer, static_cast<uint32_t>(item));
+  const std::string which = iteration ? fmt::format("{} == {} && ", iteration_name(launch.kernel), *iteration) : "";
+  return fmt::format("{}_{} if {}tandem::current_step == {}", row.name, row.form == Form::group ? "group" : "item", which, step);
 }
 
 } // namespace tandem

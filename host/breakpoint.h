@@ -13,6 +13,9 @@
 
 namespace tandem {
 
+/* The parameter that is the item, or the group, in the kernel's shared function; "" where there is but one. */
+const char *iteration_name(Kernel kernel);
+
 size_t pair_capacity(World &world);
 
 /* Indices into Scene::bodies: the body of a body's row, the two of a pair's or constraint's. */

@@ -5,32 +5,39 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
-#include <fstream>
+#include <memory>
 #include <set>
 
 namespace tandem {
 namespace {
 
-std::string joined(std::span<const char *const> names) {
+std::string joined(std::span<const char *const> names)
+{
   std::string text;
   for (const char *name : names) text += (text.empty() ? "" : ", ") + std::string(name);
   return text;
 }
 
 /* The value as it stands in the file, shortened, for messages. */
-std::string shown(const nlohmann::json &value) {
+std::string shown(const nlohmann::json &value)
+{
   std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
 /* std::from_chars takes hexadecimal digits without the 0x that strtof and printf("%a") have. */
-std::optional<float> parse_hex_float(const std::string &text) {
+std::optional<float> parse_hex_float(const std::string &text)
+{
   size_t start = !text.empty() && text[0] == '-' ? 1 : 0;
-  if (text.compare(start, 2, "0x") != 0 || text.size() < start + 3 || !std::isxdigit(static_cast<unsigned char>(text[start + 2]))) return {};
+  if (text.compare(start, 2, "0x") != 0 || text.size() < start + 3 ||
+      !std::isxdigit(static_cast<unsigned char>(text[start + 2])))
+    return {};
   float magnitude = 0;
-  auto [end, error] = std::from_chars(text.data() + start + 2, text.data() + text.size(), magnitude, std::chars_format::hex);
+  auto [end, error] =
+      std::from_chars(text.data() + start + 2, text.data() + text.size(), magnitude, std::chars_format::hex);
   if (error != std::errc() || end != text.data() + text.size()) return {};
   return start ? -magnitude : magnitude;
 }
@@ -40,7 +47,8 @@ class DuplicateKeys {
 public:
   explicit DuplicateKeys(const std::string &where) : where_(where) {}
 
-  bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json &parsed) {
+  bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json &parsed)
+  {
     using Event = nlohmann::json::parse_event_t;
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
@@ -54,7 +62,8 @@ private:
   std::vector<std::set<std::string>> open_;
 };
 
-std::string line_and_column(const std::string &text, size_t byte) {
+std::string line_and_column(const std::string &text, size_t byte)
+{
   size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
   size_t line = 1 + size_t(std::count(text.begin(), text.begin() + ptrdiff_t(end), '\n'));
   size_t start = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
@@ -62,7 +71,8 @@ std::string line_and_column(const std::string &text, size_t byte) {
 }
 
 /* Without the library's own prefix and position. */
-std::string plain_reason(const std::string &what) {
+std::string plain_reason(const std::string &what)
+{
   size_t column = what.find("column ");
   size_t colon = column == std::string::npos ? std::string::npos : what.find(": ", column);
   if (colon != std::string::npos) return what.substr(colon + 2);
@@ -72,24 +82,29 @@ std::string plain_reason(const std::string &what) {
 
 } // namespace
 
-void JsonValue::fail(const std::string &message) const {
-  throw InputError(path_.empty() ? fmt::format("{}: {}", *where_, message) : fmt::format("{}: {}: {}", *where_, path_, message));
+void JsonValue::fail(const std::string &message) const
+{
+  throw InputError(path_.empty() ? fmt::format("{}: {}", *where_, message)
+                                 : fmt::format("{}: {}: {}", *where_, path_, message));
 }
 
-std::optional<JsonValue> JsonValue::find(const char *key) const {
+std::optional<JsonValue> JsonValue::find(const char *key) const
+{
   if (!value_->is_object()) fail(fmt::format("is {}; an object is needed", shown(*value_)));
   auto member = value_->find(key);
   if (member == value_->end()) return {};
   return JsonValue(*member, *where_, path_.empty() ? key : path_ + "." + key);
 }
 
-JsonValue JsonValue::member(const char *key) const {
+JsonValue JsonValue::member(const char *key) const
+{
   std::optional<JsonValue> found = find(key);
   if (!found) fail(fmt::format("\"{}\" is missing", key));
   return *found;
 }
 
-void JsonValue::only_keys(std::span<const char *const> known) const {
+void JsonValue::only_keys(std::span<const char *const> known) const
+{
   if (!value_->is_object()) fail(fmt::format("is {}; an object is needed", shown(*value_)));
   for (const auto &[key, value] : value_->items())
     if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -98,14 +113,19 @@ void JsonValue::only_keys(std::span<const char *const> known) const {
     }
 }
 
-size_t JsonValue::array_size() const {
+size_t JsonValue::array_size() const
+{
   if (!value_->is_array()) fail(fmt::format("is {}; an array is needed", shown(*value_)));
   return value_->size();
 }
 
-JsonValue JsonValue::element(size_t index) const { return {(*value_)[index], *where_, fmt::format("{}[{}]", path_, index)}; }
+JsonValue JsonValue::element(size_t index) const
+{
+  return {(*value_)[index], *where_, fmt::format("{}[{}]", path_, index)};
+}
 
-float JsonValue::number() const {
+float JsonValue::number() const
+{
   if (value_->is_string()) {
     std::optional<float> parsed = parse_hex_float(value_->get_ref<const std::string &>());
     if (parsed && std::isfinite(*parsed)) return *parsed;
@@ -117,53 +137,66 @@ float JsonValue::number() const {
   return result;
 }
 
-Vec3 JsonValue::vec3() const {
+Vec3 JsonValue::vec3() const
+{
   if (array_size() != 3) fail(fmt::format("is {}; an array of 3 numbers is needed", shown(*value_)));
   return {element(0).number(), element(1).number(), element(2).number()};
 }
 
-Quat JsonValue::quat() const {
+Quat JsonValue::quat() const
+{
   if (array_size() != 4) fail(fmt::format("is {}; an array of 4 numbers (x, y, z, w) is needed", shown(*value_)));
   return {element(0).number(), element(1).number(), element(2).number(), element(3).number()};
 }
 
-bool JsonValue::boolean() const {
+bool JsonValue::boolean() const
+{
   if (!value_->is_boolean()) fail(fmt::format("is {}; true or false is needed", shown(*value_)));
   return value_->get<bool>();
 }
 
-uint32_t JsonValue::unsigned_integer() const {
+uint32_t JsonValue::unsigned_integer() const
+{
   if (!value_->is_number_unsigned() || value_->get<uint64_t>() > 0xffffffffu)
     fail(fmt::format("is {}; an integer from 0 to 4294967295 is needed", shown(*value_)));
   return value_->get<uint32_t>();
 }
 
-std::string JsonValue::text() const {
+std::string JsonValue::text() const
+{
   if (!value_->is_string()) fail(fmt::format("is {}; a string is needed", shown(*value_)));
   return value_->get<std::string>();
 }
 
-size_t JsonValue::choice(std::span<const char *const> names) const {
+size_t JsonValue::choice(std::span<const char *const> names) const
+{
   if (value_->is_string())
     for (size_t i = 0; i < names.size(); ++i)
       if (value_->get_ref<const std::string &>() == names[i]) return i;
   fail(fmt::format("is {}; one of {} is needed", shown(*value_), joined(names)));
 }
 
-std::string read_file(const std::string &path) {
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
+std::string read_file(const std::string &path)
+{
+  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   std::string text;
-  if (stream) text.assign(std::istreambuf_iterator<char>(stream), {});
-  if (!stream.good() && !stream.eof()) throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno ? errno : EIO)));
-  return text;
+  char piece[1 << 16];
+  while (file) { /* a folder opens, and fails at the first read */
+    size_t got = std::fread(piece, 1, sizeof piece, file.get());
+    text.append(piece, got);
+    if (std::ferror(file.get())) break;
+    if (got < sizeof piece) return text;
+  }
+  throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno ? errno : EIO)));
 }
 
-nlohmann::json parse_json(const std::string &text, const std::string &where) {
+nlohmann::json parse_json(const std::string &text, const std::string &where)
+{
   try {
     return nlohmann::json::parse(text, DuplicateKeys(where));
   } catch (const nlohmann::json::parse_error &error) {
-    throw InputError(fmt::format("{}:{}: malformed JSON: {}", where, line_and_column(text, error.byte), plain_reason(error.what())));
+    throw InputError(
+        fmt::format("{}:{}: malformed JSON: {}", where, line_and_column(text, error.byte), plain_reason(error.what())));
   } catch (const nlohmann::json::exception &error) {
     throw InputError(fmt::format("{}: malformed JSON: {}", where, plain_reason(error.what())));
   }

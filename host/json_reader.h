@@ -20,7 +20,8 @@ class JsonValue {
 public:
   /* `where` (a file, perhaps a node in it) begins every message; it and `value` must outlive this. */
   JsonValue(const nlohmann::json &value, const std::string &where, std::string path = "")
-      : value_(&value), where_(&where), path_(std::move(path)) {}
+      : value_(&value), where_(&where), path_(std::move(path))
+  {}
 
   [[noreturn]] void fail(const std::string &message) const;
   const std::string &where() const { return *where_; }

@@ -1,95 +1,119 @@
-/* primitives.cpp - levels of scans and passes of sorts; see primitives.h. */
+/* primitives.cpp - launches of scans and sorts; see primitives.h. */
 #include "host/primitives.h"
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
-#include "shared/platform.h"
 #include "shared/parallel/radix_sort.h"
+#include "shared/parallel/scan.h"
 
 namespace tandem {
 namespace {
 
-constexpr size_t tiles_of(size_t n) { return (n + TILE - 1) / TILE; }
+constexpr uint32_t units(uint64_t n, uint32_t unit) { return static_cast<uint32_t>((n + unit - 1) / unit); }
 
-/* Where the sums of each level start; the last level has one tile. */
-std::vector<uint32_t> level_offsets(size_t capacity)
+/* Launches count groups of TILE items; this many items make `groups` groups. */
+constexpr uint32_t items_for(uint64_t groups) { return static_cast<uint32_t>(std::min<uint64_t>(groups * TILE, UINT32_MAX)); }
+
+/* per_unit * ceil(counts[length] / unit) words (shared/parallel/length.h), at most `capacity`. */
+struct Extent {
+  uint32_t length, unit, per_unit, capacity;
+};
+
+/* The range of the launches is that of the length: it has at least as many groups as there are tiles of words,
+ * since a tile of the sort covers more items than a group and makes fewer words of histogram than it has keys. */
+static_assert(SCAN_TILE >= TILE && SORT_TILE >= TILE && SORT_DIGITS <= SORT_TILE && SORT_DIGITS <= SCAN_TILE);
+
+void scan_words(Launcher &launcher, Buffer in, Buffer out, Buffer sums, const Extent &extent)
 {
-  std::vector<uint32_t> offsets;
-  size_t offset = 0;
-  for (size_t n = tiles_of(capacity);; n = tiles_of(n)) {
-    offsets.push_back(static_cast<uint32_t>(offset));
-    offset += n + 1;
-    if (n <= 1) return offsets;
+  const auto [length, unit, per_unit, capacity] = extent;
+  const uint32_t tiles = units(capacity, SCAN_TILE);
+  const auto in_order = [&](Buffer from, Buffer to, uint32_t block) {
+    launcher.launch({Kernel::scan_in_order, {from, to, out}, {length, unit, per_unit, block}, COUNT_ZERO, COUNT_ONE, 1});
+  };
+  if (tiles <= 1) return in_order(in, out, 1);
+  launcher.launch({Kernel::scan_reduce, {in, sums}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
+  in_order(sums, sums, SCAN_TILE);
+  launcher.launch({Kernel::scan_tiles, {in, sums, out}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
+}
+
+/* Buffers and kernels of one kind of sort: with or without values, 32- or 64-bit keys. */
+struct Sort {
+  Kernel histogram_kernel, scatter_kernel, copy_kernel;
+  Buffer keys, other_keys;
+  bool has_values;
+  Buffer values, other_values;
+  Buffer histogram, sums;
+};
+
+void sort_pass(Launcher &launcher, const Sort &sort, uint32_t length, uint32_t capacity, unsigned shift, unsigned bits)
+{
+  const uint32_t tiles = units(capacity, SORT_TILE), digits = 1u << bits;
+  launcher.launch({sort.histogram_kernel, {sort.keys, sort.histogram}, {length, shift, bits}, COUNT_ZERO, length, items_for(tiles)});
+  scan_words(launcher, sort.histogram, sort.histogram, sort.sums, {length, SORT_TILE, digits, tiles * digits});
+  Launch scatter{sort.scatter_kernel, {sort.keys, sort.histogram, sort.other_keys}, {length, shift, bits}, COUNT_ZERO, length, items_for(tiles)};
+  if (sort.has_values) scatter.slots = {sort.keys, sort.values, sort.histogram, sort.other_keys, sort.other_values};
+  launcher.launch(scatter);
+}
+
+/* As few passes as SORT_BITS allow, of about equal widths; a last copy where they are odd in number. */
+void sort_bits(Launcher &launcher, Sort sort, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+{
+  if (last_bit <= first_bit || capacity == 0) return;
+  const unsigned passes = units(last_bit - first_bit, SORT_BITS);
+  for (unsigned pass = 0, shift = first_bit; pass < passes; ++pass) {
+    const unsigned bits = units(last_bit - shift, passes - pass);
+    sort_pass(launcher, sort, length, capacity, shift, bits);
+    shift += bits;
+    std::swap(sort.keys, sort.other_keys);
+    std::swap(sort.values, sort.other_values);
   }
+  if (passes % 2 == 0) return;
+  launcher.launch({sort.copy_kernel, {sort.keys, sort.other_keys}, {}, COUNT_ZERO, length, capacity});
+  if (sort.has_values) launcher.launch({Kernel::copy, {sort.values, sort.other_values}, {}, COUNT_ZERO, length, capacity});
 }
 
 } // namespace
 
-size_t scan_sum_words(size_t capacity) { return level_offsets(capacity).back() + 2; }
+size_t scan_sum_words(size_t capacity) { return units(capacity, SCAN_TILE) + 1; }
 
 void exclusive_scan(Launcher &launcher, Buffer in, Buffer out, Buffer sums, uint32_t length, uint32_t capacity)
 {
-  const std::vector<uint32_t> offsets = level_offsets(capacity);
-  const auto levels = static_cast<uint32_t>(offsets.size());
-  const auto expected = [&](uint32_t level) {
-    size_t n = capacity;
-    for (uint32_t k = 0; k < level; ++k) n = tiles_of(n);
-    return static_cast<uint32_t>(n);
-  };
-  for (uint32_t level = 0; level < levels; ++level) {
-    const Buffer from = level == 0 ? in : sums, to = level == 0 ? out : sums;
-    const uint32_t start = level == 0 ? 0 : offsets[level - 1];
-    launcher.launch({Kernel::scan_tiles, {from, to, sums}, {length, level, start, offsets[level]}, COUNT_ZERO, length, expected(level)});
-  }
-  for (uint32_t level = levels - 1; level-- > 0;) {
-    const uint32_t start = level == 0 ? 0 : offsets[level - 1];
-    launcher.launch({Kernel::scan_add, {level == 0 ? out : sums, sums}, {length, level, start, offsets[level]}, COUNT_ZERO, length, expected(level)});
-  }
-  launcher.launch({Kernel::scan_total, {out, sums}, {length, offsets.back()}, COUNT_ZERO, COUNT_ONE, 1});
+  scan_words(launcher, in, out, sums, {length, 1, 1, capacity});
 }
 
-size_t histogram_words(size_t capacity) { return tiles_of(capacity) * SORT_DIGITS + 1; }
+size_t histogram_words(size_t capacity) { return size_t{units(capacity, SORT_TILE)} * SORT_DIGITS + 1; }
 
-namespace {
-
-uint32_t begin_sort(Launcher &launcher, uint32_t length, uint32_t capacity)
+void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
+               unsigned first_bit, unsigned last_bit)
 {
-  launcher.launch({Kernel::sort_length, {}, {length}, COUNT_ZERO, COUNT_ONE, 1});
-  return static_cast<uint32_t>(tiles_of(capacity) * SORT_DIGITS);
+  sort_bits(launcher, {Kernel::sort_histogram, Kernel::sort_scatter, Kernel::copy, keys, other_keys, false, {}, {}, histogram, sums},
+            length, capacity, first_bit, last_bit);
 }
-
-} // namespace
 
 void sort_pairs(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram, Buffer sums,
                 uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
 {
-  const uint32_t histogram_capacity = begin_sort(launcher, length, capacity);
-  bool swapped = false;
-  for (unsigned shift = first_bit; shift < last_bit; shift += SORT_BITS, swapped = !swapped) {
-    launcher.launch({Kernel::sort_histogram, {keys, histogram}, {length, shift}, COUNT_ZERO, length, capacity});
-    exclusive_scan(launcher, histogram, histogram, sums, COUNT_HISTOGRAM, histogram_capacity);
-    launcher.launch({Kernel::sort_scatter, {keys, values, histogram, other_keys, other_values}, {length, shift}, COUNT_ZERO, length, capacity});
-    std::swap(keys, other_keys);
-    std::swap(values, other_values);
-  }
-  if (!swapped) return;
-  launcher.launch({Kernel::copy, {keys, other_keys}, {}, COUNT_ZERO, length, capacity});
-  launcher.launch({Kernel::copy, {values, other_values}, {}, COUNT_ZERO, length, capacity});
+  sort_bits(launcher,
+            {Kernel::sort_histogram, Kernel::sort_scatter_pairs, Kernel::copy, keys, other_keys, true, values, other_values, histogram, sums},
+            length, capacity, first_bit, last_bit);
 }
 
 void sort_keys64(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
                  unsigned first_bit, unsigned last_bit)
 {
-  const uint32_t histogram_capacity = begin_sort(launcher, length, capacity);
-  bool swapped = false;
-  for (unsigned shift = first_bit; shift < last_bit; shift += SORT_BITS, swapped = !swapped) {
-    launcher.launch({Kernel::sort_histogram64, {keys, histogram}, {length, shift}, COUNT_ZERO, length, capacity});
-    exclusive_scan(launcher, histogram, histogram, sums, COUNT_HISTOGRAM, histogram_capacity);
-    launcher.launch({Kernel::sort_scatter64, {keys, histogram, other_keys}, {length, shift}, COUNT_ZERO, length, capacity});
-    std::swap(keys, other_keys);
-  }
-  if (swapped) launcher.launch({Kernel::copy64, {keys, other_keys}, {}, COUNT_ZERO, length, capacity});
+  sort_bits(launcher,
+            {Kernel::sort_histogram64, Kernel::sort_scatter64, Kernel::copy64, keys, other_keys, false, {}, {}, histogram, sums}, length,
+            capacity, first_bit, last_bit);
+}
+
+void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram,
+                  Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+{
+  sort_bits(launcher,
+            {Kernel::sort_histogram64, Kernel::sort_scatter64_pairs, Kernel::copy64, keys, other_keys, true, values, other_values, histogram,
+             sums},
+            length, capacity, first_bit, last_bit);
 }
 
 } // namespace tandem

@@ -16,7 +16,8 @@ class Random {
 public:
   explicit Random(uint64_t seed) : state_(seed) {}
 
-  uint64_t next() {
+  uint64_t next()
+  {
     uint64_t z = (state_ += 0x9e3779b97f4a7c15u);
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
@@ -31,7 +32,8 @@ public:
   uint32_t below(uint32_t count) { return uint32_t(((next() >> 32) * count) >> 32); }
 
   /* Evenly distributed rotation x y z w: a point of the unit ball in four dimensions, normalised; rejection needs no sine. */
-  std::array<float, 4> orientation() {
+  std::array<float, 4> orientation()
+  {
     for (;;) {
       double q[4], length_squared = 0;
       for (double &x : q) {

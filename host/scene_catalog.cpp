@@ -20,7 +20,8 @@ int64_t whole(const SceneValues &values, const char *name) { return int64_t(valu
 double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
 
 /* The smallest side with side * side * layers >= count. */
-int64_t square_side(int64_t count, int64_t layers) {
+int64_t square_side(int64_t count, int64_t layers)
+{
   int64_t side = 1;
   while (side * side * layers < count) ++side;
   return side;
@@ -32,17 +33,20 @@ struct CellGrid {
   int64_t side;
   double cell, bottom;
 
-  Vec3 place(int64_t index, double jitter, Random &random) const {
+  Vec3 place(int64_t index, double jitter, Random &random) const
+  {
     int64_t layer = index / (side * side), within = index % (side * side);
     double x = (double(within % side) - 0.5 * double(side - 1)) * cell;
     double z = (double(within / side) - 0.5 * double(side - 1)) * cell;
-    double dx = random.uniform(-jitter, jitter), dy = random.uniform(-jitter, jitter), dz = random.uniform(-jitter, jitter);
+    double dx = random.uniform(-jitter, jitter), dy = random.uniform(-jitter, jitter),
+           dz = random.uniform(-jitter, jitter);
     return {float(x + dx), float(bottom + double(layer) * cell + dy), float(z + dz)};
   }
 };
 
 /* Body 0 of most scenes. */
-void add_ground(Scene &scene, uint32_t material = 0) {
+void add_ground(Scene &scene, uint32_t material = 0)
+{
   Body ground;
   ground.name = "ground";
   ground.motion = Motion::fixed;
@@ -52,7 +56,8 @@ void add_ground(Scene &scene, uint32_t material = 0) {
   scene.bodies.push_back(ground);
 }
 
-Body dynamic_body(uint32_t shape, const Vec3 &position, float mass) {
+Body dynamic_body(uint32_t shape, const Vec3 &position, float mass)
+{
   Body body;
   body.shape = shape;
   body.position = position;
@@ -62,9 +67,13 @@ Body dynamic_body(uint32_t shape, const Vec3 &position, float mass) {
 
 /* --- box-grid: the scene of the published comparisons; layers are shifted against each other ---- */
 
-uint64_t box_grid_bodies(const SceneValues &v) { return 1 + uint64_t(whole(v, "nx") * whole(v, "ny") * whole(v, "nz")); }
+uint64_t box_grid_bodies(const SceneValues &v)
+{
+  return 1 + uint64_t(whole(v, "nx") * whole(v, "ny") * whole(v, "nz"));
+}
 
-Scene box_grid(const SceneValues &v) {
+Scene box_grid(const SceneValues &v)
+{
   int64_t nx = whole(v, "nx"), ny = whole(v, "ny"), nz = whole(v, "nz");
   Scene scene;
   scene.shapes = {box_shape(400, 400, 400), box_shape(1, 1, 1)};
@@ -87,7 +96,8 @@ Scene box_grid(const SceneValues &v) {
 
 uint64_t ground_and_n(const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); }
 
-Scene falling_boxes(const SceneValues &v) {
+Scene falling_boxes(const SceneValues &v)
+{
   int64_t n = whole(v, "n");
   double half = number(v, "half_extent"), radius = half * std::sqrt(3.0), jitter = 0.25 * half;
   Random random(uint64_t(whole(v, "seed")));
@@ -108,7 +118,8 @@ Scene falling_boxes(const SceneValues &v) {
 
 /* --- box-stack: columns that must stand ------------------------------------------------------ */
 
-Scene box_stack(const SceneValues &v) {
+Scene box_stack(const SceneValues &v)
+{
   int64_t n = whole(v, "n"), height = whole(v, "height");
   double half = number(v, "half_extent"), pitch = 2 * half + number(v, "gap");
   int64_t side = square_side(n, height);
@@ -119,7 +130,8 @@ Scene box_stack(const SceneValues &v) {
     int64_t column = i / height, level = i % height;
     double x = (double(column % side) - 0.5 * double(side - 1)) * pitch;
     double z = (double(column / side) - 0.5 * double(side - 1)) * pitch;
-    scene.bodies.push_back(dynamic_body(0, {float(x), float(half * double(1 + 2 * level)), float(z)}, float(number(v, "mass"))));
+    scene.bodies.push_back(
+        dynamic_body(0, {float(x), float(half * double(1 + 2 * level)), float(z)}, float(number(v, "mass"))));
   }
   return scene;
 }
@@ -128,7 +140,8 @@ Scene box_stack(const SceneValues &v) {
 
 uint64_t pyramid_bodies(const SceneValues &v) { return 1 + uint64_t(whole(v, "rows") * (whole(v, "rows") + 1) / 2); }
 
-Scene pyramid(const SceneValues &v) {
+Scene pyramid(const SceneValues &v)
+{
   int64_t rows = whole(v, "rows");
   double half = number(v, "half_extent"), pitch = 2 * half + number(v, "gap");
   Scene scene;
@@ -144,7 +157,8 @@ Scene pyramid(const SceneValues &v) {
 
 /* --- spheres -------------------------------------------------------------------------------- */
 
-Scene spheres(const SceneValues &v) {
+Scene spheres(const SceneValues &v)
+{
   int64_t n = whole(v, "n");
   double radius = number(v, "radius"), jitter = number(v, "jitter") * radius;
   Random random(uint64_t(whole(v, "seed")));
@@ -161,7 +175,8 @@ Scene spheres(const SceneValues &v) {
 
 /* --- mixed: all shapes, several sizes and materials, in a walled yard ------------------------- */
 
-std::vector<Material> mixed_materials() {
+std::vector<Material> mixed_materials()
+{
   auto material = [](const char *name, float static_friction, float dynamic_friction, float restitution) {
     Material m;
     m.name = name;
@@ -177,13 +192,15 @@ std::vector<Material> mixed_materials() {
   return materials;
 }
 
-double volume(const Shape &shape) {
+double volume(const Shape &shape)
+{
   double x = shape.size[0], y = shape.size[1], z = shape.size[2];
   return shape.type == ShapeType::sphere ? 4.0 / 3.0 * 3.14159265358979 * x * x * x : 8 * x * y * z;
 }
 
 /* Four static boxes around |x|, |z| <= inner, as high as a third of the yard's width. */
-void add_walls(Scene &scene, double inner) {
+void add_walls(Scene &scene, double inner)
+{
   float half_height = float(inner / 3), thick = 0.5f, far = float(inner) + thick;
   auto first = uint32_t(scene.shapes.size());
   scene.shapes.push_back(box_shape(thick, half_height, float(inner) + 2 * thick));
@@ -201,13 +218,19 @@ void add_walls(Scene &scene, double inner) {
 
 uint64_t mixed_bodies(const SceneValues &v) { return 5 + uint64_t(whole(v, "n")); }
 
-Scene mixed(const SceneValues &v) {
+Scene mixed(const SceneValues &v)
+{
   int64_t n = whole(v, "n");
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
   scene.materials = mixed_materials();
-  scene.shapes = {box_shape(0.5f, 0.5f, 0.5f), box_shape(0.8f, 0.2f, 0.4f), box_shape(0.25f, 0.7f, 0.25f), box_shape(0.15f, 0.15f, 0.15f),
-                  sphere_shape(0.5f),          sphere_shape(0.3f),          sphere_shape(0.15f)};
+  scene.shapes = {box_shape(0.5f, 0.5f, 0.5f),
+                  box_shape(0.8f, 0.2f, 0.4f),
+                  box_shape(0.25f, 0.7f, 0.25f),
+                  box_shape(0.15f, 0.15f, 0.15f),
+                  sphere_shape(0.5f),
+                  sphere_shape(0.3f),
+                  sphere_shape(0.15f)};
   const auto movable = uint32_t(scene.shapes.size());
   const double largest_radius = 0.92, jitter = 0.1; /* half the diagonal of the plank */
   int64_t side = 1;
@@ -232,17 +255,23 @@ const SceneParameter seed{"seed", integer, 1, 0, 4294967295.0, "start of the ran
 const SceneParameter half_extent{"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"};
 const double most = double(most_bodies - 5);
 
-const std::vector<BuiltInScene> &catalog() {
+const std::vector<BuiltInScene> &catalog()
+{
   /* 360 columns are as many as the ground of half extent 400 holds. */
   static const std::vector<BuiltInScene> rows{
       {"box-grid",
        "nx * ny * nz boxes of half extent 1 in shifted layers on a static box; the scene of the published comparisons",
-       {{"nx", integer, 20, 1, 360, "boxes along x"}, {"ny", integer, 20, 1, 10000, "layers"}, {"nz", integer, 20, 1, 360, "boxes along z"}},
+       {{"nx", integer, 20, 1, 360, "boxes along x"},
+        {"ny", integer, 20, 1, 10000, "layers"},
+        {"nz", integer, 20, 1, 360, "boxes along z"}},
        box_grid_bodies,
        box_grid},
       {"falling-boxes",
        "cubes in random poses above a ground; they fall and pile up",
-       {{"n", integer, 3000, 1, most, "boxes"}, half_extent, {"height", real, 1, 0, 10000, "free height under the lowest box, m"}, seed},
+       {{"n", integer, 3000, 1, most, "boxes"},
+        half_extent,
+        {"height", real, 1, 0, 10000, "free height under the lowest box, m"},
+        seed},
        ground_and_n,
        falling_boxes},
       {"box-stack",
@@ -282,54 +311,66 @@ const std::vector<BuiltInScene> &catalog() {
 
 /* --- the parser ------------------------------------------------------------------------------ */
 
-std::string scene_names() {
+std::string scene_names()
+{
   std::string names;
   for (const BuiltInScene &scene : catalog()) names += (names.empty() ? "" : ", ") + std::string(scene.name);
   return names;
 }
 
-std::string parameter_names(const BuiltInScene &scene) {
+std::string parameter_names(const BuiltInScene &scene)
+{
   std::string names;
   for (const SceneParameter &p : scene.parameters) names += (names.empty() ? "" : ", ") + std::string(p.name);
   return names;
 }
 
-const BuiltInScene &find_scene(const std::string &name) {
+const BuiltInScene &find_scene(const std::string &name)
+{
   for (const BuiltInScene &scene : catalog())
     if (name == scene.name) return scene;
-  throw InputError(fmt::format("unknown scene '{}'; built-in scenes: {}; scene files end in .json, .gltf or .glb", name, scene_names()));
+  throw InputError(fmt::format("unknown scene '{}'; built-in scenes: {}; scene files end in .json, .gltf or .glb", name,
+                               scene_names()));
 }
 
-const SceneParameter &find_parameter(const BuiltInScene &scene, const std::string &name) {
+const SceneParameter &find_parameter(const BuiltInScene &scene, const std::string &name)
+{
   for (const SceneParameter &p : scene.parameters)
     if (name == p.name) return p;
-  throw InputError(fmt::format("scene {}: unknown parameter '{}'; parameters: {}", scene.name, name, parameter_names(scene)));
+  throw InputError(
+      fmt::format("scene {}: unknown parameter '{}'; parameters: {}", scene.name, name, parameter_names(scene)));
 }
 
-double parse_value(const BuiltInScene &scene, const SceneParameter &parameter, const std::string &text) {
+double parse_value(const BuiltInScene &scene, const SceneParameter &parameter, const std::string &text)
+{
   bool is_integer = parameter.type == integer;
   double value = 0;
   auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  bool malformed = error == std::errc::invalid_argument || end != text.data() + text.size() || text.empty() || std::isnan(value);
+  bool malformed =
+      error == std::errc::invalid_argument || end != text.data() + text.size() || text.empty() || std::isnan(value);
   if (malformed || (is_integer && std::isfinite(value) && value != std::floor(value)))
-    throw InputError(fmt::format("scene {}: {}={}: {} is needed", scene.name, parameter.name, text, is_integer ? "an integer" : "a number"));
+    throw InputError(fmt::format("scene {}: {}={}: {} is needed", scene.name, parameter.name, text,
+                                 is_integer ? "an integer" : "a number"));
   if (error != std::errc() || value < parameter.minimum || value > parameter.maximum)
-    throw InputError(fmt::format("scene {}: {}={} is out of range; {} to {} is possible", scene.name, parameter.name, text, parameter.minimum,
-                                 parameter.maximum));
+    throw InputError(fmt::format("scene {}: {}={} is out of range; {} to {} is possible", scene.name, parameter.name,
+                                 text, parameter.minimum, parameter.maximum));
   return value;
 }
 
-void parse_assignment(SceneSpec &spec, const std::string &text) {
+void parse_assignment(SceneSpec &spec, const std::string &text)
+{
   size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw InputError(fmt::format("scene {}: '{}' is not key=value; parameters: {}", spec.scene->name, text, parameter_names(*spec.scene)));
+    throw InputError(fmt::format("scene {}: '{}' is not key=value; parameters: {}", spec.scene->name, text,
+                                 parameter_names(*spec.scene)));
   const SceneParameter &parameter = find_parameter(*spec.scene, text.substr(0, equals));
   double value = parse_value(*spec.scene, parameter, text.substr(equals + 1));
   if (!spec.values.emplace(parameter.name, value).second)
     throw InputError(fmt::format("scene {}: parameter '{}' is given twice", spec.scene->name, parameter.name));
 }
 
-std::string describe(const SceneSpec &spec) {
+std::string describe(const SceneSpec &spec)
+{
   std::string text = spec.scene->name;
   char separator = ':';
   for (const SceneParameter &p : spec.scene->parameters) {
@@ -339,11 +380,13 @@ std::string describe(const SceneSpec &spec) {
   return text;
 }
 
-std::string lower_extension(const std::string &path) {
+std::string lower_extension(const std::string &path)
+{
   size_t dot = path.rfind('.');
   if (dot == std::string::npos) return "";
   std::string extension = path.substr(dot);
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
   return extension;
 }
 
@@ -351,7 +394,8 @@ std::string lower_extension(const std::string &path) {
 
 std::span<const BuiltInScene> built_in_scenes() { return catalog(); }
 
-SceneSpec parse_scene_spec(const std::string &text) {
+SceneSpec parse_scene_spec(const std::string &text)
+{
   size_t colon = text.find(':');
   SceneSpec spec{&find_scene(text.substr(0, colon)), {}};
   for (size_t start = colon; start != std::string::npos;) {
@@ -362,18 +406,21 @@ SceneSpec parse_scene_spec(const std::string &text) {
   }
   for (const SceneParameter &p : spec.scene->parameters) spec.values.emplace(p.name, p.default_value);
   uint64_t count = spec.scene->body_count(spec.values);
-  if (count > most_bodies) throw InputError(fmt::format("scene {}: {} bodies; at most {} are possible", text, count, most_bodies));
+  if (count > most_bodies)
+    throw InputError(fmt::format("scene {}: {} bodies; at most {} are possible", text, count, most_bodies));
   return spec;
 }
 
-Scene build_scene(const SceneSpec &spec) {
+Scene build_scene(const SceneSpec &spec)
+{
   Scene scene = spec.scene->build(spec.values);
   scene.name = describe(spec);
   validate(scene, scene.name);
   return scene;
 }
 
-Scene load_scene(const std::string &spec_or_path) {
+Scene load_scene(const std::string &spec_or_path)
+{
   std::string extension = lower_extension(spec_or_path);
   if (extension == ".json") return read_scene_json(spec_or_path);
   if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path);

@@ -29,14 +29,21 @@ constexpr double default_density = 1000; /* kg/m³, for motions without a mass *
 
 /* --- parsing the file ------------------------------------------------------------------------- */
 
-bool ignore_image(tinygltf::Image *, const int, std::string *, std::string *, int, int, const unsigned char *, int, void *) { return true; }
-
-std::string first_line(const std::string &text) {
-  size_t start = text.find_first_not_of(" \n");
-  return start == std::string::npos ? "not a readable glTF 2.0 file" : text.substr(start, text.find('\n', start) - start);
+bool ignore_image(tinygltf::Image *, const int, std::string *, std::string *, int, int, const unsigned char *, int,
+                  void *)
+{
+  return true;
 }
 
-tinygltf::Model parse_model(const std::string &path) {
+std::string first_line(const std::string &text)
+{
+  size_t start = text.find_first_not_of(" \n");
+  return start == std::string::npos ? "not a readable glTF 2.0 file"
+                                    : text.substr(start, text.find('\n', start) - start);
+}
+
+tinygltf::Model parse_model(const std::string &path)
+{
   std::string text = read_file(path), error, warning;
   bool binary = text.compare(0, 4, "glTF") == 0;
   if (!binary) parse_json(text, path); /* for line and column */
@@ -46,7 +53,8 @@ tinygltf::Model parse_model(const std::string &path) {
   tinygltf::Model model;
   bool parsed = false;
   try {
-    parsed = binary ? parser.LoadBinaryFromFile(&model, &error, &warning, path) : parser.LoadASCIIFromFile(&model, &error, &warning, path);
+    parsed = binary ? parser.LoadBinaryFromFile(&model, &error, &warning, path)
+                    : parser.LoadASCIIFromFile(&model, &error, &warning, path);
   } catch (const std::exception &exception) { /* the JSON library under it reports wrong types so */
     error = exception.what();
   }
@@ -54,14 +62,17 @@ tinygltf::Model parse_model(const std::string &path) {
   return model;
 }
 
-void check_extensions(const tinygltf::Model &model, const std::string &where) {
+void check_extensions(const tinygltf::Model &model, const std::string &where)
+{
   for (const std::string &name : model.extensionsRequired)
     if (name != shapes_extension && name != bodies_extension)
-      throw InputError(fmt::format("{}: required extension {} is not supported yet; {} and {} are", where, name, shapes_extension, bodies_extension));
+      throw InputError(fmt::format("{}: required extension {} is not supported yet; {} and {} are", where, name,
+                                   shapes_extension, bodies_extension));
 }
 
 /* The "extensions" object of the document or of a node; empty when there is none. */
-nlohmann::json extensions_of(const std::string &original, const std::string &where) {
+nlohmann::json extensions_of(const std::string &original, const std::string &where)
+{
   nlohmann::json extensions = original.empty() ? nlohmann::json() : parse_json(original, where);
   if (extensions.is_null()) extensions = nlohmann::json::object();
   if (!extensions.is_object()) throw InputError(fmt::format("{}: extensions is not an object", where));
@@ -75,7 +86,8 @@ struct Transform {
   double translation[3] = {0, 0, 0};
 };
 
-Transform operator*(const Transform &a, const Transform &b) {
+Transform operator*(const Transform &a, const Transform &b)
+{
   Transform product;
   for (int row = 0; row < 3; ++row) {
     product.translation[row] = a.translation[row];
@@ -90,12 +102,14 @@ Transform operator*(const Transform &a, const Transform &b) {
 
 double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-double determinant(const Transform &t) {
+double determinant(const Transform &t)
+{
   const double *a = t.column[0], *b = t.column[1], *c = t.column[2];
   return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) + c[0] * (a[1] * b[2] - a[2] * b[1]);
 }
 
-void rotation_columns(const std::vector<double> &quaternion, Transform &t) {
+void rotation_columns(const std::vector<double> &quaternion, Transform &t)
+{
   double x = quaternion[0], y = quaternion[1], z = quaternion[2], w = quaternion[3];
   double s = 2 / (x * x + y * y + z * z + w * w);
   double columns[3][3] = {{1 - s * (y * y + z * z), s * (x * y + z * w), s * (x * z - y * w)},
@@ -105,7 +119,8 @@ void rotation_columns(const std::vector<double> &quaternion, Transform &t) {
 }
 
 /* Of a rotation matrix; the largest component is computed first, so that nothing is divided by a small number. */
-Quat quaternion_of(const double m[3][3]) {
+Quat quaternion_of(const double m[3][3])
+{
   double trace = m[0][0] + m[1][1] + m[2][2], q[4];
   if (trace > 0) {
     double s = 2 * std::sqrt(1 + trace);
@@ -165,7 +180,8 @@ private:
   Scene scene_;
 };
 
-Loader::Loader(const tinygltf::Model &model, const std::string &where) : model_(model), where_(where) {
+Loader::Loader(const tinygltf::Model &model, const std::string &where) : model_(model), where_(where)
+{
   nlohmann::json document = extensions_of(model.extensions_json_string, where);
   shapes_ = document.value(shapes_extension, nlohmann::json::object());
   bodies_ = document.value(bodies_extension, nlohmann::json::object());
@@ -174,24 +190,31 @@ Loader::Loader(const tinygltf::Model &model, const std::string &where) : model_(
       if (channel.target_path != "weights") animated_.insert(channel.target_node);
 }
 
-std::string Loader::node_label(int node) const {
+std::string Loader::node_label(int node) const
+{
   const std::string &name = model_.nodes[size_t(node)].name;
   return name.empty() ? fmt::format("node {}", node) : fmt::format("node '{}'", name);
 }
 
-void Loader::refuse(int node, const std::string &what) const { throw InputError(fmt::format("{}: {}: {}", where_, node_label(node), what)); }
+void Loader::refuse(int node, const std::string &what) const
+{
+  throw InputError(fmt::format("{}: {}: {}", where_, node_label(node), what));
+}
 
 /* The extension's rule for two materials takes "average" before "minimum" and so on; a material that
  * names no rule yields to one that does, as our geometric mean does. */
-Combine read_combine(const JsonValue &material, const char *key) {
+Combine read_combine(const JsonValue &material, const char *key)
+{
   static constexpr const char *names[] = {"average", "minimum", "maximum", "multiply"};
   std::optional<JsonValue> rule = material.find(key);
   return rule ? Combine(rule->choice(names)) : Combine::geometric_mean;
 }
 
-void Loader::read_materials(const JsonValue &document) {
-  static constexpr const char *keys[] = {"staticFriction",     "dynamicFriction", "restitution", "frictionCombine",
-                                         "restitutionCombine", "name",            "extras",      "extensions"};
+void Loader::read_materials(const JsonValue &document)
+{
+  static constexpr const char *keys[] = {"staticFriction",  "dynamicFriction",    "restitution",
+                                         "frictionCombine", "restitutionCombine", "name",
+                                         "extras",          "extensions"};
   scene_.materials[0].name = "default";
   scene_.materials[0].restitution_combine = Combine::geometric_mean;
   std::optional<JsonValue> list = document.find("physicsMaterials");
@@ -218,20 +241,24 @@ struct FilterText {
   enum { collides_with_all, only_with_listed, not_with_listed } rule = collides_with_all;
 
   /* Does a collider that is in `systems` pass this filter? One in no system is in no list. */
-  bool accepts(const Systems &systems) const {
+  bool accepts(const Systems &systems) const
+  {
     bool all_listed = !systems.empty() && std::includes(listed.begin(), listed.end(), systems.begin(), systems.end());
     return rule == collides_with_all || all_listed == (rule == only_with_listed);
   }
 };
 
-Systems read_systems(const JsonValue &list) {
+Systems read_systems(const JsonValue &list)
+{
   Systems systems;
   for (size_t i = 0; i < list.array_size(); ++i) systems.insert(list.element(i).text());
   return systems;
 }
 
-FilterText read_filter(const JsonValue &json) {
-  static constexpr const char *keys[] = {"collisionSystems", "collideWithSystems", "notCollideWithSystems", "name", "extras", "extensions"};
+FilterText read_filter(const JsonValue &json)
+{
+  static constexpr const char *keys[] = {"collisionSystems", "collideWithSystems", "notCollideWithSystems", "name",
+                                         "extras",           "extensions"};
   json.only_keys(keys);
   FilterText filter;
   if (auto list = json.find("collisionSystems")) filter.member_of = read_systems(*list);
@@ -245,7 +272,8 @@ FilterText read_filter(const JsonValue &json) {
 
 /* The rule asks whether ALL systems of a collider are listed; bits can only ask for ANY. So each
  * combination of systems that occurs gets a bit of its own, which is exact. Bit 0: in no system. */
-void Loader::read_filters(const JsonValue &document) {
+void Loader::read_filters(const JsonValue &document)
+{
   std::vector<FilterText> texts;
   std::optional<JsonValue> list = document.find("collisionFilters");
   for (size_t i = 0; list && i < list->array_size(); ++i) texts.push_back(read_filter(list->element(i)));
@@ -253,7 +281,8 @@ void Loader::read_filters(const JsonValue &document) {
   for (const FilterText &text : texts) {
     auto at = std::find(combinations.begin(), combinations.end(), text.member_of);
     if (at == combinations.end()) at = combinations.insert(at, text.member_of);
-    if (combinations.size() > 32) list->fail("more than 31 different combinations of collision systems are not supported yet");
+    if (combinations.size() > 32)
+      list->fail("more than 31 different combinations of collision systems are not supported yet");
     filters_.push_back({uint32_t(1) << (at - combinations.begin()), 0});
   }
   for (size_t i = 0; i < texts.size(); ++i)
@@ -263,10 +292,13 @@ void Loader::read_filters(const JsonValue &document) {
 
 /* --- the tree --------------------------------------------------------------------------------- */
 
-std::vector<int> Loader::root_nodes() const {
+std::vector<int> Loader::root_nodes() const
+{
   if (!model_.scenes.empty()) {
     int chosen = model_.defaultScene < 0 ? 0 : model_.defaultScene;
-    if (size_t(chosen) >= model_.scenes.size()) throw InputError(fmt::format("{}: scene {} does not exist; the file has {}", where_, chosen, model_.scenes.size()));
+    if (size_t(chosen) >= model_.scenes.size())
+      throw InputError(
+          fmt::format("{}: scene {} does not exist; the file has {}", where_, chosen, model_.scenes.size()));
     return model_.scenes[size_t(chosen)].nodes;
   }
   std::vector<bool> is_child(model_.nodes.size());
@@ -279,10 +311,12 @@ std::vector<int> Loader::root_nodes() const {
   return roots;
 }
 
-Transform Loader::local_transform(int index) const {
+Transform Loader::local_transform(int index) const
+{
   const tinygltf::Node &node = model_.nodes[size_t(index)];
   auto has = [&](const std::vector<double> &values, size_t size, const char *name) {
-    if (!values.empty() && values.size() != size) refuse(index, fmt::format("{} has {} numbers; {} are needed", name, values.size(), size));
+    if (!values.empty() && values.size() != size)
+      refuse(index, fmt::format("{} has {} numbers; {} are needed", name, values.size(), size));
     return !values.empty();
   };
   Transform local;
@@ -305,9 +339,11 @@ Transform Loader::local_transform(int index) const {
   return local;
 }
 
-Scene Loader::load() {
+Scene Loader::load()
+{
   JsonValue bodies(bodies_, where_, std::string("extensions.") + bodies_extension);
-  static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras", "extensions"};
+  static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras",
+                                         "extensions"};
   bodies.only_keys(keys);
   scene_.name = where_;
   scene_.gravity = {0, -9.81f, 0};
@@ -321,12 +357,15 @@ Scene Loader::load() {
     pending.pop_back();
     visit(next, pending);
   }
-  if (scene_.bodies.empty()) throw InputError(fmt::format("{}: no node has a collider ({}); there is nothing to simulate", where_, bodies_extension));
+  if (scene_.bodies.empty())
+    throw InputError(
+        fmt::format("{}: no node has a collider ({}); there is nothing to simulate", where_, bodies_extension));
   validate(scene_, where_);
   return std::move(scene_);
 }
 
-void Loader::visit(const Visit &at, std::vector<Visit> &pending) {
+void Loader::visit(const Visit &at, std::vector<Visit> &pending)
+{
   if (at.node < 0 || size_t(at.node) >= model_.nodes.size())
     throw InputError(fmt::format("{}: node {} does not exist; the file has {}", where_, at.node, model_.nodes.size()));
   if (!visited_.insert(at.node).second) refuse(at.node, "has two parents; a node tree is needed");
@@ -344,10 +383,13 @@ void Loader::visit(const Visit &at, std::vector<Visit> &pending) {
     if (physics.find("joint")) physics.fail("a joint is not supported yet");
     if (physics.find("trigger")) physics.fail("a trigger is not supported yet");
     if (has_motion && !has_collider)
-      physics.fail("a motion without a collider of its own (a compound of colliders further down, or a body without shape) is not supported yet");
+      physics.fail("a motion without a collider of its own (a compound of colliders further down, or a body without "
+                   "shape) is not supported yet");
     if (has_collider && !has_motion && at.motion_ancestor >= 0)
-      physics.fail(fmt::format("a collider below the motion of {} (a compound collider) is not supported yet", node_label(at.motion_ancestor)));
-    if ((has_motion || has_collider) && below.animated_ancestor >= 0) physics.fail("an animated rigid body is not supported yet");
+      physics.fail(fmt::format("a collider below the motion of {} (a compound collider) is not supported yet",
+                               node_label(at.motion_ancestor)));
+    if ((has_motion || has_collider) && below.animated_ancestor >= 0)
+      physics.fail("an animated rigid body is not supported yet");
     if (has_collider) add_body(at.node, below.parent, physics);
     if (has_motion) below.motion_ancestor = at.node;
   }
@@ -359,8 +401,10 @@ void Loader::visit(const Visit &at, std::vector<Visit> &pending) {
 
 /* --- one body --------------------------------------------------------------------------------- */
 
-void Loader::add_body(int index, const Transform &world, const JsonValue &physics) {
-  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
+void Loader::add_body(int index, const Transform &world, const JsonValue &physics)
+{
+  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras",
+                                                  "extensions"};
   JsonValue collider = physics.member("collider");
   collider.only_keys(collider_keys);
   std::optional<JsonValue> motion = physics.find("motion");
@@ -373,11 +417,13 @@ void Loader::add_body(int index, const Transform &world, const JsonValue &physic
   if (auto material = collider.find("physicsMaterial")) {
     body.material = material->unsigned_integer() + 1;
     if (body.material == 0 || body.material >= scene_.materials.size())
-      material->fail(fmt::format("material {} does not exist; the file has {}", material->unsigned_integer(), scene_.materials.size() - 1));
+      material->fail(fmt::format("material {} does not exist; the file has {}", material->unsigned_integer(),
+                                 scene_.materials.size() - 1));
   }
   if (auto filter = collider.find("collisionFilter")) {
     uint32_t chosen = filter->unsigned_integer();
-    if (chosen >= filters_.size()) filter->fail(fmt::format("filter {} does not exist; the file has {}", chosen, filters_.size()));
+    if (chosen >= filters_.size())
+      filter->fail(fmt::format("filter {} does not exist; the file has {}", chosen, filters_.size()));
     body.filter_group = filters_[chosen].group;
     body.filter_mask = filters_[chosen].mask;
   }
@@ -389,14 +435,16 @@ void Loader::add_body(int index, const Transform &world, const JsonValue &physic
 }
 
 /* Splits the world matrix. False: scaled to nothing, which disables the collider. */
-bool Loader::place(int index, const Transform &world, bool moves, Body &body, Vec3 &scale) const {
+bool Loader::place(int index, const Transform &world, bool moves, Body &body, Vec3 &scale) const
+{
   Transform rotation = world;
   double length[3];
   for (int j = 0; j < 3; ++j) length[j] = std::sqrt(dot(world.column[j], world.column[j]));
   bool disabled = length[0] == 0 && length[1] == 0 && length[2] == 0;
   if (disabled && !moves) return false;
   for (int j = 0; j < 3; ++j) {
-    if (!(length[j] > 0) || !std::isfinite(length[j])) refuse(index, fmt::format("its scale is {} along axis {}", length[j], j));
+    if (!(length[j] > 0) || !std::isfinite(length[j]))
+      refuse(index, fmt::format("its scale is {} along axis {}", length[j], j));
     for (double &x : rotation.column[j]) x /= length[j];
     scale[size_t(j)] = float(length[j]);
   }
@@ -411,15 +459,18 @@ bool Loader::place(int index, const Transform &world, bool moves, Body &body, Ve
   return true;
 }
 
-Shape read_plane(const JsonValue &json) {
+Shape read_plane(const JsonValue &json)
+{
   static constexpr const char *keys[] = {"doubleSided", "sizeX", "sizeZ", "extras", "extensions"};
   json.only_keys(keys);
   if (json.find("sizeX") || json.find("sizeZ")) json.fail("a finite plane is not supported yet");
-  if (auto double_sided = json.find("doubleSided"); double_sided && double_sided->boolean()) json.fail("a double-sided plane is not supported yet");
+  if (auto double_sided = json.find("doubleSided"); double_sided && double_sided->boolean())
+    json.fail("a double-sided plane is not supported yet");
   return half_space_shape();
 }
 
-Shape read_sphere(const JsonValue &json, const Vec3 &scale) {
+Shape read_sphere(const JsonValue &json, const Vec3 &scale)
+{
   static constexpr const char *keys[] = {"radius", "extras", "extensions"};
   json.only_keys(keys);
   float smallest = std::min({scale[0], scale[1], scale[2]}), largest = std::max({scale[0], scale[1], scale[2]});
@@ -429,7 +480,8 @@ Shape read_sphere(const JsonValue &json, const Vec3 &scale) {
   return sphere_shape((radius ? radius->number() : 0.5f) * scale[0]);
 }
 
-Shape read_box(const JsonValue &json, const Vec3 &scale) {
+Shape read_box(const JsonValue &json, const Vec3 &scale)
+{
   static constexpr const char *keys[] = {"size", "extras", "extensions"};
   json.only_keys(keys);
   std::optional<JsonValue> size = json.find("size");
@@ -437,28 +489,28 @@ Shape read_box(const JsonValue &json, const Vec3 &scale) {
   return box_shape(0.5f * edges[0] * scale[0], 0.5f * edges[1] * scale[1], 0.5f * edges[2] * scale[2]);
 }
 
-uint32_t Loader::read_shape(const JsonValue &geometry, const Vec3 &scale) {
-  if (geometry.find("node") || geometry.find("mesh")) geometry.fail("mesh geometry (and its convex hull) is not supported yet");
+uint32_t Loader::read_shape(const JsonValue &geometry, const Vec3 &scale)
+{
+  if (geometry.find("node") || geometry.find("mesh"))
+    geometry.fail("mesh geometry (and its convex hull) is not supported yet");
   static constexpr const char *keys[] = {"shape", "convexHull", "extras", "extensions"};
   geometry.only_keys(keys);
   static constexpr const char *document_keys[] = {"shapes", "extras", "extensions"};
-  JsonValue chosen = geometry.member("shape"), document(shapes_, geometry.where(), std::string("extensions.") + shapes_extension);
+  JsonValue chosen = geometry.member("shape"),
+            document(shapes_, geometry.where(), std::string("extensions.") + shapes_extension);
   document.only_keys(document_keys);
   JsonValue list = document.member("shapes");
   uint32_t index = chosen.unsigned_integer();
-  if (index >= list.array_size()) chosen.fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
+  if (index >= list.array_size())
+    chosen.fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
   JsonValue json = list.element(index);
   std::string type = json.member("type").text();
   nlohmann::json empty = nlohmann::json::object();
   Shape shape;
-  if (type == "plane")
-    shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())));
-  else if (type == "sphere")
-    shape = read_sphere(json.member("sphere"), scale);
-  else if (type == "box")
-    shape = read_box(json.member("box"), scale);
-  else
-    geometry.fail(fmt::format("shape type {} is not supported yet; sphere, box and plane are", type));
+  if (type == "plane") shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())));
+  else if (type == "sphere") shape = read_sphere(json.member("sphere"), scale);
+  else if (type == "box") shape = read_box(json.member("box"), scale);
+  else geometry.fail(fmt::format("shape type {} is not supported yet; sphere, box and plane are", type));
   auto [at, added] = shape_index_.emplace(std::pair{uint32_t(shape.type), shape.size}, uint32_t(scene_.shapes.size()));
   if (added) scene_.shapes.push_back(shape);
   return at->second;
@@ -466,9 +518,11 @@ uint32_t Loader::read_shape(const JsonValue &geometry, const Vec3 &scale) {
 
 /* --- its motion ------------------------------------------------------------------------------- */
 
-void Loader::read_motion(const JsonValue &motion, const Transform &world, Body &body) const {
-  static constexpr const char *keys[] = {"isKinematic",    "mass",            "centerOfMass",  "inertiaDiagonal", "inertiaOrientation",
-                                         "linearVelocity", "angularVelocity", "gravityFactor", "extras",          "extensions"};
+void Loader::read_motion(const JsonValue &motion, const Transform &world, Body &body) const
+{
+  static constexpr const char *keys[] = {
+      "isKinematic",     "mass",          "centerOfMass", "inertiaDiagonal", "inertiaOrientation", "linearVelocity",
+      "angularVelocity", "gravityFactor", "extras",       "extensions"};
   motion.only_keys(keys);
   body.motion = Motion::dynamic;
   if (auto centre = motion.find("centerOfMass"); centre && centre->vec3() != Vec3{0, 0, 0})
@@ -490,21 +544,25 @@ void Loader::read_motion(const JsonValue &motion, const Transform &world, Body &
   }
 }
 
-void Loader::read_inertia(const JsonValue &motion, Body &body) const {
+void Loader::read_inertia(const JsonValue &motion, Body &body) const
+{
   if (auto orientation = motion.find("inertiaOrientation")) {
     Quat q = orientation->quat();
-    if (std::abs(q[0]) + std::abs(q[1]) + std::abs(q[2]) > 1e-6f) orientation->fail("a rotated inertia tensor is not supported yet");
+    if (std::abs(q[0]) + std::abs(q[1]) + std::abs(q[2]) > 1e-6f)
+      orientation->fail("a rotated inertia tensor is not supported yet");
   }
   std::optional<JsonValue> diagonal = motion.find("inertiaDiagonal");
   if (!diagonal) return;
   body.inertia = diagonal->vec3();
   auto zeros = std::count(body.inertia.begin(), body.inertia.end(), 0.0f);
   if (zeros == 3) body.infinite_inertia = true;
-  if (zeros == 1 || zeros == 2) diagonal->fail("an inertia that is infinite (0) about some axes only is not supported yet");
+  if (zeros == 1 || zeros == 2)
+    diagonal->fail("an inertia that is infinite (0) about some axes only is not supported yet");
 }
 
 /* Given in node space: turned, but not scaled, to world axes. */
-void Loader::read_velocities(const JsonValue &motion, const Transform &world, Body &body) const {
+void Loader::read_velocities(const JsonValue &motion, const Transform &world, Body &body) const
+{
   Vec3 *targets[] = {&body.linear_velocity, &body.angular_velocity};
   const char *keys[] = {"linearVelocity", "angularVelocity"};
   for (int i = 0; i < 2; ++i) {
@@ -514,12 +572,14 @@ void Loader::read_velocities(const JsonValue &motion, const Transform &world, Bo
     if (determinant(world) < 0) json->fail("a velocity in a mirrored node (negative scale) is not supported yet");
     double turned[3] = {0, 0, 0};
     for (size_t j = 0; j < 3; ++j)
-      for (size_t row = 0; row < 3; ++row) turned[row] += world.column[j][row] / std::sqrt(dot(world.column[j], world.column[j])) * double(local[j]);
+      for (size_t row = 0; row < 3; ++row)
+        turned[row] += world.column[j][row] / std::sqrt(dot(world.column[j], world.column[j])) * double(local[j]);
     for (size_t row = 0; row < 3; ++row) (*targets[i])[row] = float(turned[row]);
   }
 }
 
-double Loader::volume_of(const Body &body) const {
+double Loader::volume_of(const Body &body) const
+{
   const Shape &shape = scene_.shapes[body.shape];
   double x = shape.size[0], y = shape.size[1], z = shape.size[2];
   return shape.type == ShapeType::sphere ? 4.0 / 3.0 * 3.14159265358979323846 * x * x * x : 8 * x * y * z;
@@ -527,7 +587,8 @@ double Loader::volume_of(const Body &body) const {
 
 } // namespace
 
-Scene read_scene_gltf(const std::string &path) {
+Scene read_scene_gltf(const std::string &path)
+{
   tinygltf::Model model = parse_model(path);
   check_extensions(model, path);
   return Loader(model, path).load();

@@ -18,7 +18,8 @@ constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multi
 std::span<const char *const> names_of(Motion) { return motion_names; }
 std::span<const char *const> names_of(Combine) { return combine_names; }
 
-template <typename Field> void each_field(const Material *, Field &&field) {
+template <typename Field> void each_field(const Material *, Field &&field)
+{
   field("name", &Material::name);
   field("static_friction", &Material::static_friction);
   field("dynamic_friction", &Material::dynamic_friction);
@@ -27,7 +28,8 @@ template <typename Field> void each_field(const Material *, Field &&field) {
   field("restitution_combine", &Material::restitution_combine);
 }
 
-template <typename Field> void each_field(const Body *, Field &&field) {
+template <typename Field> void each_field(const Body *, Field &&field)
+{
   field("name", &Body::name);
   field("motion", &Body::motion);
   field("shape", &Body::shape);
@@ -54,11 +56,15 @@ void read_value(const JsonValue &json, uint32_t &value) { value = json.unsigned_
 void read_value(const JsonValue &json, bool &value) { value = json.boolean(); }
 void read_value(const JsonValue &json, Vec3 &value) { value = json.vec3(); }
 void read_value(const JsonValue &json, Quat &value) { value = json.quat(); }
-template <typename Enum> requires std::is_enum_v<Enum> void read_value(const JsonValue &json, Enum &value) {
-  value = Enum(json.choice(names_of(value)));
-}
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
 
-template <typename Record> void read_value(const JsonValue &json, Record &record) requires requires { each_field(&record, [](auto, auto) {}); } {
+template <typename Record> void read_value(const JsonValue &json, Record &record) requires requires
+{
+  each_field(&record, [](auto, auto) {});
+}
+{
   std::vector<const char *> known;
   each_field(&record, [&](const char *key, auto) { known.push_back(key); });
   json.only_keys(known);
@@ -69,7 +75,8 @@ template <typename Record> void read_value(const JsonValue &json, Record &record
 
 /* {"type": "sphere", "radius": r}, {"type": "box", "half_extents": [x, y, z]}, {"type": "half_space"};
  * "size" instead gives the three numbers of the record as they are. */
-void read_value(const JsonValue &json, Shape &shape) {
+void read_value(const JsonValue &json, Shape &shape)
+{
   static constexpr const char *size_keys[] = {"radius", "half_extents", nullptr};
   shape.type = ShapeType(json.member("type").choice(shape_names));
   const char *size_key = size_keys[size_t(shape.type)];
@@ -77,36 +84,39 @@ void read_value(const JsonValue &json, Shape &shape) {
   if (size_key) known.push_back(size_key);
   json.only_keys(known);
   std::optional<JsonValue> size = json.find("size");
-  if (size && size_key && json.find(size_key)) json.fail(fmt::format("\"size\" and \"{}\" exclude each other", size_key));
-  if (size)
-    shape.size = size->vec3();
-  else if (shape.type == ShapeType::sphere)
-    shape = sphere_shape(json.member(size_key).number());
-  else
-    shape.size = size_key ? json.member(size_key).vec3() : Vec3{0, 0, 0};
+  if (size && size_key && json.find(size_key))
+    json.fail(fmt::format("\"size\" and \"{}\" exclude each other", size_key));
+  if (size) shape.size = size->vec3();
+  else if (shape.type == ShapeType::sphere) shape = sphere_shape(json.member(size_key).number());
+  else shape.size = size_key ? json.member(size_key).vec3() : Vec3{0, 0, 0};
 }
 
-template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records) {
+template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records)
+{
   records.resize(json.array_size());
   for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
 }
 
-void check_version(const JsonValue &root) {
+void check_version(const JsonValue &root)
+{
   if (!root.find("tandem_scene")) root.fail("\"tandem_scene\": 1 is missing; this is not a Tandem scene");
   JsonValue version = root.member("tandem_scene");
-  if (version.unsigned_integer() != 1) version.fail(fmt::format("is {}; version 1 is known", version.unsigned_integer()));
+  if (version.unsigned_integer() != 1)
+    version.fail(fmt::format("is {}; version 1 is known", version.unsigned_integer()));
 }
 
 /* --- writing --------------------------------------------------------------------------------- */
 
-std::string hex_float(float value) {
+std::string hex_float(float value)
+{
   char digits[32];
   auto [end, error] = std::to_chars(digits, digits + sizeof digits, std::abs(value), std::chars_format::hex);
   (void)error; /* 32 characters hold every float */
   return fmt::format("\"{}0x{}\"", std::signbit(value) ? "-" : "", std::string_view(digits, size_t(end - digits)));
 }
 
-std::string quoted(const std::string &text) {
+std::string quoted(const std::string &text)
+{
   try {
     return nlohmann::json(text).dump();
   } catch (const nlohmann::json::exception &) {
@@ -118,10 +128,13 @@ std::string written(const std::string &value) { return quoted(value); }
 std::string written(float value) { return hex_float(value); }
 std::string written(uint32_t value) { return fmt::format("{}", value); }
 std::string written(bool value) { return value ? "true" : "false"; }
-template <typename Enum> requires std::is_enum_v<Enum> std::string written(Enum value) {
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string written(Enum value)
+{
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
-template <size_t n> std::string written(const std::array<float, n> &values) {
+template <size_t n> std::string written(const std::array<float, n> &values)
+{
   std::string text = "[";
   for (size_t i = 0; i < n; ++i) text += (i ? ", " : "") + hex_float(values[i]);
   return text + "]";
@@ -132,7 +145,8 @@ bool same(const std::string &a, const std::string &b) { return a == b; }
 template <typename T> bool same(const T &a, const T &b) { return std::memcmp(&a, &b, sizeof(T)) == 0; }
 
 /* Fields that have their default are left out, except those always given. */
-template <typename Record> std::string written_record(const Record &record, std::string text) {
+template <typename Record> std::string written_record(const Record &record, std::string text)
+{
   static const Record defaults;
   each_field(&record, [&](const char *key, auto member) {
     if (same(record.*member, defaults.*member)) return;
@@ -144,7 +158,8 @@ template <typename Record> std::string written_record(const Record &record, std:
 std::string written(const Material &material) { return written_record(material, ""); }
 std::string written(const Body &body) { return written_record(body, ""); }
 
-std::string written(const Shape &shape) {
+std::string written(const Shape &shape)
+{
   std::string text = fmt::format("{{\"type\": \"{}\"", shape_names[size_t(shape.type)]);
   if (shape.type == ShapeType::box) return text + ", \"half_extents\": " + written(shape.size) + "}";
   bool sphere = shape.type == ShapeType::sphere;
@@ -153,7 +168,8 @@ std::string written(const Shape &shape) {
   return text + (sphere ? ", \"radius\": " + written(shape.size[0]) : "") + "}";
 }
 
-template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records) {
+template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records)
+{
   text += fmt::format(",\n\"{}\": [", key);
   for (size_t i = 0; i < records.size(); ++i) text += (i ? ",\n  " : "\n  ") + written(records[i]);
   text += "]";
@@ -161,7 +177,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 } // namespace
 
-Scene parse_scene_json(const std::string &text, const std::string &where) {
+Scene parse_scene_json(const std::string &text, const std::string &where)
+{
   static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
   nlohmann::json document = parse_json(text, where);
   JsonValue root(document, where);
@@ -179,16 +196,19 @@ Scene parse_scene_json(const std::string &text, const std::string &where) {
 
 Scene read_scene_json(const std::string &path) { return parse_scene_json(read_file(path), path); }
 
-std::string to_scene_json(const Scene &scene) {
+std::string to_scene_json(const Scene &scene)
+{
   validate(scene, scene.name.empty() ? "scene" : scene.name);
-  std::string text = fmt::format("{{\"tandem_scene\": 1,\n\"name\": {},\n\"gravity\": {}", quoted(scene.name), written(scene.gravity));
+  std::string text =
+      fmt::format("{{\"tandem_scene\": 1,\n\"name\": {},\n\"gravity\": {}", quoted(scene.name), written(scene.gravity));
   write_list(text, "shapes", scene.shapes);
   write_list(text, "materials", scene.materials);
   write_list(text, "bodies", scene.bodies);
   return text + "}\n";
 }
 
-void write_scene_json(const Scene &scene, const std::string &path) {
+void write_scene_json(const Scene &scene, const std::string &path)
+{
   std::string text = to_scene_json(scene);
   std::ofstream stream(path, std::ios::binary);
   stream << text;

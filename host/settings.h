@@ -18,7 +18,7 @@ struct Settings {
   std::string batching = "coloring";    /* coloring, sequential */
   bool specialise = true; /* false: every feature built and run, same bits */
 
-  float contact_hertz = 30.0f;         /* Hz, stiffness of soft contacts; at most a quarter of the substep rate */
+  float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a quarter of the substep rate */
   float contact_damping_ratio = 10.0f; /* overdamped, so that pushing apart adds no bounce */
   float push_speed = 3.0f;             /* m/s, penetration is never removed faster */
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */

@@ -32,7 +32,7 @@ template <auto function> static void run_items(void *const *arguments, uint32_t 
       arguments,
       [&](auto... bound) {
 #ifdef TANDEM_LANES
-        for (uint32_t i = first; i < last; i += TANDEM_LANES) function(bound..., lane_index(i));
+        for (uint32_t i = first; i < last; i += TANDEM_LANES) function(bound..., item_index{i});
 #else
         for (uint32_t i = first; i < last; ++i) function(bound..., i);
 #endif

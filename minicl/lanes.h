@@ -72,12 +72,19 @@ static inline real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v)
 static inline natural choose(mask m, natural a, natural b) { return natural(m.v ? a.v : b.v); }
 static inline mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
 
-static inline natural lane_index(uint32_t first)
-{
-  natural i;
-  for (int lane = 0; lane < width; ++lane) i.v[lane] = first + (uint32_t)lane;
-  return i;
-}
+/* Items first, first + 1, ...: what is loaded through it lies side by side. */
+struct item_index {
+  uint32_t first;
+  operator natural() const
+  {
+    natural i;
+    for (int lane = 0; lane < width; ++lane) i.v[lane] = first + (uint32_t)lane;
+    return i;
+  }
+};
+static inline item_index operator+(item_index i, uint32_t offset) { return {i.first + offset}; }
+static inline item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
+static inline natural operator*(item_index i, uint32_t factor) { return natural(i) * natural(factor); }
 
 static inline real to_real(natural x) { return real(__builtin_convertvector((int_lanes)x.v, float_lanes)); }
 static inline real int_to_real(natural x) { return to_real(x); }
@@ -108,24 +115,53 @@ static inline void atomic_min_if(mask m, uint *to, uint at, natural value)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
 }
 
+static inline natural load_natural(const uint *from, item_index i)
+{
+  natural r;
+  __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
+  return r;
+}
+static inline void store_natural(uint *to, item_index i, natural value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
+static inline void store_natural_if(mask m, uint *to, item_index i, natural value) { store_natural_if(m, to, natural(i), value); }
+
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
+static inline vec4 load_row(const row *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
+static inline void store_row(row *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
+
+struct lane_numbers {
+  uint32_t of[width];
+};
+static inline lane_numbers numbers_of(natural i)
+{
+  lane_numbers n;
+  __builtin_memcpy(n.of, &i.v, sizeof n.of);
+  return n;
+}
 static inline vec4 load_row(const row *from, natural i)
 {
+  const lane_numbers at = numbers_of(i);
   const float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = &from[i.v[lane]].x;
-  return load_transposed(lanes);
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = &from[at.of[lane]].x;
+  return transpose(gather_quarters(lanes));
 }
 static inline void store_row(row *to, natural i, vec4 value)
 {
+  const lane_numbers at = numbers_of(i);
   float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = &to[i.v[lane]].x;
-  store_transposed(lanes, value);
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = &to[at.of[lane]].x;
+  scatter_quarters(lanes, transpose(value));
 }
 /* Lanes that must not write go to a spare row: a body that cannot move is shared by many lanes and threads. */
 static inline void store_row_if(mask m, row *to, natural i, vec4 value)
 {
+  const lane_numbers at = numbers_of(i);
   row spare;
   float *lanes[width];
-  for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? &to[i.v[lane]].x : &spare.x;
-  store_transposed(lanes, value);
+  for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? &to[at.of[lane]].x : &spare.x;
+  scatter_quarters(lanes, transpose(value));
+}
+static inline void store_row_if(mask m, row *to, item_index i, vec4 value)
+{
+  if (all_of(m)) store_row(to, i, value);
+  else store_row_if(m, to, natural(i), value);
 }

@@ -10,8 +10,9 @@
 #pragma once
 
 #if TANDEM_LANES == 16
-static inline real square_root(real x) { return real((float_lanes)_mm512_sqrt_ps((__m512)x.v)); }
+static inline real square_root(real x) { return real((float_lanes)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
 static inline bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
+static inline bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
 static inline real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
@@ -44,6 +45,7 @@ static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return 
 #elif TANDEM_LANES == 8
 static inline real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
 static inline bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+static inline bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
 static inline real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
@@ -71,6 +73,7 @@ static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return 
 #else
 static inline real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
 static inline bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+static inline bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
 static inline real load_real(const memory_real *from, natural i)
 {
   real r;
@@ -93,23 +96,84 @@ static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _
 static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
 #endif
 
-static inline vec4 load_transposed(const float *const *lanes)
+struct quarters {
+  quarter_rows a, b, c, d; /* of lanes 0, 1, 2, 3 and every fourth after each */
+};
+static inline quarters gather_quarters(const float *const *lanes)
 {
-  const quarter_rows a = load_quarter(lanes, 0), b = load_quarter(lanes, 1);
-  const quarter_rows c = load_quarter(lanes, 2), d = load_quarter(lanes, 3);
-  const quarter_rows xy01 = unpack_low(a, b), zw01 = unpack_high(a, b);
-  const quarter_rows xy23 = unpack_low(c, d), zw23 = unpack_high(c, d);
+  return {load_quarter(lanes, 0), load_quarter(lanes, 1), load_quarter(lanes, 2), load_quarter(lanes, 3)};
+}
+static inline void scatter_quarters(float *const *lanes, quarters q)
+{
+  store_quarter(lanes, 0, q.a);
+  store_quarter(lanes, 1, q.b);
+  store_quarter(lanes, 2, q.c);
+  store_quarter(lanes, 3, q.d);
+}
+
+static inline vec4 transpose(quarters q)
+{
+  const quarter_rows xy01 = unpack_low(q.a, q.b), zw01 = unpack_high(q.a, q.b);
+  const quarter_rows xy23 = unpack_low(q.c, q.d), zw23 = unpack_high(q.c, q.d);
   return {real((float_lanes)halves_low(xy01, xy23)), real((float_lanes)halves_high(xy01, xy23)),
           real((float_lanes)halves_low(zw01, zw23)), real((float_lanes)halves_high(zw01, zw23))};
 }
-static inline void store_transposed(float *const *lanes, vec4 value)
+static inline quarters transpose(vec4 value)
 {
   const quarter_rows x = (quarter_rows)value.x.v, y = (quarter_rows)value.y.v;
   const quarter_rows z = (quarter_rows)value.z.v, w = (quarter_rows)value.w.v;
   const quarter_rows xy_low = unpack_low(x, y), xy_high = unpack_high(x, y);
   const quarter_rows zw_low = unpack_low(z, w), zw_high = unpack_high(z, w);
-  store_quarter(lanes, 0, halves_low(xy_low, zw_low));
-  store_quarter(lanes, 1, halves_high(xy_low, zw_low));
-  store_quarter(lanes, 2, halves_low(xy_high, zw_high));
-  store_quarter(lanes, 3, halves_high(xy_high, zw_high));
+  return {halves_low(xy_low, zw_low), halves_high(xy_low, zw_low), halves_low(xy_high, zw_high), halves_high(xy_high, zw_high)};
 }
+
+/* Records that lie side by side: whole registers hold consecutive records, which are dealt out to quarters. */
+#if TANDEM_LANES == 16
+static inline quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
+{
+  const __m512 ab01 = _mm512_shuffle_f32x4(a, b, 0x44), ab23 = _mm512_shuffle_f32x4(a, b, 0xee);
+  const __m512 cd01 = _mm512_shuffle_f32x4(c, d, 0x44), cd23 = _mm512_shuffle_f32x4(c, d, 0xee);
+  return {_mm512_shuffle_f32x4(ab01, cd01, 0x88), _mm512_shuffle_f32x4(ab01, cd01, 0xdd),
+          _mm512_shuffle_f32x4(ab23, cd23, 0x88), _mm512_shuffle_f32x4(ab23, cd23, 0xdd)};
+}
+static inline quarters load_in_order(const float *from)
+{
+  return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32), _mm512_loadu_ps(from + 48));
+}
+/* Dealing is a transpose of 4 x 4 records, and so its own inverse. */
+static inline void store_in_order(float *to, quarters q)
+{
+  const quarters whole = deal(q.a, q.b, q.c, q.d);
+  _mm512_storeu_ps(to, whole.a);
+  _mm512_storeu_ps(to + 16, whole.b);
+  _mm512_storeu_ps(to + 32, whole.c);
+  _mm512_storeu_ps(to + 48, whole.d);
+}
+#elif TANDEM_LANES == 8
+static inline quarters load_in_order(const float *from)
+{
+  const __m256 r01 = _mm256_loadu_ps(from), r23 = _mm256_loadu_ps(from + 8);
+  const __m256 r45 = _mm256_loadu_ps(from + 16), r67 = _mm256_loadu_ps(from + 24);
+  return {_mm256_permute2f128_ps(r01, r45, 0x20), _mm256_permute2f128_ps(r01, r45, 0x31),
+          _mm256_permute2f128_ps(r23, r67, 0x20), _mm256_permute2f128_ps(r23, r67, 0x31)};
+}
+static inline void store_in_order(float *to, quarters q)
+{
+  _mm256_storeu_ps(to, _mm256_permute2f128_ps(q.a, q.b, 0x20));
+  _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(q.c, q.d, 0x20));
+  _mm256_storeu_ps(to + 16, _mm256_permute2f128_ps(q.a, q.b, 0x31));
+  _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(q.c, q.d, 0x31));
+}
+#else
+static inline quarters load_in_order(const float *from)
+{
+  return {_mm_loadu_ps(from), _mm_loadu_ps(from + 4), _mm_loadu_ps(from + 8), _mm_loadu_ps(from + 12)};
+}
+static inline void store_in_order(float *to, quarters q)
+{
+  _mm_storeu_ps(to, q.a);
+  _mm_storeu_ps(to + 4, q.b);
+  _mm_storeu_ps(to + 8, q.c);
+  _mm_storeu_ps(to + 12, q.d);
+}
+#endif

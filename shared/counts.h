@@ -41,7 +41,6 @@ enum {
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
-  COUNT_HISTOGRAM,     /* digit counts of the radix sort under way */
   COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
   COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
   COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */

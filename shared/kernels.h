@@ -3,6 +3,7 @@
 #define TANDEM_SHARED_KERNELS_H
 
 #include "shared/lanes_kernels.h"
+#include "shared/parallel/copy.h"
 #include "shared/parallel/fill.h"
 #include "shared/parallel/radix_sort.h"
 #include "shared/parallel/scan.h"

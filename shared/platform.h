@@ -36,6 +36,8 @@ typedef float4 row;
 #define ATOMIC_MAX(pointer, value) atomic_max((pointer), (value))
 #define ATOMIC_MIN(pointer, value) atomic_min((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or((pointer), (value))
+#define LOCAL_ADD(pointer, value) atomic_add((pointer), (value))
+typedef unsigned short half_word;
 #define SQUARE_ROOT(x) sqrt(x)
 #define FLOAT_BITS(x) as_uint(x)
 
@@ -44,6 +46,7 @@ typedef float4 row;
 #define FOR_EACH_ITEM(i, n)                                                                   \
   for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); \
        i < (uint)(n); i += (uint)get_local_size(0))
+#define STRIPS(many) (many)
 
 #else /* C or C++ on the CPU */
 
@@ -56,6 +59,7 @@ typedef float4 row;
 #define TANDEM_SCALAR_TYPES
 typedef uint32_t uint;
 typedef uint64_t ulong;
+typedef unsigned short __attribute__((may_alias)) half_word;
 #ifdef TANDEM_REFERENCE
 typedef double memory_real;
 typedef struct __attribute__((aligned(32))) row { memory_real x, y, z, w; } row;
@@ -91,6 +95,8 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 #define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))
 #define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or_uint((pointer), (value))
+/* Local memory belongs to one thread here: no atomic is needed. */
+#define LOCAL_ADD(pointer, value) (*(pointer) += (value))
 #ifdef TANDEM_REFERENCE
 #define SQUARE_ROOT(x) __builtin_sqrt(x)
 #else
@@ -100,8 +106,10 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 /* One thread walks a whole phase; test builds walk it backwards to show a planted race. */
 #ifdef TANDEM_BACKWARD
 #define FOR_EACH_ITEM(i, n) for (uint i = (uint)(n); i-- > 0u;)
+#define STRIPS(many) (many)
 #else
 #define FOR_EACH_ITEM(i, n) for (uint i = 0; i < (uint)(n); ++i)
+#define STRIPS(many) 1u
 #endif
 
 #endif
@@ -110,5 +118,12 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
  * results cannot depend on a device's group size. */
 #define TILE 1024u
 #define LOCAL_WORDS 8192
+
+/* For GROUP kernels:
+ *   STRIPS(many)  how many strips of consecutive items a phase walks, one item a strip. A work-group needs many; one
+ *                 thread walks everything, so a single strip spares it the joining. Only where the result does not
+ *                 depend on the cut: sums of whole numbers and ranks, never sums of reals.
+ *   LOCAL_ADD     adds to a count in local memory to which other items of the phase add as well.
+ *   half_word     16 bits of local memory that another phase may see as part of a uint. */
 
 #endif

@@ -4,6 +4,8 @@
  * same names over 4, 8 or 16 lanes; a LANES kernel is written against this page alone.
  *
  *   choose(m, a, b)          m ? a : b, both sides evaluated
+ *   item_index               which item (lanes: the first of a run of items, so that memory is read in order);
+ *                            plus a uint it stays one, anything else makes it a natural
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds
  */
@@ -26,6 +28,7 @@ typedef float memory_real;
 #endif
 typedef memory_real real;
 typedef uint natural;
+typedef uint item_index;
 typedef int mask;
 
 typedef struct { real x, y, z, w; } vec4;

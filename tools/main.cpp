@@ -41,7 +41,7 @@ int execute_parsed(const std::vector<Command> &commands)
 {
   for (const Command &command : commands)
     if (command.parser->parsed()) return command.execute();
-  return 0;
+  throw InputError("no command given; `tandem --help` lists what there is");
 }
 
 int parse_and_execute(int count, char **arguments)
@@ -49,7 +49,6 @@ int parse_and_execute(int count, char **arguments)
   CLI::App parser("Rigid body physics whose every stage is written once and runs on CPU and GPU with the same bits.",
                   "tandem");
   parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
-  parser.require_subcommand(1);
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
                 "Exit status: 0 fine, 1 the check failed, 2 bad use or input.");
   const std::vector<Command> commands = add_commands(parser);
@@ -57,6 +56,9 @@ int parse_and_execute(int count, char **arguments)
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */
     return parser.exit(asked);
+  } catch (const CLI::ExtrasError &error) {
+    if (parser.get_subcommands().empty()) return complain(fmt::format("unknown command '{}'; {}", arguments[1], where_to_look(parser)), 2);
+    return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);
   } catch (const CLI::ParseError &error) {
     return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);
   }

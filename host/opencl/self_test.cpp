@@ -114,14 +114,13 @@ template <class T> void read_back(const DeviceContext &context, const cl::Buffer
 }
 
 template <class... Arguments>
-void launch(const DeviceContext &context, const cl::Program &program, const char *name, size_t items, size_t group,
+void launch(const DeviceContext &context, const cl::Program &program, const char *name, size_t groups,
             const Arguments &...arguments)
 {
   cl::Kernel kernel(program, name);
   cl_uint index = 0;
   (kernel.setArg(index++, arguments), ...);
-  group = std::min(group, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context.device));
-  const size_t groups = (items + group - 1) / group;
+  const size_t group = std::min<size_t>(64, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context.device));
   context.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * group), cl::NDRange(group));
 }
 
@@ -134,8 +133,8 @@ Results run_there(const DeviceContext &context, Inputs inputs, uint32_t count, c
   const cl::Buffer words = buffer_of(context, inputs.words), reals = buffer_of(context, results.reals);
   const cl::Buffer word_results = buffer_of(context, results.words), totals = buffer_of(context, results.totals);
   const cl::Buffer phases = buffer_of(context, results.phases);
-  launch(context, program, "self_test", count, 64, numbers, words, reals, word_results, totals, counts, cl_uint{0}, cl_uint{1});
-  launch(context, program, "self_test_phases", count / TILE * 128, 128, words, phases, counts, cl_uint{0}, cl_uint{1});
+  launch(context, program, "self_test", count / 64, numbers, words, reals, word_results, totals, counts, cl_uint{0}, cl_uint{1});
+  launch(context, program, "self_test_phases", count / TILE, words, phases, counts, cl_uint{0}, cl_uint{1});
   read_back(context, reals, results.reals);
   read_back(context, word_results, results.words);
   read_back(context, totals, results.totals);

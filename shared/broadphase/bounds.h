@@ -30,7 +30,7 @@ SHARED real turned_extent(real extent, real radius, real turn)
 
 SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
                                 GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
-                                GLOBAL const row *body_velocity, GLOBAL row *bounds, natural i)
+                                GLOBAL const row *body_velocity, GLOBAL row *bounds, item_index i)
 {
   vec4 size = load_row(body_shape, i);
   vec3 center = xyz(load_row(body_position, i));

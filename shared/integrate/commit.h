@@ -22,7 +22,7 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
 }
 
 SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
-                              GLOBAL const row *solver_orientation, GLOBAL uint *counts, natural i)
+                              GLOBAL const row *solver_orientation, GLOBAL uint *counts, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
@@ -48,7 +48,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 }
 
 SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
-                               GLOBAL row *body_position, GLOBAL row *body_orientation, GLOBAL row *body_velocity, natural i)
+                               GLOBAL row *body_position, GLOBAL row *body_orientation, GLOBAL row *body_velocity, item_index i)
 {
   vec3 position = add(xyz(load_row(body_position, i)), xyz(load_row(solver_delta, i * 2u)));
   store_row(body_position, i, extend(position, R(0.0)));
@@ -60,7 +60,7 @@ SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached
 
 SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature,
                              GLOBAL uint *cached_b, GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
-                             GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, natural i)
+                             GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, item_index i)
 {
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_natural(cached_b, i, load_natural(pair_b, i));
@@ -74,7 +74,7 @@ SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_
  * Friction is kept as a vector of the world, since its tangents turn with the normal. */
 SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_normal,
                                 GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                                GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, natural i)
+                                GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, item_index i)
 {
   natural pair = load_natural(constraint_pair, i);
   vec4 friction = load_row(constraint_friction_impulse, i);

@@ -51,7 +51,7 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
 
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *body_colors,
                                      GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
-                                     GLOBAL row *solver_orientation, natural i)
+                                     GLOBAL row *solver_orientation, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;

@@ -20,7 +20,7 @@ SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(
 SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
                                 GLOBAL const row *body_velocity, GLOBAL uint *counts, GLOBAL row *solver_velocity, GLOBAL row *solver_delta,
                                 GLOBAL row *solver_inertia, GLOBAL row *solver_orientation, GLOBAL uint *body_colors, GLOBAL uint *body_bid,
-                                natural i)
+                                item_index i)
 {
   motion m = load_motion(body_velocity, i);
   vec4 orientation = load_row(body_orientation, i);

@@ -4,7 +4,7 @@
 
 #include "shared/records.h"
 
-SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL row *solver_velocity, natural i)
+SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL row *solver_velocity, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;

@@ -61,8 +61,8 @@ SHARED manifold kept_within(manifold m, real reach)
 }
 
 /* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
-SHARED void store_manifold_if(mask mine, manifold m, natural stride, GLOBAL row *normals, GLOBAL row *points,
-                              GLOBAL uint *counts_of_points, GLOBAL uint *features, natural i)
+SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *normals, GLOBAL row *points,
+                              GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
 {
   vec4 packed[4];
   natural count = 0u, slots = 0u;

@@ -8,7 +8,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
                                        GLOBAL const row *shapes, GLOBAL const row *positions,
                                        GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
                                        GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                       GLOBAL uint *counts_of_points, GLOBAL uint *features, natural i)
+                                       GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
 {
   natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));

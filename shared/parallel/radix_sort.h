@@ -1,119 +1,218 @@
-/* radix_sort.h - stable least-significant-digit radix sort, four bits a pass.
+/* radix_sort.h - stable radix sort of 32- and 64-bit keys, alone or with 32-bit values, 8 bits a pass.
  *
- * Each pass: count the digits of every tile, scan the counts digit by digit over all tiles, write each key
- * to its place. Within a tile, SORT_ITEMS virtual items own runs of consecutive keys and counters of their
- * own, so ranks need no atomics and the sort is stable whatever the group size:
+ * Each pass (Satish, Harris and Garland, Designing Efficient Sorting Algorithms for Manycore GPUs, 2009) is
  *
- *     counters      item 0  item 1  ...        scanned in this order: down the items, then the digits
- *     digit 0         2       1                gives each item the rank of its first key of that digit
- *     digit 1         0       3
+ *   sort_histogram   histogram[digit * tiles + tile] = keys of the tile with that digit
+ *   scan             the same table then says where each tile's keys of a digit go
+ *   sort_scatter     one group a tile: sort the tile by the digit in local memory, write runs of equal digits
  *
- * After Satish, Harris and Garland, "Designing Efficient Sorting Algorithms for Manycore GPUs", 2009.
+ * Ranking within a tile: strips of consecutive keys count their digits, each strip in a column of
+ * its own, so that no atomic is needed and the order of equal keys stays:
+ *
+ *            strip 0   strip 1   strip 2 ..
+ *   digit 0    3         0         1      -> sums along the row: keys of this digit in the strips before
+ *   digit 1    0         2         2      -> sums down the totals of rows: smaller digits in the tile
+ *
+ * The rank of a key among those of its tile is then: smaller digits + earlier strips + earlier in the strip.
  */
 #ifndef TANDEM_SHARED_PARALLEL_RADIX_SORT_H
 #define TANDEM_SHARED_PARALLEL_RADIX_SORT_H
 
-#include "shared/counts.h"
+#include "shared/parallel/length.h"
+#include "shared/parallel/scan.h"
 #include "shared/platform.h"
 
-#define SORT_BITS 4u
-#define SORT_DIGITS 16u
-#define SORT_ITEMS 128u
-#define SORT_KEYS (TILE / SORT_ITEMS) /* of one virtual item */
-#define SORT_WORDS (SORT_DIGITS * SORT_ITEMS + 2u * SORT_DIGITS)
+#define SORT_TILE 2048u
+#define SORT_BITS 8u
+#define SORT_DIGITS 256u
+#define SORT_STRIPS STRIPS(32u)
+#define SORT_STRIP (SORT_TILE / SORT_STRIPS)
 
-SHARED uint digit32(uint key, uint shift) { return (key >> shift) & (SORT_DIGITS - 1u); }
-SHARED uint digit64(ulong key, uint shift) { return (uint)(key >> shift) & (SORT_DIGITS - 1u); }
+/* Local memory, in words. Keys and values pass through the same words as the counts of strips, later. */
+#define SORT_RANKS_AT 0u                               /* a word a key, spread over banks: digit and rank, then place */
+#define SORT_SPREAD(i) ((i) + (i) / 64u)
+#define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u)   /* a half_word a digit and strip; then the tile in its new order */
+#define SORT_DIGITS_AT (SORT_COUNTS_AT + 4096u)        /* a byte a key: its digit, in the new order */
+#define SORT_STARTS_AT (SORT_DIGITS_AT + SORT_TILE / 4u) /* a word a digit: smaller digits in the tile */
+#define SORT_BASES_AT (SORT_STARTS_AT + SORT_DIGITS)   /* a word a digit: place in the result, less place in the tile */
+#define SORT_SCRATCH_AT (SORT_BASES_AT + SORT_DIGITS)
+#define SORT_LOCAL_WORDS (SORT_SCRATCH_AT + 64u)
 
-/* Length of the histogram of a sort, for the scan over it. */
-SHARED void sort_length_item(GLOBAL uint *counts, uint length, uint i)
+SHARED uint sort_digit(uint key, uint shift, uint bits) { return (key >> shift) & ((1u << bits) - 1u); }
+SHARED uint sort_digit64(ulong key, uint shift, uint bits) { return (uint)(key >> shift) & ((1u << bits) - 1u); }
+
+/* Rows are rotated so that neither a row nor a column falls into one bank. */
+SHARED uint sort_count_at(uint digit, uint strip)
 {
-  (void)i;
-  counts[COUNT_HISTOGRAM] = (counts[length] + TILE - 1u) / TILE * SORT_DIGITS;
+  return digit * SORT_STRIPS + ((strip + (digit & ~1u)) & (SORT_STRIPS - 1u));
 }
 
-/* One function of the key type each; the bodies differ in nothing else. */
-#define SORT_COUNT_DIGITS(DIGIT)                                                           \
-  FOR_EACH_ITEM(item, SORT_ITEMS)                                                          \
-  {                                                                                        \
-    for (uint digit = 0; digit < SORT_DIGITS; ++digit) local_memory[digit * SORT_ITEMS + item] = 0u; \
-    uint first = group * TILE + item * SORT_KEYS;                                          \
-    for (uint k = first; k < first + SORT_KEYS && k < n; ++k) ++local_memory[DIGIT(keys[k], shift) * SORT_ITEMS + item]; \
-  }
+SHARED void sort_histogram_clear(LOCAL uint *counters) { FOR_EACH_ITEM(d, SORT_DIGITS) counters[d] = 0u; }
 
-/* Each digit's counters become ranks; its total goes behind them. */
-SHARED void rank_digits(LOCAL uint *counters)
+SHARED void sort_histogram_store(LOCAL const uint *counters, GLOBAL uint *histogram, uint n, uint bits, uint group)
 {
-  FOR_EACH_ITEM(digit, SORT_DIGITS)
+  const uint tiles = units_of(n, SORT_TILE);
+  FOR_EACH_ITEM(d, 1u << bits) histogram[d * tiles + group] = counters[d];
+}
+
+SHARED void sort_histogram_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL uint *histogram, uint length,
+                                 uint shift, uint bits, LOCAL uint *local_memory, uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group), first = group * SORT_TILE;
+  if (count == 0u) return;
+  sort_histogram_clear(local_memory);
+  FOR_EACH_ITEM(i, count) LOCAL_ADD(local_memory + sort_digit(keys[first + i], shift, bits), 1u);
+  sort_histogram_store(local_memory, histogram, n, bits, group);
+}
+
+SHARED void sort_histogram64_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL uint *histogram,
+                                      uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group), first = group * SORT_TILE;
+  if (count == 0u) return;
+  sort_histogram_clear(local_memory);
+  FOR_EACH_ITEM(i, count) LOCAL_ADD(local_memory + sort_digit64(keys[first + i], shift, bits), 1u);
+  sort_histogram_store(local_memory, histogram, n, bits, group);
+}
+
+/* Counts the digits of each strip; ranks: from a key's digit to (digit << 16 | earlier equal digits in its strip). */
+SHARED void sort_count_strips(uint count, LOCAL uint *local_memory)
+{
+  LOCAL uint *ranks = local_memory + SORT_RANKS_AT, *words = local_memory + SORT_COUNTS_AT;
+  LOCAL half_word *counters = (LOCAL half_word *)words;
+  FOR_EACH_ITEM(i, (SORT_DIGITS * SORT_STRIPS + 1u) / 2u) words[i] = 0u;
+  FOR_EACH_ITEM(s, SORT_STRIPS)
   {
-    uint sum = 0;
-    for (uint item = 0; item < SORT_ITEMS; ++item) {
-      uint count = counters[digit * SORT_ITEMS + item];
-      counters[digit * SORT_ITEMS + item] = sum;
-      sum += count;
+    const uint end = (s + 1u) * SORT_STRIP < count ? (s + 1u) * SORT_STRIP : count;
+    for (uint i = s * SORT_STRIP; i < end; ++i) {
+      const uint digit = ranks[SORT_SPREAD(i)], at = sort_count_at(digit, s), rank = counters[at];
+      counters[at] = (half_word)(rank + 1u);
+      ranks[SORT_SPREAD(i)] = digit << 16 | rank;
     }
-    counters[SORT_DIGITS * SORT_ITEMS + digit] = sum;
   }
 }
 
-#define SORT_WRITE_HISTOGRAM                                                                \
-  {                                                                                         \
-    uint tiles = (n + TILE - 1u) / TILE;                                                    \
-    rank_digits(local_memory);                                                              \
-    FOR_EACH_ITEM(digit, SORT_DIGITS)                                                       \
-    if (group < tiles) histogram[digit * tiles + group] = local_memory[SORT_DIGITS * SORT_ITEMS + digit]; \
+/* From counts to sums over earlier strips, and over smaller digits. */
+SHARED void sort_scan_strips(LOCAL uint *local_memory)
+{
+  LOCAL half_word *counters = (LOCAL half_word *)(local_memory + SORT_COUNTS_AT);
+  LOCAL uint *starts = local_memory + SORT_STARTS_AT;
+  FOR_EACH_ITEM(d, SORT_DIGITS)
+  {
+    uint sum = 0u;
+    for (uint s = 0u; s < SORT_STRIPS; ++s) {
+      const uint at = sort_count_at(d, s), value = counters[at];
+      counters[at] = (half_word)sum;
+      sum += value;
+    }
+    starts[d] = sum;
   }
-
-SHARED void sort_histogram_group(GLOBAL const uint *keys, GLOBAL const uint *counts, GLOBAL uint *histogram, uint length, uint shift,
-                                 LOCAL uint *local_memory, uint group)
-{
-  uint n = counts[length];
-  SORT_COUNT_DIGITS(digit32)
-  SORT_WRITE_HISTOGRAM
+  scan_small(starts, SORT_DIGITS, local_memory + SORT_SCRATCH_AT);
 }
 
-SHARED void sort_histogram64_group(GLOBAL const ulong *keys, GLOBAL const uint *counts, GLOBAL uint *histogram, uint length, uint shift,
-                                   LOCAL uint *local_memory, uint group)
+/* From the digits of a tile's keys to each key's place in the sorted tile, and each digit's place in the result. */
+SHARED void sort_rank_tile(GLOBAL const uint *offsets, uint n, uint count, uint bits, LOCAL uint *local_memory, uint group)
 {
-  uint n = counts[length];
-  SORT_COUNT_DIGITS(digit64)
-  SORT_WRITE_HISTOGRAM
-}
-
-/* Calls PUT(k, place) for every key of the tile, k in order within an item. */
-#define SORT_SCATTER(DIGIT, PUT)                                                            \
-  {                                                                                         \
-    uint tiles = (n + TILE - 1u) / TILE;                                                    \
-    rank_digits(local_memory);                                                              \
-    FOR_EACH_ITEM(item, SORT_ITEMS)                                                         \
-    {                                                                                       \
-      uint first = group * TILE + item * SORT_KEYS;                                         \
-      for (uint k = first; k < first + SORT_KEYS && k < n; ++k) {                           \
-        uint digit = DIGIT(keys[k], shift);                                                 \
-        uint place = histogram[digit * tiles + group] + local_memory[digit * SORT_ITEMS + item]++; \
-        PUT                                                                                 \
-      }                                                                                     \
-    }                                                                                       \
+  const uint tiles = units_of(n, SORT_TILE);
+  LOCAL uint *ranks = local_memory + SORT_RANKS_AT, *bases = local_memory + SORT_BASES_AT;
+  LOCAL const uint *starts = local_memory + SORT_STARTS_AT;
+  LOCAL const half_word *counters = (LOCAL const half_word *)(local_memory + SORT_COUNTS_AT);
+  LOCAL unsigned char *digits = (LOCAL unsigned char *)(local_memory + SORT_DIGITS_AT);
+  sort_count_strips(count, local_memory);
+  sort_scan_strips(local_memory);
+  FOR_EACH_ITEM(d, 1u << bits) bases[d] = offsets[d * tiles + group] - starts[d];
+  FOR_EACH_ITEM(i, count)
+  {
+    const uint digit = ranks[SORT_SPREAD(i)] >> 16, rank = ranks[SORT_SPREAD(i)] & 0xffffu;
+    const uint place = starts[digit] + counters[sort_count_at(digit, i / SORT_STRIP)] + rank;
+    ranks[SORT_SPREAD(i)] = place;
+    digits[place] = (unsigned char)digit;
   }
-
-SHARED void sort_scatter_group(GLOBAL const uint *keys, GLOBAL const uint *values, GLOBAL const uint *counts, GLOBAL const uint *histogram,
-                               GLOBAL uint *sorted_keys, GLOBAL uint *sorted_values, uint length, uint shift, LOCAL uint *local_memory,
-                               uint group)
-{
-  uint n = counts[length];
-  SORT_COUNT_DIGITS(digit32)
-  SORT_SCATTER(digit32, { sorted_keys[place] = keys[k]; sorted_values[place] = values[k]; })
 }
 
-SHARED void sort_scatter64_group(GLOBAL const ulong *keys, GLOBAL const uint *counts, GLOBAL const uint *histogram, GLOBAL ulong *sorted_keys,
-                                 uint length, uint shift, LOCAL uint *local_memory, uint group)
+SHARED uint sort_target(LOCAL const uint *local_memory, uint place)
 {
-  uint n = counts[length];
-  SORT_COUNT_DIGITS(digit64)
-  SORT_SCATTER(digit64, { sorted_keys[place] = keys[k]; })
+  LOCAL const unsigned char *digits = (LOCAL const unsigned char *)(local_memory + SORT_DIGITS_AT);
+  return local_memory[SORT_BASES_AT + digits[place]] + place;
 }
 
-SHARED void copy_item(GLOBAL const uint *from, GLOBAL uint *to, uint i) { to[i] = from[i]; }
-SHARED void copy64_item(GLOBAL const ulong *from, GLOBAL ulong *to, uint i) { to[i] = from[i]; }
+/* One word of each item of the tile, by way of local memory: neighbours in the result are written together. */
+SHARED void sort_move(GLOBAL const uint *from, GLOBAL uint *to, uint first, uint count, LOCAL uint *local_memory)
+{
+  LOCAL uint *sorted = local_memory + SORT_COUNTS_AT;
+  FOR_EACH_ITEM(i, count) sorted[local_memory[SORT_RANKS_AT + SORT_SPREAD(i)]] = from[first + i];
+  FOR_EACH_ITEM(place, count) to[sort_target(local_memory, place)] = sorted[place];
+}
+
+SHARED void sort_move64(GLOBAL const ulong *from, GLOBAL ulong *to, uint first, uint count, LOCAL uint *local_memory)
+{
+  LOCAL uint *sorted = local_memory + SORT_COUNTS_AT;
+  FOR_EACH_ITEM(i, count)
+  {
+    const uint place = local_memory[SORT_RANKS_AT + SORT_SPREAD(i)];
+    sorted[place] = (uint)from[first + i];
+    sorted[SORT_TILE + place] = (uint)(from[first + i] >> 32);
+  }
+  FOR_EACH_ITEM(place, count)
+  to[sort_target(local_memory, place)] = (ulong)sorted[SORT_TILE + place] << 32 | sorted[place];
+}
+
+SHARED void sort_place(GLOBAL const uint *keys, GLOBAL const uint *offsets, uint n, uint count, uint shift, uint bits,
+                       LOCAL uint *local_memory, uint group)
+{
+  FOR_EACH_ITEM(i, count)
+  local_memory[SORT_RANKS_AT + SORT_SPREAD(i)] = sort_digit(keys[group * SORT_TILE + i], shift, bits);
+  sort_rank_tile(offsets, n, count, bits, local_memory, group);
+}
+
+SHARED void sort_place64(GLOBAL const ulong *keys, GLOBAL const uint *offsets, uint n, uint count, uint shift, uint bits,
+                            LOCAL uint *local_memory, uint group)
+{
+  FOR_EACH_ITEM(i, count)
+  local_memory[SORT_RANKS_AT + SORT_SPREAD(i)] = sort_digit64(keys[group * SORT_TILE + i], shift, bits);
+  sort_rank_tile(offsets, n, count, bits, local_memory, group);
+}
+
+SHARED void sort_scatter_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL const uint *offsets,
+                                    GLOBAL uint *sorted_keys, uint length, uint shift, uint bits, LOCAL uint *local_memory,
+                                    uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
+  if (count == 0u) return;
+  sort_place(keys, offsets, n, count, shift, bits, local_memory, group);
+  sort_move(keys, sorted_keys, group * SORT_TILE, count, local_memory);
+}
+
+SHARED void sort_scatter_pairs_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL const uint *values,
+                                     GLOBAL const uint *offsets, GLOBAL uint *sorted_keys, GLOBAL uint *sorted_values,
+                                     uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
+  if (count == 0u) return;
+  sort_place(keys, offsets, n, count, shift, bits, local_memory, group);
+  sort_move(keys, sorted_keys, group * SORT_TILE, count, local_memory);
+  sort_move(values, sorted_values, group * SORT_TILE, count, local_memory);
+}
+
+SHARED void sort_scatter64_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL const uint *offsets,
+                                         GLOBAL ulong *sorted_keys, uint length, uint shift, uint bits,
+                                         LOCAL uint *local_memory, uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
+  if (count == 0u) return;
+  sort_place64(keys, offsets, n, count, shift, bits, local_memory, group);
+  sort_move64(keys, sorted_keys, group * SORT_TILE, count, local_memory);
+}
+
+SHARED void sort_scatter64_pairs_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL const uint *values,
+                                          GLOBAL const uint *offsets, GLOBAL ulong *sorted_keys, GLOBAL uint *sorted_values,
+                                          uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
+{
+  const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
+  if (count == 0u) return;
+  sort_place64(keys, offsets, n, count, shift, bits, local_memory, group);
+  sort_move64(keys, sorted_keys, group * SORT_TILE, count, local_memory);
+  sort_move(values, sorted_values, group * SORT_TILE, count, local_memory);
+}
 
 #endif

@@ -1,93 +1,138 @@
-/* scan.h - exclusive prefix sum of any length: reduce tiles, scan the sums of tiles, add them back.
+/* scan.h - exclusive prefix sum of uint, modulo 2^32: result[i] = values[0] + .. + values[i - 1], result[n] = total.
  *
- *   values   a b c d | e f g h | i j k l      level 0: each tile scanned on its own
- *   sums     (a+..+d)  (e+..+h)  (i+..+l)     level 1: the same over the sums, and so on upward
+ * Every "count, scan, write" of the pipeline stands on it: no stage appends by an atomic counter, so no order
+ * depends on scheduling. Three launches for any length (reduce, then scan; Merrill and Grimshaw,
+ * Parallel Scan for Stream Architectures, 2009):
  *
- * Three levels cover 2^30 values. The length is read on the device. Blelloch, "Prefix Sums and Their
- * Applications", 1990. Sums wrap modulo 2^32.
+ *   values       | tile 0 | tile 1 | tile 2 | ..      SCAN_TILE items each
+ *   scan_reduce    s0       s1       s2               one group a tile: sums
+ *   scan_in_order  0        s0       s0+s1            one group: sums of all tiles before
+ *   scan_tiles   | 0 a ab | ...                       one group a tile: values again, plus the tile's start
+ *
+ * values and result may be the same buffer.
  */
 #ifndef TANDEM_SHARED_PARALLEL_SCAN_H
 #define TANDEM_SHARED_PARALLEL_SCAN_H
 
+#include "shared/parallel/length.h"
 #include "shared/platform.h"
 
-#define SCAN_ITEMS 256u /* virtual items of a tile, each with TILE / SCAN_ITEMS values */
-#define SCAN_CHUNKS 16u /* of the items' sums */
-#define SCAN_WORDS (SCAN_ITEMS + 2u * SCAN_CHUNKS + 1u)
+#define SCAN_TILE 4096u
+#define SCAN_STRIPS STRIPS(256u)
+#define SCAN_STRIP (SCAN_TILE / SCAN_STRIPS)
 
-/* Values at a level: tiles of tiles of the length. */
-SHARED uint length_at_level(uint length, uint level)
-{
-  for (uint k = 0; k < level; ++k) length = (length + TILE - 1u) / TILE;
-  return length;
-}
+/* Strips of small tables: SMALL_STRIPS items each walk a share. */
+#define SMALL_STRIPS STRIPS(32u)
 
-/* Exclusive scan of SCAN_ITEMS words of local memory; returns where the total stands. */
-SHARED uint scan_items(LOCAL uint *words)
+/* Local memory, in words: the tile, spread so that strips start in different banks; sums of strips. */
+#define SCAN_SPREAD(i) ((i) + (i) / 16u)
+#define SCAN_SUMS_AT (SCAN_TILE + SCAN_TILE / 16u)
+#define SCAN_SMALL_AT (SCAN_SUMS_AT + 256u)
+#define SCAN_LOCAL_WORDS (SCAN_SMALL_AT + 64u)
+
+/* Exclusive sums in place of n values in local memory; returns nothing: scratch[SMALL_STRIPS] becomes the total.
+ * n is a multiple of SMALL_STRIPS; scratch holds SMALL_STRIPS + 1 words. */
+SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
 {
-  LOCAL uint *chunks = words + SCAN_ITEMS, *offsets = chunks + SCAN_CHUNKS;
-  FOR_EACH_ITEM(chunk, SCAN_CHUNKS)
+  const uint strip = n / SMALL_STRIPS;
+  FOR_EACH_ITEM(s, SMALL_STRIPS)
   {
-    uint sum = 0;
-    for (uint k = 0; k < SCAN_ITEMS / SCAN_CHUNKS; ++k) {
-      uint value = words[chunk * (SCAN_ITEMS / SCAN_CHUNKS) + k];
-      words[chunk * (SCAN_ITEMS / SCAN_CHUNKS) + k] = sum;
+    uint sum = 0u;
+    for (uint k = s * strip; k < (s + 1u) * strip; ++k) sum += values[k];
+    scratch[s] = sum;
+  }
+  FOR_EACH_ITEM(s, SMALL_STRIPS)
+  {
+    uint sum = 0u;
+    for (uint k = 0u; k < s; ++k) sum += scratch[k];
+    for (uint k = s * strip; k < (s + 1u) * strip; ++k) {
+      const uint value = values[k];
+      values[k] = sum;
       sum += value;
     }
-    chunks[chunk] = sum;
+    if (s == SMALL_STRIPS - 1u) scratch[SMALL_STRIPS] = sum;
   }
-  FOR_EACH_ITEM(chunk, SCAN_CHUNKS + 1u)
-  {
-    uint sum = 0;
-    for (uint k = 0; k < chunk; ++k) sum += chunks[k];
-    offsets[chunk] = sum;
-  }
-  FOR_EACH_ITEM(item, SCAN_ITEMS) words[item] += offsets[item / (SCAN_ITEMS / SCAN_CHUNKS)];
-  return SCAN_ITEMS + 2u * SCAN_CHUNKS;
 }
 
-/* values[from ..], at this level, scanned tile by tile into out[from ..]; totals of tiles into sums[to ..]. */
-SHARED void scan_tiles_group(GLOBAL const uint *values, GLOBAL const uint *counts, GLOBAL uint *out, GLOBAL uint *sums, uint length, uint level,
-                             uint from, uint to, LOCAL uint *local_memory, uint group)
+/* Loads a tile and leaves, for each strip, the sum of the strips before it; the tile's total in
+ * local_memory[SCAN_SMALL_AT + SMALL_STRIPS]. Items past `count` are 0. */
+SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL uint *local_memory)
 {
-  uint n = length_at_level(counts[length], level);
-  FOR_EACH_ITEM(item, SCAN_ITEMS)
+  LOCAL uint *sums = local_memory + SCAN_SUMS_AT;
+  FOR_EACH_ITEM(i, SCAN_TILE) local_memory[SCAN_SPREAD(i)] = i < count ? values[first + i] : 0u;
+  FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
-    uint sum = 0, first = group * TILE + item * (TILE / SCAN_ITEMS);
-    for (uint k = first; k < first + TILE / SCAN_ITEMS && k < n; ++k) sum += values[from + k];
-    local_memory[item] = sum;
+    uint sum = 0u;
+    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) sum += local_memory[SCAN_SPREAD(i)];
+    sums[s] = sum;
   }
-  uint total = scan_items(local_memory);
-  FOR_EACH_ITEM(item, SCAN_ITEMS)
+  scan_small(sums, SCAN_STRIPS, local_memory + SCAN_SMALL_AT);
+}
+
+/* Turns the loaded tile into exclusive sums that start at `start`, and writes them. */
+SHARED void scan_store(GLOBAL uint *result, uint first, uint count, uint start, LOCAL uint *local_memory)
+{
+  LOCAL const uint *sums = local_memory + SCAN_SUMS_AT;
+  FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
-    uint sum = local_memory[item], first = group * TILE + item * (TILE / SCAN_ITEMS);
-    for (uint k = first; k < first + TILE / SCAN_ITEMS && k < n; ++k) {
-      uint value = values[from + k];
-      out[from + k] = sum;
+    uint sum = start + sums[s];
+    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) {
+      const uint value = local_memory[SCAN_SPREAD(i)];
+      local_memory[SCAN_SPREAD(i)] = sum;
       sum += value;
     }
   }
-  FOR_EACH_ITEM(only, 1u)
-  if (group * TILE < n) sums[to + group + only] = local_memory[total];
+  FOR_EACH_ITEM(i, count) result[first + i] = local_memory[SCAN_SPREAD(i)];
 }
 
-SHARED void scan_add_group(GLOBAL const uint *counts, GLOBAL uint *out, GLOBAL const uint *sums, uint length, uint level, uint from, uint to,
-                           LOCAL uint *local_memory, uint group)
+/* sums[group] = the sum of tile `group`. */
+SHARED void scan_reduce_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL uint *sums, uint length,
+                              uint unit, uint per_unit, LOCAL uint *local_memory, uint group)
 {
-  (void)local_memory;
-  uint n = length_at_level(counts[length], level);
-  FOR_EACH_ITEM(item, TILE)
+  const uint words = units_of(counts[length], unit) * per_unit;
+  const uint count = items_in_tile(words, SCAN_TILE, group);
+  const uint first = group * SCAN_TILE;
+  if (count == 0u) return;
+  FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
-    uint k = group * TILE + item;
-    if (k < n) out[from + k] += sums[to + group];
+    uint sum = 0u;
+    for (uint i = s; i < count; i += SCAN_STRIPS) sum += values[first + i];
+    local_memory[s] = sum;
   }
+  for (uint width = SCAN_STRIPS / 2u; width > 0u; width /= 2u)
+    FOR_EACH_ITEM(s, width) local_memory[s] += local_memory[s + width];
+  FOR_EACH_ITEM(s, 1u) sums[group] = local_memory[0];
 }
 
-/* The total, behind the last value. */
-SHARED void scan_total_item(GLOBAL const uint *counts, GLOBAL uint *out, GLOBAL const uint *sums, uint length, uint to, uint i)
+/* One group: exclusive sums of the first ceil(words / block) values, tile after tile; total[words] = their sum. */
+SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL uint *result,
+                                GLOBAL uint *total, uint length, uint unit, uint per_unit, uint block,
+                                LOCAL uint *local_memory, uint group)
 {
-  (void)i;
-  out[counts[length]] = counts[length] == 0u ? 0u : sums[to];
+  const uint words = units_of(counts[length], unit) * per_unit;
+  const uint n = units_of(words, block);
+  LOCAL uint *carry = local_memory + SCAN_SMALL_AT + 48u; /* sum of the tiles before an even, an odd tile */
+  if (group != 0u) return;
+  FOR_EACH_ITEM(s, 1u) carry[0] = 0u;
+  for (uint tile = 0u; tile < units_of(n, SCAN_TILE); ++tile) {
+    const uint count = items_in_tile(n, SCAN_TILE, tile);
+    scan_load(values, tile * SCAN_TILE, count, local_memory);
+    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] += carry[tile & 1u];
+    FOR_EACH_ITEM(s, 1u) carry[(tile + 1u) & 1u] = carry[tile & 1u] + local_memory[SCAN_SMALL_AT + SMALL_STRIPS];
+    scan_store(result, tile * SCAN_TILE, count, 0u, local_memory);
+  }
+  FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];
+}
+
+/* Exclusive sums of tile `group`, which start at sums[group]. */
+SHARED void scan_tiles_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL const uint *sums,
+                             GLOBAL uint *result, uint length, uint unit, uint per_unit, LOCAL uint *local_memory, uint group)
+{
+  const uint words = units_of(counts[length], unit) * per_unit;
+  const uint count = items_in_tile(words, SCAN_TILE, group);
+  if (count == 0u) return;
+  scan_load(values, group * SCAN_TILE, count, local_memory);
+  scan_store(result, group * SCAN_TILE, count, sums[group], local_memory);
 }
 
 #endif

@@ -128,7 +128,7 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
 }
 
 /* Mean distance of the points from their centre: the arm of the twisting friction. */
-SHARED real mean_radius(GLOBAL const row *manifold_points, natural pair, natural stride, natural points, vec3 center, real share)
+SHARED real mean_radius(GLOBAL const row *manifold_points, natural pair, uint stride, natural points, vec3 center, real share)
 {
   real sum = R(0.0);
   for (uint k = 0; k < 4u; ++k)
@@ -146,9 +146,10 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                                   GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b,
                                   GLOBAL row *constraint_normal, GLOBAL row *constraint_points, GLOBAL row *constraint_center,
                                   GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                  GLOBAL row *constraint_bounce, natural i)
+                                  GLOBAL row *constraint_bounce, item_index i)
 {
-  natural pair = load_natural(sort_value, i), stride = counts[CAPACITY_PAIRS];
+  natural pair = load_natural(sort_value, i);
+  uint stride = counts[CAPACITY_PAIRS];
   body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
   vec3 normal = xyz(load_row(manifold_normal, pair));
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);

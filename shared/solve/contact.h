@@ -23,7 +23,7 @@ typedef struct {
 } contact;
 
 SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, natural i)
+                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, item_index i)
 {
   contact c;
   c.a = load_natural(constraint_a, i);
@@ -68,9 +68,9 @@ SHARED real speed_along(contact c, vec3 direction, vec3 turn_a, vec3 turn_b)
 SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                             GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity, natural i)
+                            GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity, item_index i)
 {
-  natural stride = counts[CAPACITY_PAIRS];
+  uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
@@ -150,9 +150,9 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
                                 GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
                                 GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, natural i)
+                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
 {
-  natural stride = counts[CAPACITY_PAIRS];
+  uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION)) {
@@ -187,9 +187,9 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
 /* After the last substep: points that were pressed part at their wished speed. */
 SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                                    GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
-                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, natural i)
+                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, item_index i)
 {
-  natural stride = counts[CAPACITY_PAIRS];
+  uint stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
   mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
   if (!any_of(bounces)) return;

@@ -1,0 +1,75 @@
+/* Exclusive scan against std::exclusive_scan: every length at which tiles begin, every backend. */
+#include "tests/shared/parallel/primitives.h"
+
+using namespace tandem;
+
+namespace {
+
+constexpr uint32_t untouched = 0xabadcafeu;
+
+std::vector<uint32_t> expected_scan(const std::vector<uint32_t> &values)
+{
+  std::vector<uint32_t> result(values.size() + 1);
+  std::exclusive_scan(values.begin(), values.end(), result.begin(), 0u);
+  if (!values.empty()) result.back() = result[values.size() - 1] + values.back();
+  return result;
+}
+
+std::vector<uint32_t> scan_in_place(Primitives &primitives, const std::vector<uint32_t> &values, uint32_t capacity)
+{
+  std::vector<uint32_t> padded = values;
+  padded.resize(std::max<size_t>(capacity, values.size()) + 1, untouched);
+  primitives.set_length(static_cast<uint32_t>(values.size()));
+  primitives.set(Buffer::primitive_a, padded);
+  primitives.reserve(Buffer::scan_sums, scan_sum_words(capacity) * 4);
+  exclusive_scan(primitives.launcher, Buffer::primitive_a, Buffer::primitive_a, Buffer::scan_sums, COUNT_LENGTH, capacity);
+  const auto all = primitives.get<uint32_t>(Buffer::primitive_a, padded.size());
+  for (size_t i = values.size() + 1; i < all.size(); ++i)
+    if (all[i] != untouched) FAIL("element " << i << " beyond the result was written");
+  return {all.begin(), all.begin() + static_cast<ptrdiff_t>(values.size()) + 1};
+}
+
+} // namespace
+
+TEST_CASE("exclusive scan equals the standard library's, modulo 2^32")
+{
+  for (const auto &primitives : all_primitives())
+    for (const uint32_t n : lengths()) {
+      const auto values = keys_of<uint32_t>(Distribution::random, n);
+      INFO(primitives->name() << ", n = " << n);
+      REQUIRE((scan_in_place(*primitives, values, n) == expected_scan(values)));
+    }
+}
+
+TEST_CASE("the capacity of a scan does not change its result")
+{
+  for (const auto &primitives : all_primitives())
+    for (const uint32_t n : {0u, 1u, 4097u, 20'000u})
+      for (const uint32_t capacity : {n + 1, n + 4096, 3 * n + 50'000}) {
+        const auto values = keys_of<uint32_t>(Distribution::random, n);
+        INFO(primitives->name() << ", n = " << n << ", capacity = " << capacity);
+        REQUIRE((scan_in_place(*primitives, values, capacity) == expected_scan(values)));
+      }
+}
+
+TEST_CASE("a scan from one buffer to another leaves the first alone")
+{
+  for (const auto &primitives : all_primitives()) {
+    const auto values = keys_of<uint32_t>(Distribution::random, 9999);
+    primitives->set_length(9999);
+    primitives->set(Buffer::primitive_a, values);
+    primitives->reserve(Buffer::primitive_b, 10'000 * 4);
+    primitives->reserve(Buffer::scan_sums, scan_sum_words(9999) * 4);
+    exclusive_scan(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, COUNT_LENGTH, 9999);
+    INFO(primitives->name());
+    CHECK((primitives->get<uint32_t>(Buffer::primitive_b, 10'000) == expected_scan(values)));
+    CHECK((primitives->get<uint32_t>(Buffer::primitive_a, 9999) == values));
+  }
+}
+
+TEST_CASE("exclusive scan of 20 million values: more tiles than one group takes at once")
+{
+  Primitives primitives(make_backend("tbb"));
+  const auto values = keys_of<uint32_t>(Distribution::random, 20'000'000);
+  CHECK((scan_in_place(primitives, values, 20'000'000) == expected_scan(values)));
+}

@@ -1,0 +1,315 @@
+/* command_test.cpp - the real program, run as a script would: one line and status 2 for anything wrong, the
+ * promised keys for anything right. */
+#ifdef TANDEM_COMMAND
+#include "tests/catch.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using Json = nlohmann::json;
+namespace files = std::filesystem;
+
+/* A directory of its own, gone when the test ends. */
+struct Scratch {
+  files::path path;
+  Scratch()
+  {
+    std::string pattern = (files::temp_directory_path() / "tandem-command-XXXXXX").string();
+    path = mkdtemp(pattern.data());
+  }
+  ~Scratch() { files::remove_all(path); }
+  std::string file(const std::string &name) const { return (path / name).string(); }
+};
+
+std::string contents(const std::string &path)
+{
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+struct Result {
+  int status;
+  std::string out, error;
+};
+
+/* `environment` stands before the program: "A=1 B=2". */
+Result tandem(const std::string &arguments, const std::string &environment = "")
+{
+  const Scratch scratch;
+  const std::string error = scratch.file("error");
+  std::FILE *pipe = popen((environment + " '" TANDEM_COMMAND "' " + arguments + " 2>'" + error + "'").c_str(), "r");
+  REQUIRE(pipe);
+  std::string out;
+  char buffer[4096];
+  for (size_t size; (size = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, size);
+  const int status = pclose(pipe);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, contents(error)};
+}
+
+void check_refused(const std::string &arguments, const std::string &mentions, const std::string &environment = "")
+{
+  const Result result = tandem(arguments, environment);
+  INFO(arguments << "\nstdout: " << result.out << "\nstderr: " << result.error);
+  CHECK(result.status == 2);
+  CHECK(std::count(result.error.begin(), result.error.end(), '\n') == 1);
+  CHECK(result.error.find("tandem: ") == 0);
+  CHECK(result.error.find(mentions) != std::string::npos);
+  CHECK(result.out.empty());
+}
+
+Json json_of(const std::string &arguments, int status = 0)
+{
+  const Result result = tandem(arguments + " --json -");
+  INFO(arguments << "\nstdout: " << result.out << "\nstderr: " << result.error);
+  REQUIRE(result.status == status);
+  return Json::parse(result.out);
+}
+
+void check_keys(const Json &json, const std::vector<std::string> &keys)
+{
+  for (const std::string &key : keys) {
+    INFO(key);
+    CHECK(json.contains(key));
+  }
+}
+
+const std::string tiny = "box-grid:nx=2,ny=2,nz=2";
+
+} // namespace
+
+TEST_CASE("command: unknown commands and options", "[command]")
+{
+  check_refused("", "--help");
+  check_refused("fly", "fly");
+  check_refused("--fly", "--fly");
+  check_refused("run", "SCENE");
+  check_refused("run " + tiny + " --sideways", "--sideways");
+  check_refused("run " + tiny + " --steps", "--steps");
+  check_refused("run " + tiny + " extra", "extra");
+  check_refused("bench", "WHAT");
+  check_refused("bench juggling", "juggling");
+}
+
+TEST_CASE("command: numbers out of range", "[command]")
+{
+  for (const char *steps : {"0", "-1", "many", "1.5", "99999999999999999999"})
+    check_refused("run " + tiny + " --steps " + steps, "--steps");
+  for (const char *step : {"-0.1", "0", "nan", "inf", "soon", "1/0", "1e9"}) check_refused("run " + tiny + " --dt " + step, "");
+  check_refused("run " + tiny + " --dt nan", "--dt");
+  check_refused("run " + tiny + " --substeps 0", "--substeps");
+  check_refused("run " + tiny + " --iterations 1001", "--iterations");
+  check_refused("bench sort --n 0", "--n");
+}
+
+TEST_CASE("command: names that do not exist", "[command]")
+{
+  check_refused("run castle", "castle");
+  check_refused("run box-grid:bricks=3", "bricks");
+  check_refused("run box-grid:nx=none", "nx");
+  check_refused("run " + tiny + " --on gpu", "gpu");
+  check_refused("run " + tiny + " --on tbb:lanes=3", "lanes");
+  check_refused("run " + tiny + " --on cl:nothing-of-this-name", "nothing-of-this-name");
+  check_refused("run " + tiny + " --solver magic", "magic");
+  check_refused("run " + tiny + " --broadphase magic", "magic");
+  check_refused("run " + tiny + " --narrowphase magic", "magic");
+  check_refused("run " + tiny + " --batching magic", "magic");
+  check_refused("run " + tiny + " --place nowhere=serial", "nowhere");
+  check_refused("run " + tiny + " --place solve=gpu", "gpu");
+  check_refused("diff " + tiny + " --between serial", "two");
+  check_refused("diff " + tiny + " --between serial,gpu", "gpu");
+  check_refused("diff " + tiny + " --plant nothing:bounds:0", "nothing");
+}
+
+TEST_CASE("command: scene files that cannot be read", "[command]")
+{
+  const Scratch scratch;
+  check_refused("run " + scratch.file("missing.json"), "missing.json");
+  std::ofstream(scratch.file("broken.json")) << "{ \"bodies\": [ }";
+  check_refused("run " + scratch.file("broken.json"), "broken.json");
+  std::ofstream(scratch.file("broken.glb")) << "not glTF at all";
+  check_refused("run " + scratch.file("broken.glb"), "broken.glb");
+}
+
+TEST_CASE("command: files that cannot be written are refused before the run", "[command]")
+{
+  for (const char *option : {"--json", "--save", "--trace"})
+    check_refused("run " + tiny + " --steps 1000000000 " + option + " /nonexistent/file.glb", "/nonexistent/file.glb");
+  check_refused("run " + tiny + " --image picture.png", "not supported yet");
+  check_refused("diff " + tiny + " --json /nonexistent/file", "/nonexistent/file");
+  check_refused("devices --json /nonexistent/file", "/nonexistent/file");
+}
+
+TEST_CASE("command: checking whether a file can be written leaves it alone", "[command]")
+{
+  const Scratch scratch;
+  std::ofstream(scratch.file("kept.json")) << "kept";
+  check_refused("run castle --json " + scratch.file("kept.json") + " --save " + scratch.file("new.glb"), "castle");
+  CHECK(contents(scratch.file("kept.json")) == "kept");
+  CHECK_FALSE(files::exists(scratch.file("new.glb")));
+}
+
+TEST_CASE("command: without any OpenCL platform", "[command]")
+{
+  const Scratch empty;
+  const std::string environment = "OCL_ICD_VENDORS=" + empty.path.string() + "/";
+  check_refused("run " + tiny + " --on cl", "OpenCL", environment);
+  const Result devices = tandem("devices", environment);
+  CHECK(devices.status == 0);
+  CHECK(devices.out.find("No OpenCL device") != std::string::npos);
+}
+
+TEST_CASE("command: what comes later says so", "[command]")
+{
+  for (const char *later : {"report --out d", "stability", "contact-problem f --solver x", "replay f", "bench solve", "bench broadphase"})
+    check_refused(later, "later version");
+}
+
+TEST_CASE("command: help and version", "[command]")
+{
+  CHECK(tandem("--version").out.find("tandem ") == 0);
+  const Result help = tandem("run --help");
+  CHECK(help.status == 0);
+  for (const char *said : {"--on", "--place", "--dt", "warm-up", "soft-step"}) CHECK(help.out.find(said) != std::string::npos);
+}
+
+TEST_CASE("command: run writes what its contract says", "[command]")
+{
+  const Json run = json_of("run " + tiny + " --on serial --steps 20 --substeps 2");
+  check_keys(run, {"scene", "backend", "solver", "bodies", "steps", "dt", "step_ms", "stages", "pairs", "contacts", "colors",
+                   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite", "overflow", "memory_bytes",
+                   "kernels_built", "build_ms", "hash", "body_hash"});
+  check_keys(run["step_ms"], {"median", "min", "max"});
+  CHECK(run["scene"] == tiny);
+  CHECK(run["backend"] == "serial");
+  CHECK(run["bodies"] == 9);
+  CHECK(run["steps"] == 20);
+  CHECK(run["step_ms"]["min"] <= run["step_ms"]["median"]);
+  CHECK(run["step_ms"]["median"] <= run["step_ms"]["max"]);
+  CHECK(run["step_ms"]["min"].get<double>() > 0);
+  REQUIRE(run["stages"].size() > 3);
+  for (const Json &stage : run["stages"]) check_keys(stage, {"name", "backend", "ms"});
+  const std::regex digits("[0-9a-f]{16}");
+  CHECK(std::regex_match(run["hash"].get<std::string>(), digits));
+  CHECK(std::regex_match(run["body_hash"].get<std::string>(), digits));
+}
+
+TEST_CASE("command: a run of one step is timed too", "[command]")
+{
+  const Json run = json_of("run " + tiny + " --steps 1");
+  CHECK(run["step_ms"]["median"].get<double>() > 0);
+  CHECK_FALSE(run["stages"].empty());
+}
+
+TEST_CASE("command: the hash depends on what is simulated alone", "[command]")
+{
+  const auto hash = [](const std::string &options) { return json_of("run " + tiny + " --steps 12 " + options)["hash"]; };
+  const Json expected = hash("--on serial");
+  CHECK(hash("--on tbb:threads=2,lanes=4") == expected);
+  CHECK(hash("--on serial --place solve=tbb:threads=1,lanes=4,narrowphase=tbb") == expected);
+  CHECK(hash("--dt 1/60") == expected);
+  CHECK(hash("--dt 1/50") != expected);
+}
+
+TEST_CASE("command: run saves an animation and a trace", "[command]")
+{
+  const Scratch scratch;
+  const Result run = tandem("run " + tiny + " --steps 4 --save " + scratch.file("m.glb") + " --trace " + scratch.file("t.json") +
+                            " --json " + scratch.file("r.json"));
+  INFO(run.error);
+  REQUIRE(run.status == 0);
+  CHECK(run.out.find("ms/step") != std::string::npos);
+  CHECK(contents(scratch.file("m.glb")).substr(0, 4) == "glTF");
+  CHECK(Json::parse(contents(scratch.file("r.json")))["steps"] == 4);
+  const Json trace = Json::parse(contents(scratch.file("t.json")));
+  int steps = 0, kernels = 0;
+  for (const Json &event : trace["traceEvents"]) {
+    if (event["ph"] != "X") continue;
+    check_keys(event, {"name", "ts", "dur", "pid", "tid"});
+    CHECK(event["dur"].get<double>() >= 0);
+    steps += event["cat"] == "step";
+    kernels += event["name"] == "solve_contacts";
+  }
+  CHECK(steps == 4);
+  CHECK(kernels >= 4 * 8);
+}
+
+TEST_CASE("command: diff says equal, or where the first difference is", "[command]")
+{
+  const Json equal = json_of("diff " + tiny + " --between serial,tbb:threads=2,lanes=4 --steps 3");
+  CHECK(equal["equal"] == true);
+  CHECK(equal["backends"] == Json({"serial", "tbb:threads=2,lanes=4"}));
+  CHECK(equal["steps"] == 3);
+  CHECK(equal["kernels_compared"].get<int>() > 3 * 20);
+  CHECK(equal["bytes_compared"].get<int64_t>() > 0);
+  CHECK(equal["first_difference"].is_null());
+
+  const Json different = json_of("diff " + tiny + " --steps 5 --plant integrate_velocities:solver_velocity:25:2", 1);
+  CHECK(different["equal"] == false);
+  const Json &first = different["first_difference"];
+  CHECK(first["step"] == 2);
+  CHECK(first["kernel"] == "integrate_velocities");
+  CHECK(first["buffer"] == "solver_velocity");
+  CHECK(first["element"] == 6);
+  CHECK(first["item"] == 3);
+  CHECK(first["field"] == "linear.y");
+  CHECK(first["ulps"] == 1);
+  CHECK(first["values"].size() == 2);
+  CHECK(first["bodies"].size() == 1);
+  CHECK(first["gdb"].get<std::string>().find("break integrate_velocities_item if i == 3 && tandem::current_step == 2") !=
+        std::string::npos);
+}
+
+TEST_CASE("command: lists and plan", "[command]")
+{
+  const Json devices = json_of("devices");
+  REQUIRE(devices["backends"].size() >= 2);
+  CHECK(devices["backends"][0]["name"] == "serial");
+  CHECK(devices["backends"][1]["name"] == "tbb");
+  CHECK(devices["backends"][1]["threads"].get<int>() >= 1);
+
+  const Json scenes = json_of("scenes");
+  CHECK(scenes["scenes"].size() >= 6);
+  for (const Json &scene : scenes["scenes"]) check_keys(scene, {"name", "description", "parameters"});
+
+  const Json plan = json_of("plan " + tiny);
+  check_keys(plan, {"scene", "backend", "features", "flags", "kernels", "kernels_built", "buffers", "memory_bytes", "build_ms"});
+  const auto find = [&](const char *list, const std::string &name) {
+    for (const Json &entry : plan[list])
+      if (entry["name"] == name) return entry;
+    return Json();
+  };
+  CHECK(find("features", "BOX_BOX")["in"] == true);
+  CHECK(find("features", "SPHERE_SPHERE")["in"] == false);
+  CHECK(find("kernels", "collide_box_box")["built"] == true);
+  CHECK(find("kernels", "collide_sphere_sphere")["built"] == false);
+  CHECK(find("buffers", "body_filter")["kept"] == false);
+  CHECK(find("buffers", "body_filter")["bytes"].get<int>() > 0);
+  int64_t kept = 0;
+  for (const Json &buffer : plan["buffers"])
+    if (buffer["kept"] == true) kept += buffer["bytes"].get<int64_t>();
+  CHECK(kept == plan["memory_bytes"].get<int64_t>());
+}
+
+TEST_CASE("command: bench", "[command]")
+{
+  for (const char *what : {"sort --n 1000", "scan --n 1000", "step --n 8"}) {
+    const Json bench = json_of(std::string("bench ") + what + " --on serial");
+    check_keys(bench, {"what", "backend", "n", "ms", "items_per_second"});
+    CHECK(bench["ms"]["median"].get<double>() > 0);
+  }
+}
+#endif

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# Records what this machine's backends compute and how fast: parity first, then times.
+#
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|all]
+#
+# TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
+# run and commands.txt, which says how each was made. Used for docs/results/.
+set -u
+tandem=$1 out=$2 gpu=$3 what=${4:-all}
+mkdir -p "$out"
+: > "$out/commands.txt"
+
+record() { # NAME ARGUMENTS...: runs tandem with --json, keeps the file and says how it went
+  local name=$1; shift
+  local start=$SECONDS
+  echo "tandem $* --json $name.json" >> "$out/commands.txt"
+  if timeout "${LIMIT:-300}" "$tandem" "$@" --json "$out/$name.json" > "$out/$name.log" 2>&1; then status=ok; else status="exit $?"; fi
+  echo "$name: $status ($((SECONDS - start)) s)" | tee -a "$out/summary.txt"
+  [ "$status" = ok ] || tail -n 3 "$out/$name.log"
+}
+
+record devices devices
+if [ "$what" != times ]; then
+  for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes mixed; do
+    record "parity-${scene%%:*}" diff "$scene" --between "serial,tbb,cl:pocl,$gpu" --steps 300
+  done
+fi
+if [ "$what" != parity ]; then
+  for size in 10,10,10 20,20,20 32,32,32 40,40,40 50,40,50 100,100,100; do
+    IFS=, read -r nx ny nz <<< "$size"
+    record "box-grid-$((nx * ny * nz))-gpu" run "box-grid:nx=$nx,ny=$ny,nz=$nz" --on "$gpu" --steps 120
+  done
+  for size in 10,10,10 20,20,20 40,40,40; do
+    IFS=, read -r nx ny nz <<< "$size"
+    record "box-grid-$((nx * ny * nz))-tbb" run "box-grid:nx=$nx,ny=$ny,nz=$nz" --on tbb --steps 120
+  done
+  record box-grid-8000-tbb-2-threads run box-grid:nx=20,ny=20,nz=20 --on tbb:threads=2 --steps 120
+  record sort-gpu bench sort --on "$gpu" --n 16777216
+  record scan-gpu bench scan --on "$gpu" --n 16777216
+fi
