@@ -64,7 +64,7 @@ TEST_CASE("collisions conserve linear and angular momentum and never add energy"
   const float friction = GENERATE(0.0f, 0.6f), restitution = GENERATE(0.0f, 0.5f, 1.0f);
   const uint64_t seed = GENERATE(1, 2, 3);
   const Worst worst = run_collision(collision(seed, friction, restitution), {}, {});
-  INFO("friction " << friction << ", restitution " << restitution << ", seed " << seed << ": momentum " << worst.linear << ", angular "
+  WARN("friction " << friction << ", restitution " << restitution << ", seed " << seed << ": momentum " << worst.linear << ", angular "
                    << worst.angular << ", energy grown " << worst.energy_growth << ", lost " << worst.energy_lost << ", contacts "
                    << worst.contacts);
   CHECK(worst.contacts > 20);
