@@ -7,10 +7,10 @@
 #include "shared/narrowphase/box_half_space.h"
 
 __kernel void collide_sphere_sphere(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *body_traits, __global const float4 *body_shape, __global const float4 *body_position,
-    __global const float4 *body_velocity,
-    __global const Parameters *parameters, __global const uint *counts, __global float4 *manifold_normal,
-    __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_sphere_sphere_item(pair_a, pair_b, body_traits, body_shape, body_position, body_velocity,
@@ -18,10 +18,10 @@ __kernel void collide_sphere_sphere(__global const uint *pair_a, __global const 
 }
 
 __kernel void collide_sphere_box(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *body_traits, __global const float4 *body_shape, __global const float4 *body_position,
-    __global const float4 *body_orientation, __global const float4 *body_velocity,
-    __global const Parameters *parameters, __global const uint *counts, __global float4 *manifold_normal,
-    __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_orientation, __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_sphere_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
@@ -29,10 +29,10 @@ __kernel void collide_sphere_box(__global const uint *pair_a, __global const uin
 }
 
 __kernel void collide_box_box(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *body_traits, __global const float4 *body_shape, __global const float4 *body_position,
-    __global const float4 *body_orientation, __global const float4 *body_velocity,
-    __global const Parameters *parameters, __global const uint *counts, __global float4 *manifold_normal,
-    __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_orientation, __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_box_box_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
@@ -40,10 +40,10 @@ __kernel void collide_box_box(__global const uint *pair_a, __global const uint *
 }
 
 __kernel void collide_sphere_half_space(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *body_traits, __global const float4 *body_shape, __global const float4 *body_position,
-    __global const float4 *body_orientation, __global const float4 *body_velocity,
-    __global const Parameters *parameters, __global const uint *counts, __global float4 *manifold_normal,
-    __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_orientation, __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_sphere_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
@@ -51,10 +51,10 @@ __kernel void collide_sphere_half_space(__global const uint *pair_a, __global co
 }
 
 __kernel void collide_box_half_space(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *body_traits, __global const float4 *body_shape, __global const float4 *body_position,
-    __global const float4 *body_orientation, __global const float4 *body_velocity,
-    __global const Parameters *parameters, __global const uint *counts, __global float4 *manifold_normal,
-    __global float4 *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_orientation, __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_box_half_space_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,

@@ -1,9 +1,15 @@
 /* parallel.cl - entries of the primitives in shared/parallel. */
 #include "cl/entry.h"
+#include "shared/parallel/bitonic_sort.h"
+#include "shared/parallel/compact.h"
 #include "shared/parallel/copy.h"
 #include "shared/parallel/fill.h"
+#include "shared/parallel/flip_float.h"
+#include "shared/parallel/move.h"
 #include "shared/parallel/radix_sort.h"
+#include "shared/parallel/reduce.h"
 #include "shared/parallel/scan.h"
+#include "shared/parallel/search.h"
 
 __kernel void fill(__global uint *values, uint value, RANGE)
 {
@@ -97,4 +103,120 @@ __kernel void sort_scatter64_pairs(__global const uint *counts, __global const u
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
   END_GROUP;
+}
+
+__kernel void reduce_tiles(__global const uint *counts, __global const uint *values, __global uint *partial,
+                           uint length, uint operation, RANGE)
+{
+  __local uint local_memory[REDUCE_ITEMS];
+  reduce_tiles_group(counts, values, partial, length, operation, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void reduce_partials(__global const uint *counts, __global const uint *partial, __global uint *result,
+                              uint length, uint operation, RANGE)
+{
+  __local uint local_memory[REDUCE_ITEMS];
+  reduce_partials_group(counts, partial, result, length, operation, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void reduce_real_tiles(__global const uint *counts, __global const memory_real *values,
+                                __global memory_real *partial, uint length, uint operation, RANGE)
+{
+  __local uint local_memory[REDUCE_ITEMS];
+  reduce_real_tiles_group(counts, values, partial, length, operation, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void reduce_real_partials(__global const uint *counts, __global const memory_real *partial,
+                                   __global memory_real *result, uint length, uint operation, RANGE)
+{
+  __local uint local_memory[REDUCE_ITEMS];
+  reduce_real_partials_group(counts, partial, result, length, operation, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void compact_count(__global const uint *flags, __global uint *offsets, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  compact_count_item(flags, offsets, i);
+}
+
+__kernel void compact_write(__global const uint *flags, __global const uint *offsets, __global uint *indices,
+                            RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  compact_write_item(flags, offsets, indices, i);
+}
+
+__kernel void compact_total(__global const uint *offsets, __global uint *counts, uint length, uint to, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  compact_total_item(offsets, counts, length, to, i);
+}
+
+__kernel void lower_bound(__global const uint *counts, __global const uint *sorted,
+                          __global const uint *queries, __global uint *places, uint length, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  lower_bound_item(counts, sorted, queries, places, length, i);
+}
+
+__kernel void upper_bound(__global const uint *counts, __global const uint *sorted,
+                          __global const uint *queries, __global uint *places, uint length, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  upper_bound_item(counts, sorted, queries, places, length, i);
+}
+
+__kernel void gather(__global const uint *values, __global const uint *indices, __global uint *result, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  gather_item(values, indices, result, i);
+}
+
+__kernel void scatter(__global const uint *values, __global const uint *indices, __global uint *result, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  scatter_item(values, indices, result, i);
+}
+
+__kernel void add_offset(__global uint *values, uint offset, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  add_offset_item(values, offset, i);
+}
+
+__kernel void difference(__global const uint *values, __global uint *result, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  difference_item(values, result, i);
+}
+
+__kernel void flip_float(__global uint *values, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  flip_float_item(values, i);
+}
+
+__kernel void unflip_float(__global uint *values, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  unflip_float_item(values, i);
+}
+
+__kernel void bitonic_tile(__global const uint *counts, __global uint *keys, __global uint *values, uint length,
+                           uint whole, RANGE)
+{
+  __local uint local_memory[BITONIC_LOCAL_WORDS];
+  bitonic_tile_group(counts, keys, values, length, whole, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void bitonic_step(__global const uint *counts, __global uint *keys, __global uint *values, uint length,
+                           uint block, uint reach, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  bitonic_step_item(counts, keys, values, length, block, reach, i);
 }

@@ -31,6 +31,7 @@ public:
 /* Host memory, 64-byte aligned. */
 Storage &host_storage();
 
+/* Every storage given to acquire must outlive the memory. */
 class Memory {
 public:
   Memory();

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/radix_sort.h"
+#include "shared/parallel/reduce.h"
 #include "shared/parallel/scan.h"
 
 namespace tandem {
@@ -114,6 +116,59 @@ void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_k
             {Kernel::sort_histogram64, Kernel::sort_scatter64_pairs, Kernel::copy64, keys, other_keys, true, values, other_values, histogram,
              sums},
             length, capacity, first_bit, last_bit);
+}
+
+void bitonic_sort(Launcher &launcher, Buffer keys, Buffer values, uint32_t length, uint32_t capacity)
+{
+  if (capacity == 0) return;
+  const auto tile = [&](uint32_t whole) {
+    launcher.launch({Kernel::bitonic_tile, {keys, values}, {length, whole}, COUNT_ZERO, length, capacity});
+  };
+  const auto step = [&](uint32_t block, uint32_t reach) {
+    launcher.launch({Kernel::bitonic_step, {keys, values}, {length, block, reach}, COUNT_ZERO, length, capacity});
+  };
+  tile(1);
+  for (uint32_t block = 2 * BITONIC_TILE; block / 2 < capacity; block *= 2) {
+    step(block, 0);
+    for (uint32_t reach = block / 4; reach >= BITONIC_TILE; reach /= 2) step(0, reach);
+    tile(0);
+  }
+}
+
+namespace {
+
+static_assert(REDUCE_SUM == static_cast<int>(Reduction::sum) && REDUCE_SMALLEST == static_cast<int>(Reduction::smallest) &&
+              REDUCE_LARGEST == static_cast<int>(Reduction::largest));
+
+void reduce_with(Launcher &launcher, Kernel tiles, Kernel partials, Reduction reduction, Buffer values, Buffer partial, Buffer result,
+                 uint32_t length, uint32_t capacity)
+{
+  const auto operation = static_cast<uint32_t>(reduction);
+  launcher.launch({tiles, {values, partial}, {length, operation}, COUNT_ZERO, length, items_for(units(capacity, REDUCE_TILE))});
+  launcher.launch({partials, {partial, result}, {length, operation}, COUNT_ZERO, COUNT_ONE, 1});
+}
+
+} // namespace
+
+size_t reduce_partial_words(size_t capacity) { return std::max(units(capacity, REDUCE_TILE), 1u); }
+
+void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length, uint32_t capacity)
+{
+  reduce_with(launcher, Kernel::reduce_tiles, Kernel::reduce_partials, reduction, values, partial, result, length, capacity);
+}
+
+void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length, uint32_t capacity)
+{
+  reduce_with(launcher, Kernel::reduce_real_tiles, Kernel::reduce_real_partials, reduction, values, partial, result, length, capacity);
+}
+
+void compact(Launcher &launcher, Buffer flags, Buffer offsets, Buffer sums, Buffer indices, uint32_t length, uint32_t capacity,
+             uint32_t found)
+{
+  launcher.launch({Kernel::compact_count, {flags, offsets}, {}, COUNT_ZERO, length, capacity});
+  exclusive_scan(launcher, offsets, offsets, sums, length, capacity);
+  launcher.launch({Kernel::compact_write, {flags, offsets, indices}, {}, COUNT_ZERO, length, capacity});
+  launcher.launch({Kernel::compact_total, {offsets}, {length, found}, COUNT_ZERO, COUNT_ONE, 1});
 }
 
 } // namespace tandem

@@ -35,7 +35,7 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), special(specialise(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
     if (!settings.specialise) special.features = all_features();
@@ -44,7 +44,7 @@ struct World::Implementation {
     plan.capacity_cells = cells_for(plan.bodies);
     plan.capacity_pairs = 5 * plan.bodies + 1024;
     record_kernels();
-    place(placement);
+    place(wanted);
     allocate();
     upload_scene();
     guess_counts();
@@ -186,6 +186,8 @@ struct World::Implementation {
       throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
     }
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+    record_kernels(); /* longer scans and sorts take other kernels */
+    place(wanted);
     guess_counts();
   }
 
@@ -202,12 +204,13 @@ struct World::Implementation {
 
   Scene scene;
   Settings settings;
+  Placement wanted;
   Specialisation special;
+  std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<Kernel> kernels;
-  std::map<std::string, std::unique_ptr<Backend>> backends;
   std::array<Backend *, kernel_count> placed{};
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;

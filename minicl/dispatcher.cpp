@@ -42,6 +42,10 @@ const KernelTable *lanes_table(uint32_t lanes)
 
 namespace {
 
+/* More threads than processors, when asked for: results must not depend on it, and tests look. The least of
+ * all controls counts, so there is one for the process. */
+void allow_many_threads() { static const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, 1024); }
+
 /* About how many items one task should have: small kernels stay on one thread. */
 constexpr uint32_t items_per_task = 256;
 
@@ -49,8 +53,6 @@ class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
-        /* More threads than processors, when asked for: results must not depend on it, and tests look. */
-        workers_(tbb::global_control::max_allowed_parallelism, std::max<size_t>(options.threads, tbb::this_task_arena::max_concurrency())),
         scalar_(options.order == Order::forward ? scalar_kernels : backward_kernels), lanes_(lanes_table(options.lanes))
   {
   }
@@ -136,7 +138,6 @@ private:
   Order order_;
   tbb::task_arena arena_;
   uint32_t threads_;
-  tbb::global_control workers_;
   const KernelTable &scalar_;
   const KernelTable *lanes_;
   bool profiling_ = false;
@@ -148,7 +149,9 @@ private:
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options)
 {
   Options filled = options;
-  if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
+  const auto processors = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
+  if (filled.threads == 0) filled.threads = processors;
+  if (filled.threads > processors) allow_many_threads();
   if (filled.lanes == 0) filled.lanes = widest_lanes();
   return std::make_unique<MiniclBackend>(name, filled);
 }

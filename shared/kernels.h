@@ -3,10 +3,16 @@
 #define TANDEM_SHARED_KERNELS_H
 
 #include "shared/lanes_kernels.h"
+#include "shared/parallel/bitonic_sort.h"
+#include "shared/parallel/compact.h"
 #include "shared/parallel/copy.h"
 #include "shared/parallel/fill.h"
+#include "shared/parallel/flip_float.h"
+#include "shared/parallel/move.h"
 #include "shared/parallel/radix_sort.h"
+#include "shared/parallel/reduce.h"
 #include "shared/parallel/scan.h"
+#include "shared/parallel/search.h"
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/sweep.h"

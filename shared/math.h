@@ -45,6 +45,11 @@ SHARED vec3 multiply(vec3 a, vec3 b) { return make_vec3(a.x * b.x, a.y * b.y, a.
 SHARED vec3 absolute(vec3 v) { return make_vec3(magnitude(v.x), magnitude(v.y), magnitude(v.z)); }
 SHARED vec3 choose3(mask m, vec3 a, vec3 b) { return make_vec3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)); }
 
+SHARED vec4 choose4(mask m, vec4 a, vec4 b)
+{
+  return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
+}
+
 SHARED real inner(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SHARED vec3 outer(vec3 a, vec3 b)
 {

@@ -52,6 +52,11 @@ SHARED void store_inertia(GLOBAL row *inertia, natural body, symmetric3 s)
   store_row(inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
   store_row(inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
 }
+SHARED void store_inertia_if(mask wanted, GLOBAL row *inertia, natural body, symmetric3 s)
+{
+  store_row_if(wanted, inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
+  store_row_if(wanted, inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
+}
 
 /* True where every component is a finite number. */
 SHARED mask is_finite(vec3 v)

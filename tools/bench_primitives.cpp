@@ -78,8 +78,8 @@ public:
   }
 
 private:
+  std::unique_ptr<Backend> backend_; /* outlives the memory, which gives its buffers back */
   Memory memory_;
-  std::unique_ptr<Backend> backend_;
   DirectLauncher launcher_;
   Call call_;
 };

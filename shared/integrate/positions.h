@@ -67,16 +67,17 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   store_row(solver_delta, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
 
   quat q = quat_from(load_row(solver_orientation, i));
+  quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, FEATURE_GYROSCOPIC)) {
+    /* Per body, so that a body's bits do not depend on what else is in the scene. */
+    mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
     spin s = turn_freely(q, m.angular, xyz(mass), h);
-    q = s.orientation;
-    m.angular = choose3(m.inverse_mass > R(0.0), s.angular, m.angular);
-    store_motion_if(m.inverse_mass > R(0.0), solver_velocity, i, m);
-    store_inertia(solver_inertia, i, rotate_diagonal(rotation_of(q), xyz(mass)));
-  } else {
-    q = turned(q, scale(m.angular, h));
+    next = quat_from(choose4(uneven, quat_to_row(s.orientation), quat_to_row(next)));
+    m.angular = s.angular;
+    store_motion_if(uneven, solver_velocity, i, m);
+    store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(next), xyz(mass)));
   }
-  store_row(solver_orientation, i, quat_to_row(q));
+  store_row(solver_orientation, i, quat_to_row(next));
 }
 
 #endif

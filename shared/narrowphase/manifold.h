@@ -25,10 +25,6 @@ typedef struct {
   natural code; /* of the feature pair, 24 bits */
 } manifold;
 
-SHARED vec4 choose4(mask m, vec4 a, vec4 b)
-{
-  return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
-}
 SHARED real sign_of(real x) { return choose(x < R(0.0), (real)R(-1.0), (real)R(1.0)); }
 
 /* A manifold of one point. */

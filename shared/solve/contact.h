@@ -45,6 +45,16 @@ SHARED void store_contact_motion(GLOBAL row *solver_velocity, contact c)
   store_motion_if(c.motion_b.inverse_mass > R(0.0), solver_velocity, c.b, c.motion_b);
 }
 
+/* An impulse of 0 is not applied: adding 0 would turn -0 into +0, and so depend on what shares the lanes. */
+SHARED contact with_motion_if(mask wanted, contact c, contact moved)
+{
+  c.motion_a.linear = choose3(wanted, moved.motion_a.linear, c.motion_a.linear);
+  c.motion_a.angular = choose3(wanted, moved.motion_a.angular, c.motion_a.angular);
+  c.motion_b.linear = choose3(wanted, moved.motion_b.linear, c.motion_b.linear);
+  c.motion_b.angular = choose3(wanted, moved.motion_b.angular, c.motion_b.angular);
+  return c;
+}
+
 SHARED contact apply_turn(contact c, vec3 turn_a, vec3 turn_b, real impulse)
 {
   c.motion_a.angular = add_scaled(c.motion_a.angular, symmetric_times(c.inertia_a, turn_a), -impulse);
@@ -224,12 +234,13 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   vec4 impulses = load_row(constraint_normal_impulse, i);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_arms(c, moved.translation);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION)) {
+  mask rough = c.friction > R(0.0);
+  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     solved sliding = solve_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i),
                               load_row(constraint_friction_impulse, i), pressure);
-    c = sliding.c;
-    store_row(constraint_friction_impulse, i, sliding.impulse);
+    c = with_motion_if(rough, c, sliding.c);
+    store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
   }
 
   softness soft = softness_of(parameters, c);
@@ -267,6 +278,7 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
   if (!any_of(bounces)) return;
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact before = c;
   vec4 impulses = load_row(constraint_normal_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
@@ -280,8 +292,8 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
     }
     c = press_together(c, &s, pressed);
   }
-  store_row(constraint_normal_impulse, i, make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
-  store_contact_motion(solver_velocity, c);
+  store_row_if(bounces, constraint_normal_impulse, i, make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
+  store_contact_motion(solver_velocity, with_motion_if(bounces, before, c));
 }
 
 #endif
