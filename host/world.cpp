@@ -99,16 +99,13 @@ struct World::Implementation {
     wanted = placement;
   }
 
-  /* What the next step inherits is kept; everything else is written before it is read. */
+  /* Of the buffers that grow, the cache alone carries anything over to the next step. */
   void allocate()
   {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
-      const Buffer buffer = buffer_at(i);
-      const std::string name = row_of(buffer).name;
-      const bool inherited = name.starts_with("cached_") || name.starts_with("body_") || buffer == Buffer::counts ||
-                             buffer == Buffer::material || buffer == Buffer::parameters;
-      memory.resize(buffer, bytes_of(buffer, now), inherited);
+      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
+      memory.resize(buffer_at(i), bytes_of(buffer_at(i), now), cached);
     }
   }
 

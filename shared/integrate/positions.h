@@ -45,7 +45,8 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   vec3 middle = spin_of(turned(q, scale(angular, R(0.5) * h)), inverse, momentum);
   spin s;
   s.orientation = turned(q, scale(middle, h));
-  s.angular = spin_of(s.orientation, inverse, momentum);
+  /* As a change: rounding that both terms share would otherwise shrink or grow the spin a little every substep. */
+  s.angular = add(angular, subtract(spin_of(s.orientation, inverse, momentum), spin_of(q, inverse, momentum)));
   return s;
 }
 

@@ -75,23 +75,51 @@ SHARED real speed_along(contact c, vec3 direction, vec3 turn_a, vec3 turn_b)
   return inner(direction, subtract(c.motion_b.linear, c.motion_a.linear)) + inner(turn_b, c.motion_b.angular) - inner(turn_a, c.motion_a.angular);
 }
 
+/* What the bodies have moved since the step began. */
+typedef struct { vec3 translation, rotation_a, rotation_b; } drift;
+
+SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
+{
+  drift d = {subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))),
+             xyz(load_row(solver_delta, c.a * 2u + 1u)), xyz(load_row(solver_delta, c.b * 2u + 1u))};
+  return d;
+}
+
+/* What the bodies have slid past each other since their arms were measured. Arms must end in one point of the world, or an
+ * impulse through them adds angular momentum: a body that cannot move takes the whole difference, two that can share it. */
+typedef struct { vec3 a, b; } arm_shift;
+
+SHARED arm_shift shift_of_arms(contact c, vec3 slid)
+{
+  real share = choose(c.motion_a.inverse_mass == R(0.0), (real)R(1.0), choose(c.motion_b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
+  arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
+  return s;
+}
+
+SHARED arm_shift load_arm_shift(GLOBAL const row *solver_delta, contact c)
+{
+  return shift_of_arms(c, subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))));
+}
+
 SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                             GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity, item_index i)
+                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                            GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
+  arm_shift shift = load_arm_shift(solver_delta, c);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
   tangents t = tangents_of(c.normal);
   vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
   vec3 turn_a = add(outer(center_a, slide), scale(c.normal, friction.z));
   vec3 turn_b = add(outer(center_b, slide), scale(c.normal, friction.z));
   for (uint k = 0; k < 4u; ++k) {
     vec3 push = scale(c.normal, component(impulses, (natural)k));
-    turn_a = add(turn_a, outer(xyz(load_row(constraint_points, stride * k + i)), push));
-    turn_b = add(turn_b, outer(xyz(load_row(constraint_points, stride * (k + 4u) + i)), push));
+    turn_a = add(turn_a, outer(add(xyz(load_row(constraint_points, stride * k + i)), shift.a), push));
+    turn_b = add(turn_b, outer(add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b), push));
     slide = add(slide, push);
   }
   store_contact_motion(solver_velocity, apply_impulse(c, slide, turn_a, turn_b, R(1.0)));
@@ -100,7 +128,7 @@ SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
 typedef struct { contact c; vec4 impulse; } solved;
 
 /* Twist about the normal and the cone of sliding friction at the centre of the manifold. */
-SHARED solved solve_friction(contact c, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
+SHARED solved solve_friction(contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
 {
   real limit = c.friction * pressure;
   real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular));
@@ -109,7 +137,7 @@ SHARED solved solve_friction(contact c, vec4 center_a, vec4 center_b, vec4 impul
   c = apply_turn(c, c.normal, c.normal, twist - impulse.z);
 
   tangents t = tangents_of(c.normal);
-  vec3 arm_a = xyz(center_a), arm_b = xyz(center_b);
+  vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   vec3 slide = subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a));
   real first = impulse.x - center_a.w * inner(slide, t.first), second = impulse.y - center_a.w * inner(slide, t.second);
   real squared = first * first + second * second;
@@ -133,18 +161,9 @@ SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
   return s;
 }
 
-/* What the bodies have moved since the step began. */
-typedef struct { vec3 translation, rotation_a, rotation_b; } drift;
-
-SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
-{
-  drift d = {subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))),
-             xyz(load_row(solver_delta, c.a * 2u + 1u)), xyz(load_row(solver_delta, c.b * 2u + 1u))};
-  return d;
-}
-
 /* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
- * pushes them apart, unless relaxing. Returns the new accumulated impulse. */
+ * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it would
+ * limit comes later. Returns the new accumulated impulse. */
 SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real separation, real speed, real mass, real old, uint biased)
 {
   mask ahead = separation > R(0.0);
@@ -153,7 +172,55 @@ SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, r
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);
   real impulse_scale = biased != 0u ? choose(rigid, (real)R(0.0), soft.impulse_scale) : (real)R(0.0);
-  return maximum(old - mass * mass_scale * (speed + bias) - impulse_scale * old, R(0.0));
+  real impulse = maximum(old - mass * mass_scale * (speed + bias) - impulse_scale * old, R(0.0));
+  return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
+}
+
+/* The four points of a manifold as one: their turns, masses and impulses. */
+typedef struct {
+  vec3 turn_a[4], turn_b[4];
+  real mass[4], impulse[4];
+} support;
+
+/* Turns, masses and impulses of the points; separations as the step began stay with the caller. */
+SHARED support load_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses, item_index i)
+{
+  support s;
+  for (uint k = 0; k < 4u; ++k) {
+    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    s.turn_a[k] = outer(add(xyz(load_row(constraint_points, stride * k + i)), shift.a), c.normal);
+    s.turn_b[k] = outer(add(xyz(point_b), shift.b), c.normal);
+    s.mass[k] = point_b.w;
+    s.impulse[k] = component(impulses, (natural)k);
+  }
+  return s;
+}
+
+/* Gives all points their wished impulses at once, so that a box on four corners does not tilt towards the one that is
+ * solved first. The changes are one direction; the share of it that brings the points as near to their wishes as they
+ * can come together is own / whole, its energy with the points apart over its energy with them coupled. */
+SHARED contact press_together(contact c, support *s, const real *wished)
+{
+  real change[4], sum = R(0.0), own = R(0.0);
+  vec3 turn_a = make_vec3(R(0.0), R(0.0), R(0.0)), turn_b = turn_a;
+  for (uint k = 0; k < 4u; ++k) {
+    mask used = s->mass[k] > R(0.0);
+    change[k] = choose(used, wished[k] - s->impulse[k], (real)R(0.0));
+    sum = sum + change[k];
+    own = own + change[k] * change[k] / choose(used, s->mass[k], (real)R(1.0));
+    turn_a = add_scaled(turn_a, s->turn_a[k], change[k]);
+    turn_b = add_scaled(turn_b, s->turn_b[k], change[k]);
+  }
+  real whole = (c.motion_a.inverse_mass + c.motion_b.inverse_mass) * sum * sum + inner(turn_a, symmetric_times(c.inertia_a, turn_a)) +
+               inner(turn_b, symmetric_times(c.inertia_b, turn_b));
+  real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
+  mask pulls = s->impulse[0] + share * change[0] < R(0.0);
+  for (uint k = 1; k < 4u; ++k) pulls = pulls | (s->impulse[k] + share * change[k] < R(0.0));
+  share = choose(pulls, minimum(share, R(1.0)), share);
+  for (uint k = 0; k < 4u; ++k) s->impulse[k] = s->impulse[k] + share * change[k];
+  c.motion_a.linear = add_scaled(c.motion_a.linear, c.normal, -(c.motion_a.inverse_mass * (share * sum)));
+  c.motion_b.linear = add_scaled(c.motion_b.linear, c.normal, c.motion_b.inverse_mass * (share * sum));
+  return apply_turn(c, turn_a, turn_b, share);
 }
 
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
@@ -165,40 +232,46 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i);
+  drift moved = load_drift(solver_delta, c);
+  arm_shift shift = shift_of_arms(c, moved.translation);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    solved s = solve_friction(c, load_row(constraint_center, i), load_row(constraint_center, stride + i),
+    solved sliding = solve_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i),
                               load_row(constraint_friction_impulse, i), pressure);
-    c = with_motion_if(rough, c, s.c);
-    store_row_if(rough, constraint_friction_impulse, i, s.impulse);
+    c = with_motion_if(rough, c, sliding.c);
+    store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
   }
 
   softness soft = softness_of(parameters, c);
-  drift moved = load_drift(solver_delta, c);
   real closed = inner(c.normal, moved.translation);
-  real next[4];
+  support s = load_support(constraint_points, stride, c, shift, impulses, i);
+  real wished[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(constraint_points, stride * k + i), point_b = load_row(constraint_points, stride * (k + 4u) + i);
-    vec3 turn_a = outer(xyz(point_a), c.normal), turn_b = outer(xyz(point_b), c.normal);
-    real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
-    real old = component(impulses, (natural)k);
-    next[k] = normal_impulse(parameters, soft, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, old, biased);
-    c = apply_impulse(c, c.normal, turn_a, turn_b, next[k] - old);
+    real started = load_row(constraint_points, stride * k + i).w;
+    real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
+    real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
+    wished[k] = normal_impulse(parameters, soft, separation, speed, s.mass[k], s.impulse[k], biased);
   }
-  store_row(constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
+  c = press_together(c, &s, wished);
+  vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
+  store_row(constraint_normal_impulse, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, next[0]), maximum(highest.y, next[1]), maximum(highest.z, next[2]),
-                                                       maximum(highest.w, next[3])));
+    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
+                                                       maximum(highest.w, pressed.w)));
   }
   store_contact_motion(solver_velocity, c);
 }
 
+/* The points of a manifold are coupled; a few rounds bring all of them to their speeds. */
+#define RESTITUTION_ROUNDS 8u
+
 /* After the last substep: points that were pressed part at their wished speed. */
 SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                                    GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
-                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, item_index i)
+                                   GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                                   GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
@@ -207,18 +280,19 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   contact before = c;
   vec4 impulses = load_row(constraint_normal_impulse, i);
-  real next[4];
-  for (uint k = 0; k < 4u; ++k) {
-    vec3 turn_a = outer(xyz(load_row(constraint_points, stride * k + i)), c.normal);
-    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
-    vec3 turn_b = outer(xyz(point_b), c.normal);
-    real old = component(impulses, (natural)k), target = component(wished, (natural)k);
-    mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
-    real wanted = maximum(old - point_b.w * (speed_along(c, c.normal, turn_a, turn_b) - target), R(0.0));
-    next[k] = choose(applies, wanted, old);
-    c = apply_impulse(c, c.normal, turn_a, turn_b, next[k] - old);
+  arm_shift shift = load_arm_shift(solver_delta, c);
+  support s = load_support(constraint_points, stride, c, shift, impulses, i);
+  for (uint round = 0; round < RESTITUTION_ROUNDS; ++round) {
+    real pressed[4];
+    for (uint k = 0; k < 4u; ++k) {
+      real target = component(wished, (natural)k);
+      mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
+      real wanted = maximum(s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target), R(0.0));
+      pressed[k] = choose(applies, wanted, s.impulse[k]);
+    }
+    c = press_together(c, &s, pressed);
   }
-  store_row_if(bounces, constraint_normal_impulse, i, make_vec4(next[0], next[1], next[2], next[3]));
+  store_row_if(bounces, constraint_normal_impulse, i, make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
   store_contact_motion(solver_velocity, with_motion_if(bounces, before, c));
 }
 

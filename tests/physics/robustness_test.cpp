@@ -1,0 +1,111 @@
+/* Nothing lost, nothing silent: a body that is not finite is named and taken out; buffers that overflow grow. */
+#include "tests/catch.h"
+
+#include <limits>
+
+#include "host/scene_catalog.h"
+#include "tests/physics/physics.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+uint64_t hash_after_poisoning(const std::string &backend, const BodyState &poison)
+{
+  Scene scene = load_scene("box-grid:nx=3,ny=3,nz=3");
+  scene.bodies[14].name = "middle";
+  World world(scene, {}, Placement{backend, {}, false});
+  run(world, 10);
+  world.set_body_unchecked(14, poison);
+  run(world, 20);
+  REQUIRE(world.quarantined().size() == 1);
+  const Quarantine found = world.quarantined().front();
+  CHECK(found.body == 14);
+  CHECK(found.name == "middle");
+  CHECK(found.stage == "start");
+  CHECK(found.step == 10);
+  CHECK(world.statistics().nonfinite == 1);
+  CHECK(world.statistics().steps == 30);
+  CHECK(all_finite(world.bodies()));
+  CHECK(std::isfinite(world.statistics().kinetic_energy));
+  CHECK(world.bodies()[14].linear_velocity == Vec3{0, 0, 0});
+  for (size_t i = 1; i < scene.bodies.size(); ++i) {
+    if (i != 14) CHECK(world.bodies()[i].position[1] > 0.9f);
+  }
+  return world.state_hash();
+}
+
+/* n bodies of one shape in one place, over a ground. */
+Scene crowd(const Shape &shape, int n)
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  for (int i = 0; i < n; ++i) add_body(scene, Motion::dynamic, shape, {0, 0.5f, 0});
+  return scene;
+}
+
+} // namespace
+
+TEST_CASE("a body that is not finite is named and quarantined, and the rest go on", "[physics][sanitizer]")
+{
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
+  BodyState poison{{0, 5, 0}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0}};
+  SECTION("NaN position") { poison.position[1] = nan; }
+  SECTION("infinite position") { poison.position[0] = -infinity; }
+  SECTION("NaN orientation") { poison.orientation[3] = nan; }
+  SECTION("infinite velocity") { poison.linear_velocity[2] = infinity; }
+  SECTION("NaN spin") { poison.angular_velocity[0] = nan; }
+  CHECK(hash_after_poisoning("serial", poison) == hash_after_poisoning("tbb", poison));
+}
+
+TEST_CASE("several bodies that are not finite are quarantined in one step", "[physics]")
+{
+  World world(load_scene("spheres:n=30"));
+  BodyState poison = world.bodies()[3];
+  poison.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
+  for (uint32_t body : {3u, 7u, 20u}) world.set_body_unchecked(body, poison);
+  world.step();
+  CHECK(world.quarantined().size() == 3);
+  CHECK(world.statistics().steps == 1);
+  run(world, 60);
+  CHECK(world.quarantined().size() == 3);
+  CHECK(all_finite(world.bodies()));
+}
+
+TEST_CASE("a speed that overflows in a step is caught before it is committed", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 2, 0});
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {5, 2, 0}).linear_velocity = {3e38f, 0, 0};
+  World world(scene, settings_with(0.1));
+  run(world, 60);
+  REQUIRE(world.quarantined().size() == 1);
+  CHECK(world.quarantined().front().body == 2);
+  CHECK(all_finite(world.bodies()));
+  CHECK(world.bodies()[1].position[1] == Approx(0.5).margin(0.01));
+}
+
+TEST_CASE("overflow grows the buffers, repeats the step and loses no contact", "[physics]")
+{
+  const Shape shape = GENERATE(sphere_shape(0.4f), box_shape(0.4f, 0.3f, 0.2f));
+  const uint32_t n = 200;
+  std::vector<uint64_t> hashes;
+  for (const std::string broadphase : {"brute-force", "sap", "grid"}) {
+    Settings settings;
+    settings.broadphase = broadphase;
+    World world(crowd(shape, int(n)), settings);
+    world.step();
+    const Statistics statistics = world.statistics();
+    CHECK(statistics.overflow > 0);
+    CHECK(statistics.steps == 1);
+    CHECK(statistics.pairs == n * (n - 1) / 2 + n);
+    CHECK(statistics.manifolds >= n * (n - 1) / 2);
+    CHECK(all_finite(world.bodies()));
+    run(world, 2);
+    hashes.push_back(world.state_hash());
+  }
+  CHECK(hashes[0] == hashes[1]);
+  CHECK(hashes[0] == hashes[2]);
+}

@@ -1,0 +1,88 @@
+/* Resting contact: stacks stand, piles do not sink, and that far from the origin as well. */
+#include "tests/catch.h"
+
+#include "host/scene_catalog.h"
+#include "tests/physics/physics.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+/* A column of unit cubes on a static block with its top at the origin, all moved by `offset`. */
+Scene column(int height, const Vec3 &offset)
+{
+  Scene scene = empty_scene();
+  add_body(scene, Motion::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
+  for (int i = 0; i < height; ++i)
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]});
+  return scene;
+}
+
+double farthest_drift(const std::vector<BodyState> &from, const std::vector<BodyState> &to, bool sideways_only)
+{
+  double worst = 0;
+  for (size_t i = 0; i < from.size(); ++i) {
+    Vector moved = vector_of(to[i].position) - vector_of(from[i].position);
+    if (sideways_only) moved.y() = 0;
+    worst = std::max(worst, moved.norm());
+  }
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("a stack of ten boxes stands a thousand steps", "[physics]")
+{
+  const bool on_half_space = GENERATE(false, true);
+  const Scene scene = on_half_space ? load_scene("box-stack:n=10,height=10") : column(10, {0, 0, 0});
+  World world(scene);
+  const std::vector<BodyState> start = world.bodies();
+  run(world, 100);
+  const std::vector<BodyState> settled = world.bodies();
+  const double sunk = farthest_drift(start, settled, false);
+  double deepest = 0;
+  for (int i = 0; i < 9; ++i) {
+    run(world, 100);
+    deepest = std::max(deepest, world.statistics().max_penetration);
+  }
+  const double sideways = farthest_drift(start, world.bodies(), true), drift = farthest_drift(settled, world.bodies(), false);
+  WARN("ten boxes, 1000 steps: settle " << sunk << " m in 100 steps, then drift " << drift << " m; sideways " << sideways
+                                        << " m; deepest contact " << deepest);
+  CHECK(sideways < 0.001);
+  CHECK(drift < 0.001);
+  CHECK(deepest < 0.0075);
+}
+
+TEST_CASE("a grid of boxes sinks less than two centimetres", "[physics]")
+{
+  World world(load_scene("box-grid:nx=8,ny=8,nz=8"));
+  double deepest = 0;
+  for (int i = 0; i < 12; ++i) {
+    run(world, 10);
+    deepest = std::max(deepest, world.statistics().max_penetration);
+  }
+  const Statistics statistics = world.statistics();
+  WARN("box-grid 8 x 8 x 8: maximum penetration " << statistics.max_penetration << " m at step 120, " << deepest << " at any tenth step; mean "
+                                                  << statistics.mean_penetration);
+  CHECK(statistics.max_penetration < 0.02);
+  CHECK(deepest < 0.02);
+  CHECK(statistics.contacts > 3000);
+}
+
+/* Floats are 2 mm apart there. */
+TEST_CASE("a stack stands 20 km from the origin", "[physics]")
+{
+  const Vec3 offset = GENERATE(Vec3{20000, 0, 0}, Vec3{-20000, 0, 20000}, Vec3{0, 20000, 0});
+  World world(column(5, offset));
+  const std::vector<BodyState> start = world.bodies();
+  double deepest = 0;
+  for (int i = 0; i < 60; ++i) {
+    run(world, 10);
+    deepest = std::max(deepest, world.statistics().max_penetration);
+  }
+  const double drift = farthest_drift(start, world.bodies(), false);
+  WARN("at (" << offset[0] << ", " << offset[1] << ", " << offset[2] << "): five boxes, 600 steps: moved " << drift << " m, deepest contact " << deepest);
+  CHECK(drift < 0.03);
+  CHECK(deepest < 0.015);
+}
