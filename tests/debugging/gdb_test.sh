@@ -7,13 +7,13 @@ command -v gdb > /dev/null || { echo "skipped: no gdb"; exit 77; }
 expected=$("$probe" | sed -n 's/^impulse .* bits //p')
 [ -n "$expected" ] && [ "$expected" != 0x0 ] || { echo "the probe names no impulse but '$expected'"; exit 1; }
 
-# First the item, then the end of the same item: where it stores the motion of its bodies.
+# Names of arguments, which kernels.def fixes too; names of locals change with the solver.
 seen=$(gdb -batch -nx -ex 'set confirm off' \
   -ex 'break tandem::scalar::solve_contacts_item if i == 17 && tandem::current_step == 3' -ex run \
   -ex 'printf "item %u of step %u\n", i, tandem::current_step' \
-  -ex 'tbreak tandem::scalar::store_contact_motion' -ex continue -ex up \
-  -ex 'printf "normal length %.6f\n", c.normal.x * c.normal.x + c.normal.y * c.normal.y + c.normal.z * c.normal.z' \
-  -ex 'printf "bits 0x%x\n", *(unsigned int *)&next[0]' -ex kill "$probe" 2>&1) || true
+  -ex 'set $n = constraint_normal[i]' -ex 'printf "normal length %.6f\n", $n.x * $n.x + $n.y * $n.y + $n.z * $n.z' \
+  -ex 'set $impulses = constraint_normal_impulse' -ex finish \
+  -ex 'printf "bits 0x%x\n", *(unsigned int *)&$impulses[17].x' -ex kill "$probe" 2>&1) || true
 case $seen in
   *"ptrace: Operation not permitted"* | *"Could not trace the inferior"*) echo "skipped: this machine lets gdb trace nothing"; exit 77 ;;
 esac

@@ -1,7 +1,7 @@
 /* probe.cpp - runs a small scene for gdb to stop in, and says what gdb must then see.
  *
  * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the buffer:
- * the value that a debugger sees in `next[0]` at the end of that item, computed without one.
+ * the value that a debugger sees there at the end of that item, read without one.
  */
 #include <cinttypes>
 #include <cstdio>
