@@ -14,6 +14,7 @@
 #include "host/parameters.h"
 #include "host/specialise.h"
 #include "host/step.h"
+#include "minicl/floating_point.h"
 
 namespace tandem {
 namespace {
@@ -70,33 +71,41 @@ struct World::Implementation {
     kernels = recorder.kernels;
   }
 
-  void place(const Placement &placement)
+  /* Backends once made are kept: a buffer may live on one that runs no kernel any more. */
+  Backend &backend_named(const std::string &text, bool allow_inexact)
   {
-    for (Kernel kernel : kernels) {
-      std::string text = placement.on;
-      for (const auto &[what, where] : placement.exceptions)
-        if (what == name_of(row_of(kernel).stage) || what == row_of(kernel).name) text = where;
-      auto &backend = backends[text];
-      if (!backend) backend = make_backend(text, placement.allow_inexact);
-      placed[index_of(kernel)] = backend.get();
-    }
-    for (auto &[text, backend] : backends) {
-      std::vector<Kernel> own;
-      std::copy_if(kernels.begin(), kernels.end(), std::back_inserter(own), [&, b = backend.get()](Kernel k) { return placed[index_of(k)] == b; });
-      backend->prepare(special.features, own);
-    }
+    if (const auto known = backends.find(text); known != backends.end()) return *known->second;
+    std::unique_ptr<Backend> made = make_backend(text, allow_inexact);
+    made->set_profiling(profiling);
+    return *backends.emplace(text, std::move(made)).first->second;
   }
 
-  /* What the next step inherits is kept; everything else is written before it is read. */
+  static std::string backend_text(const Placement &placement, Kernel kernel)
+  {
+    std::string text = placement.on;
+    for (const auto &[what, where] : placement.exceptions)
+      if (what == name_of(row_of(kernel).stage) || what == row_of(kernel).name) text = where;
+    return text;
+  }
+
+  /* All that can fail comes before the first change of what is placed. */
+  void place(const Placement &placement)
+  {
+    std::map<Backend *, std::vector<Kernel>> own;
+    for (Kernel kernel : kernels) own[&backend_named(backend_text(placement, kernel), placement.allow_inexact)].push_back(kernel);
+    for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
+    for (const auto &[backend, theirs] : own)
+      for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
+    wanted = placement;
+  }
+
+  /* Of the buffers that grow, the cache alone carries anything over to the next step. */
   void allocate()
   {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
-      const Buffer buffer = buffer_at(i);
-      const std::string name = row_of(buffer).name;
-      const bool inherited = name.starts_with("cached_") || name.starts_with("body_") || buffer == Buffer::counts ||
-                             buffer == Buffer::material || buffer == Buffer::parameters;
-      memory.resize(buffer, bytes_of(buffer, now), inherited);
+      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
+      memory.resize(buffer_at(i), bytes_of(buffer_at(i), now), cached);
     }
   }
 
@@ -212,6 +221,7 @@ struct World::Implementation {
   StepPlan plan;
   std::vector<Kernel> kernels;
   std::array<Backend *, kernel_count> placed{};
+  bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;
   Statistics statistics;
@@ -221,12 +231,14 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
 {
   validate(scene, scene.name);
   validate(settings);
+  const minicl::ExactFloatingPoint environment; /* what is derived from the scene rounds alike too */
   implementation_ = std::make_unique<Implementation>(scene, settings, placement);
 }
 
 World::~World() = default;
 
 void World::step() { implementation_->step(); }
+void World::place(const Placement &placement) { implementation_->place(placement); }
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
@@ -249,6 +261,7 @@ void World::set_body(uint32_t body, const BodyState &state)
 
 void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
+  const minicl::ExactFloatingPoint environment;
   upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
 }
 
@@ -281,6 +294,7 @@ void World::finish()
 
 void World::set_profiling(bool on)
 {
+  implementation_->profiling = on;
   for (auto &[text, backend] : implementation_->backends) {
     backend->set_profiling(on);
     backend->take_kernel_times();

@@ -67,6 +67,10 @@ public:
    * then that before the step. */
   void step();
 
+  /* Moves kernels to other backends from the next step on; what follows keeps its bits. Buffers travel when they are first
+   * needed there. InputError or a device's std::runtime_error leave the placement as it was. */
+  void place(const Placement &placement);
+
   const Scene &scene() const;
   const Settings &settings() const;
 

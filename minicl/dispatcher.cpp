@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
@@ -49,12 +51,27 @@ void allow_many_threads() { static const tbb::global_control workers(tbb::global
 /* About how many items one task should have: small kernels stay on one thread. */
 constexpr uint32_t items_per_task = 256;
 
+/* More threads than processors, when asked for: results must not depend on it, and tests look. Of several controls TBB
+ * obeys the least, so there is one, which only grows. */
+void allow_threads(size_t threads)
+{
+  static std::mutex mutex;
+  static std::unique_ptr<tbb::global_control> control;
+  static size_t allowed = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (threads <= allowed) return;
+  control.reset();
+  control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
+  allowed = threads;
+}
+
 class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
         scalar_(options.order == Order::forward ? scalar_kernels : backward_kernels), lanes_(lanes_table(options.lanes))
   {
+    allow_threads(options.threads);
   }
 
   const std::string &name() const override { return name_; }

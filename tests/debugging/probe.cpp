@@ -1,0 +1,47 @@
+/* probe.cpp - runs a small scene for gdb to stop in, and says what gdb must then see.
+ *
+ * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the buffer:
+ * the value that a debugger sees in `next[0]` at the end of that item, computed without one.
+ */
+#include <cinttypes>
+#include <cstdio>
+#include <cstring>
+
+#include "host/scene_catalog.h"
+#include "host/world.h"
+
+using namespace tandem;
+
+namespace {
+
+constexpr uint32_t item = 17;
+constexpr uint64_t step = 3;
+
+bool holds_item(World &world, const Launch &launch)
+{
+  const auto count = [&](uint32_t entry) { return world.memory().read<uint32_t>(Buffer::counts, 1, entry).at(0); };
+  return launch.kernel == Kernel::solve_contacts && count(launch.first) <= item && item < count(launch.last);
+}
+
+void print_impulse(World &world)
+{
+  const float impulse = world.memory().read<float>(Buffer::constraint_normal_impulse, 1, 4 * item).at(0);
+  uint32_t bits;
+  std::memcpy(&bits, &impulse, sizeof bits);
+  std::printf("impulse %.9g bits 0x%" PRIx32 "\n", static_cast<double>(impulse), bits);
+}
+
+} // namespace
+
+int main()
+{
+  World world(load_scene("box-grid:nx=3,ny=3,nz=3"), {}, Placement{"serial", {}, false});
+  bool printed = false;
+  world.set_observer([&](const Launch &launch) {
+    if (world.statistics().steps != step || printed || !holds_item(world, launch)) return;
+    print_impulse(world);
+    printed = true;
+  });
+  for (uint64_t k = 0; k <= step; ++k) world.step();
+  return printed ? 0 : 1;
+}

@@ -1,0 +1,43 @@
+/* Orders of items, threads and widths of the CPU backends give the bits of the serial one, kernel by kernel. */
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+TEST_CASE("parity on CPU: box-grid") { require_parity(small_scenes()[0], cpu_backends(), 20); }
+TEST_CASE("parity on CPU: falling-boxes") { require_parity(small_scenes()[1], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: box-stack") { require_parity(small_scenes()[2], cpu_backends(), 30); }
+TEST_CASE("parity on CPU: pyramid") { require_parity(small_scenes()[3], cpu_backends(), 40); }
+TEST_CASE("parity on CPU: spheres") { require_parity(small_scenes()[4], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: mixed") { require_parity(small_scenes()[5], cpu_backends(), 60); }
+
+/* Broadphases find the same pairs in different ways, batchings colour them differently: each must be exact by itself. */
+TEST_CASE("parity on CPU: every broadphase and batching")
+{
+  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"};
+  for (const std::string &broadphase : broadphase_names())
+    for (const std::string &batching : batching_names()) {
+      Settings settings;
+      settings.broadphase = broadphase;
+      settings.batching = batching;
+      require_parity("mixed:n=60", backends, 30, settings);
+      require_parity("box-grid:nx=4,ny=4,nz=4", backends, 20, settings);
+    }
+}
+
+TEST_CASE("parity on CPU: broadphases lead to one state")
+{
+  const uint64_t expected = state_after("mixed:n=100", "serial", 40);
+  for (const std::string &broadphase : broadphase_names()) {
+    Settings settings;
+    settings.broadphase = broadphase;
+    CAPTURE(broadphase);
+    CHECK(state_after("mixed:n=100", "tbb", 40, settings) == expected);
+  }
+}
+
+TEST_CASE("parity on CPU: a few boxes and spheres", "[sanitizer]")
+{
+  const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
+  for (const char *scene : {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30"}) require_parity(scene, backends, 5);
+}

@@ -1,0 +1,50 @@
+/* PoCL, the OpenCL that runs everywhere, gives the serial backend's bits, kernel by kernel.
+ *
+ * It compiles every kernel again for each set of features and each group size, which takes far longer than the steps. So all
+ * scenes share the build of all features here; specialised builds are for specialised_test.cpp.
+ */
+#include "tests/host/opencl_device.h"
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+Settings all_features()
+{
+  Settings settings;
+  settings.specialise = false;
+  return settings;
+}
+
+} // namespace
+
+TEST_CASE("parity on OpenCL: every scene")
+{
+  if (!has_pocl()) return;
+  for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
+}
+
+TEST_CASE("parity on OpenCL: every broadphase and batching")
+{
+  if (!has_pocl()) return;
+  for (const std::string &broadphase : broadphase_names())
+    for (const std::string &batching : batching_names()) {
+      Settings settings = all_features();
+      settings.broadphase = broadphase;
+      settings.batching = batching;
+      require_parity("mixed:n=60", {"serial", "cl:pocl"}, 20, settings);
+    }
+}
+
+/* More bodies than a tile has items, so that groups of every size stride over several tiles. */
+TEST_CASE("parity on OpenCL: every size of work-groups")
+{
+  if (!has_pocl()) return;
+  for (const char *size : {"1", "7", "32", "256"}) {
+    const Environment local_size("TANDEM_LOCAL_SIZE", size);
+    CAPTURE(size);
+    require_parity("spheres:n=1100,height=0", {"serial", "cl:pocl"}, 3);
+  }
+}

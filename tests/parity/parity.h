@@ -1,0 +1,80 @@
+/* parity.h - small scenes and the lockstep comparison, as every parity test uses them. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/compare.h"
+#include "host/opencl/device.h"
+#include "host/scene_catalog.h"
+#include "minicl/kernel_table.h"
+#include "tests/catch.h"
+
+namespace tandem::parity {
+
+/* One of each built-in scene. The grid has more pairs than a tile has items, so that scans and sorts cross tiles; the others
+ * start low, so that they collide within the first steps. */
+inline const std::vector<std::string> &small_scenes()
+{
+  static const std::vector<std::string> scenes = {
+      "box-grid:nx=7,ny=6,nz=7",          "falling-boxes:n=100,height=0", "box-stack:n=50",
+      "pyramid:rows=8", "spheres:n=125,height=0,restitution=0.5", "mixed:n=100",
+  };
+  return scenes;
+}
+
+/* What this processor can run: an order of items each, then widths and threads. */
+inline std::vector<std::string> cpu_backends()
+{
+  std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled"};
+  for (const char *threads : {"1", "2", "7"})
+    for (const uint32_t lanes : {1u, 4u, 8u, 16u})
+      if (lanes == 1 || minicl::lanes_table(lanes))
+        backends.push_back(std::string("tbb:threads=") + threads + ",lanes=" + std::to_string(lanes));
+  return backends;
+}
+
+/* False, and said, without PoCL. */
+inline bool has_pocl()
+{
+  static const bool found = [] {
+    for (const opencl::DeviceInfo &device : opencl::list_devices())
+      if (device.supported && device.platform_name == "Portable Computing Language") return true;
+    return false;
+  }();
+  if (!found) WARN("no PoCL: this test did not run");
+  return found;
+}
+
+inline std::string describe(const Difference &difference)
+{
+  return "step " + std::to_string(difference.step) + ", " + difference.backends[0] + " and " + difference.backends[1] + ", kernel " +
+         (difference.kernel ? row_of(*difference.kernel).name : "?") + ", buffer " +
+         (difference.buffer ? row_of(*difference.buffer).name : "?") + ", number " + std::to_string(difference.scalar) + ": " +
+         difference.note;
+}
+
+/* Every kernel of every step compared; nothing compared would be no proof. */
+inline void require_parity(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,
+                           const Settings &settings = {})
+{
+  ComparisonRequest request;
+  request.settings = settings;
+  request.backends = backends;
+  request.steps = steps;
+  const Comparison comparison = compare_backends(load_scene(scene), request);
+  CAPTURE(scene, settings.broadphase, settings.batching);
+  if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
+  CHECK(comparison.steps == steps);
+  CHECK(comparison.kernels_compared > 10 * steps * (backends.size() - 1));
+}
+
+/* Hash of the bodies and the contact cache after so many steps. */
+inline uint64_t state_after(const std::string &scene, const std::string &backend, uint64_t steps, const Settings &settings = {})
+{
+  World world(load_scene(scene), settings, Placement{backend, {}, false});
+  for (uint64_t k = 0; k < steps; ++k) world.step();
+  return world.state_hash();
+}
+
+} // namespace tandem::parity

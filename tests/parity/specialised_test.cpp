@@ -1,0 +1,44 @@
+/* A build that holds only what the scene needs gives the bits of the build that holds everything. */
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+void require_same_state(const std::string &scene, const std::string &backend, uint64_t steps)
+{
+  Settings everything;
+  everything.specialise = false;
+  CAPTURE(scene, backend);
+  CHECK(state_after(scene, backend, steps) == state_after(scene, backend, steps, everything));
+}
+
+void require_same_state_on_pocl(const std::string &scene)
+{
+  if (has_pocl()) require_same_state(scene, "cl:pocl", 20);
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: specialised and all features")
+{
+  for (const std::string &scene : small_scenes()) {
+    World specialised(load_scene(scene));
+    Settings everything;
+    everything.specialise = false;
+    World whole(load_scene(scene), everything);
+    CAPTURE(scene);
+    CHECK(specialised.features() != whole.features());
+    CHECK(specialised.kernels().size() <= whole.kernels().size());
+    require_same_state(scene, "tbb", 40);
+  }
+}
+
+/* One test each, for each may have to compile a build of its own. */
+TEST_CASE("parity on OpenCL: specialised box-grid") { require_same_state_on_pocl(small_scenes()[0]); }
+TEST_CASE("parity on OpenCL: specialised falling-boxes") { require_same_state_on_pocl(small_scenes()[1]); }
+TEST_CASE("parity on OpenCL: specialised box-stack") { require_same_state_on_pocl(small_scenes()[2]); }
+TEST_CASE("parity on OpenCL: specialised pyramid") { require_same_state_on_pocl(small_scenes()[3]); }
+TEST_CASE("parity on OpenCL: specialised spheres") { require_same_state_on_pocl(small_scenes()[4]); }
+TEST_CASE("parity on OpenCL: specialised mixed") { require_same_state_on_pocl(small_scenes()[5]); }
