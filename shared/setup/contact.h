@@ -162,13 +162,13 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   natural old_feature = load_natural(cached_feature, from);
   vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
 
-  vec3 center = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 center = make_vec3(R(0.0), R(0.0), R(0.0)); /* a constraint has at least one point */
   real impulse[4], wished[4];
   for (uint k = 0; k < 4u; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     mask used = points > (natural)k;
     vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
-    center = choose3(used, add(center, arm_a), center);
+    center = k == 0u ? arm_a : choose3(used, add(center, arm_a), center); /* llvmpipe takes 0 + x for x, also for -0 */
     real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
     store_row(constraint_points, stride * k + i, extend(arm_a, choose(used, point.w, (real)R(0.0))));
     store_row(constraint_points, stride * (k + 4u) + i, extend(arm_b, mass));

@@ -3,6 +3,9 @@
 #include "tests/parity/parity.h"
 
 #if defined(__x86_64__)
+#include <chrono>
+#include <thread>
+
 #include <immintrin.h>
 #include <tbb/parallel_for.h>
 
@@ -28,7 +31,7 @@ private:
 void set_on_workers(unsigned word)
 {
   tbb::parallel_for(0, 64, [word](int) {
-    for (volatile int spin = 0; spin < 20000; spin = spin + 1) {}
+    std::this_thread::sleep_for(std::chrono::microseconds(20)); /* so that no worker takes all */
     _mm_setcsr(word);
   });
 }
