@@ -6,7 +6,8 @@
 __kernel void warm_start(__global const uint *constraint_a, __global const uint *constraint_b,
                          __global const row *constraint_normal, __global const row *constraint_points,
                          __global const row *constraint_center, __global const row *constraint_normal_impulse,
-                         __global const row *constraint_friction_impulse, __global const row *solver_inertia, __global const row *solver_delta,
+                         __global const row *constraint_friction_impulse, __global const row *solver_inertia,
+                         __global const row *solver_delta,
                          __global const uint *counts, __global row *solver_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
@@ -20,7 +21,8 @@ __kernel void warm_start_tail(__global const uint *constraint_a, __global const 
                               __global const row *constraint_center,
                               __global const row *constraint_normal_impulse,
                               __global const row *constraint_friction_impulse,
-                              __global const row *solver_inertia, __global const row *solver_delta, __global const uint *counts,
+                              __global const row *solver_inertia, __global const row *solver_delta,
+                              __global const uint *counts,
                               __global row *solver_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
@@ -59,7 +61,8 @@ __kernel void solve_tail(__global const Parameters *parameters, __global const u
 
 __kernel void apply_restitution(__global const uint *constraint_a, __global const uint *constraint_b,
                                 __global const row *constraint_normal, __global const row *constraint_points,
-                                __global const row *constraint_bounce, __global const row *solver_inertia, __global const row *solver_delta,
+                                __global const row *constraint_bounce, __global const row *solver_inertia,
+                                __global const row *solver_delta,
                                 __global const uint *counts, __global row *constraint_normal_impulse,
                                 __global row *solver_velocity, RANGE)
 {
@@ -71,7 +74,8 @@ __kernel void apply_restitution(__global const uint *constraint_a, __global cons
 __kernel void apply_restitution_tail(__global const uint *constraint_a, __global const uint *constraint_b,
                                      __global const row *constraint_normal,
                                      __global const row *constraint_points,
-                                     __global const row *constraint_bounce, __global const row *solver_inertia, __global const row *solver_delta,
+                                     __global const row *constraint_bounce, __global const row *solver_inertia,
+                                     __global const row *solver_delta,
                                      __global const uint *counts, __global row *constraint_normal_impulse,
                                      __global row *solver_velocity, RANGE)
 {

@@ -13,7 +13,8 @@
 SHARED void warm_start_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                                  GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                                  GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint only)
+                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                 GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint only)
 {
   (void)only;
   FOR_EACH_IN_TAIL(i)
@@ -30,19 +31,21 @@ SHARED void solve_tail_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   (void)only;
   FOR_EACH_IN_TAIL(i)
   solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, solver_inertia,
-                      solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity,
+                      solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse,
+                      constraint_bounce, solver_velocity,
                       biased, i);
 }
 
 SHARED void apply_restitution_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                                         GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce,
-                                        GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                                        GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                        GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                                         GLOBAL row *solver_velocity, uint only)
 {
   (void)only;
   FOR_EACH_IN_TAIL(i)
-  apply_restitution_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_bounce, solver_inertia, solver_delta, counts,
-                         constraint_normal_impulse, solver_velocity, i);
+  apply_restitution_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_bounce, solver_inertia,
+                         solver_delta, counts, constraint_normal_impulse, solver_velocity, i);
 }
 
 #endif

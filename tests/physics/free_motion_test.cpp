@@ -150,10 +150,10 @@ TEST_CASE("free spin keeps its angular momentum and its energy", "[physics]")
       worst_energy = std::max(worst_energy, std::abs(energy_after / energy_before - 1));
     }
   }
-  WARN("free spin at " << speed << " rad/s, 10 s: drift of angular momentum " << worst_momentum << ", of energy " << worst_energy);
-  CHECK(worst_momentum < 5e-3);
+  INFO("free spin at " << speed << " rad/s, 10 s: drift of angular momentum " << worst_momentum << ", of energy " << worst_energy);
+  CHECK(worst_momentum < 1e-4);
   /* The explicit midpoint rule keeps L by construction, up to rounding, and energy to second order in angle per substep. */
-  CHECK(worst_energy < (speed > 20 ? 3e-2 : 3e-3));
+  CHECK(worst_energy < (speed > 20 ? 3e-2 : speed > 5 ? 1e-3 : 1e-4));
 }
 
 TEST_CASE("a body spinning about its middle axis flips on time", "[physics]")
@@ -172,7 +172,7 @@ TEST_CASE("a body spinning about its middle axis flips on time", "[physics]")
   }
   for (size_t i = 0; i < 2; ++i) {
     const double expected = flip_interval(moments_of(scene, scene.bodies[i]), vector_of(scene.bodies[i].angular_velocity));
-    WARN("flip of body " << i << " tilted by " << tilt << ": " << clocks[i].interval() << " s, theory " << expected << " s, " << clocks[i].flips() << " flips");
+    INFO("flip of body " << i << " tilted by " << tilt << ": " << clocks[i].interval() << " s, theory " << expected << " s, " << clocks[i].flips() << " flips");
     REQUIRE(clocks[i].flips() >= 3);
     CHECK(clocks[i].interval() == Approx(expected).epsilon(0.01));
   }

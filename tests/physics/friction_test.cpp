@@ -53,10 +53,10 @@ TEST_CASE("a box on an incline slips at atan mu", "[physics]")
       const double expected = 0.5 * 4 * gravity * (std::sin(angles[i]) - coefficients[k] * std::cos(angles[i]));
       if (side * finest >= 2) CHECK(slid == Approx(expected).epsilon(0.05));
     }
-    WARN("mu " << coefficients[k] << ": slips at " << slips_at << " degrees, theory " << std::atan(coefficients[k]) / radians);
+    INFO("mu " << coefficients[k] << ": slips at " << slips_at << " degrees, theory " << std::atan(coefficients[k]) / radians);
     CHECK(std::abs(slips_at - std::atan(coefficients[k]) / radians) <= 2);
   }
-  WARN("largest creep in 2 s, 2 degrees and more below the cone: " << creep << " m");
+  INFO("largest creep in 2 s, 2 degrees and more below the cone: " << creep << " m");
   CHECK(creep < 0.01);
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a sliding box stops after v^2 / (2 mu g)", "[physics]")
   for (size_t i = 0; i < slides.size(); ++i) {
     const BodyState box = world.bodies()[i + 1];
     const double expected = slides[i].speed * slides[i].speed / (2 * slides[i].mu * gravity);
-    WARN("mu " << slides[i].mu << ", " << slides[i].speed << " m/s: stops after " << box.position[0] << " m, theory " << expected);
+    INFO("mu " << slides[i].mu << ", " << slides[i].speed << " m/s: stops after " << box.position[0] << " m, theory " << expected);
     CHECK(box.position[0] == Approx(expected).epsilon(0.03));
     CHECK(vector_of(box.linear_velocity).norm() < 1e-3);
   }
@@ -115,7 +115,7 @@ TEST_CASE("a sliding ball ends up rolling at 5/7 of its speed", "[physics]")
   const double rolling = world.bodies()[1].linear_velocity[0];
   run(world, 600);
   const BodyState ball = world.bodies()[1];
-  WARN("rolling ball: " << rolling / speed << " after slipping, " << ball.linear_velocity[0] / speed << " 10 s later, theory " << 5.0 / 7);
+  INFO("rolling ball: " << rolling / speed << " after slipping, " << ball.linear_velocity[0] / speed << " 10 s later, theory " << 5.0 / 7);
   CHECK(rolling == Approx(5.0 / 7 * speed).epsilon(0.001));
   CHECK(ball.linear_velocity[0] == Approx(5.0 / 7 * speed).epsilon(0.002));
   CHECK(-ball.angular_velocity[2] * radius == Approx(ball.linear_velocity[0]).epsilon(0.001));

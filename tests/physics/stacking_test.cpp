@@ -47,11 +47,11 @@ TEST_CASE("a stack of ten boxes stands a thousand steps", "[physics]")
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
   const double sideways = farthest_drift(start, world.bodies(), true), drift = farthest_drift(settled, world.bodies(), false);
-  WARN("ten boxes, 1000 steps: settle " << sunk << " m in 100 steps, then drift " << drift << " m; sideways " << sideways
+  INFO("ten boxes, 1000 steps: settle " << sunk << " m in 100 steps, then drift " << drift << " m; sideways " << sideways
                                         << " m; deepest contact " << deepest);
   CHECK(sideways < 0.001);
   CHECK(drift < 0.001);
-  CHECK(deepest < 0.0075);
+  CHECK(deepest < 0.005);
 }
 
 TEST_CASE("a grid of boxes sinks less than two centimetres", "[physics]")
@@ -63,7 +63,7 @@ TEST_CASE("a grid of boxes sinks less than two centimetres", "[physics]")
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
   const Statistics statistics = world.statistics();
-  WARN("box-grid 8 x 8 x 8: maximum penetration " << statistics.max_penetration << " m at step 120, " << deepest << " at any tenth step; mean "
+  INFO("box-grid 8 x 8 x 8: maximum penetration " << statistics.max_penetration << " m at step 120, " << deepest << " at any tenth step; mean "
                                                   << statistics.mean_penetration);
   CHECK(statistics.max_penetration < 0.02);
   CHECK(deepest < 0.02);
@@ -82,7 +82,7 @@ TEST_CASE("a stack stands 20 km from the origin", "[physics]")
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
   const double drift = farthest_drift(start, world.bodies(), false);
-  WARN("at (" << offset[0] << ", " << offset[1] << ", " << offset[2] << "): five boxes, 600 steps: moved " << drift << " m, deepest contact " << deepest);
-  CHECK(drift < 0.03);
-  CHECK(deepest < 0.015);
+  INFO("at (" << offset[0] << ", " << offset[1] << ", " << offset[2] << "): five boxes, 600 steps: moved " << drift << " m, deepest contact " << deepest);
+  CHECK(drift < 0.004);
+  CHECK(deepest < 0.004);
 }

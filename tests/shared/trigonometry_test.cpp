@@ -30,9 +30,9 @@ Errors sweep_angles(double limit, int samples)
 TEST_CASE("sine and cosine are within a rounding or two of double precision", "[trigonometry][sanitizer]")
 {
   struct Sweep { double limit, bound; };
-  for (const Sweep &sweep : {Sweep{3.2, 1.0e-7}, Sweep{100, 1.0e-7}, Sweep{8192, 1.0e-6}}) {
+  for (const Sweep &sweep : {Sweep{3.2, 1.0e-7}, Sweep{100, 1.0e-7}, Sweep{8192, 1.0e-7}}) {
     const Errors worst = sweep_angles(sweep.limit, 400'000);
-    WARN("angles to +-" << sweep.limit << ": sine " << worst.sine << ", cosine " << worst.cosine << ", length " << worst.length);
+    INFO("angles to +-" << sweep.limit << ": sine " << worst.sine << ", cosine " << worst.cosine << ", length " << worst.length);
     CHECK(worst.sine < sweep.bound);
     CHECK(worst.cosine < sweep.bound);
     CHECK(worst.length < sweep.bound);
@@ -77,8 +77,8 @@ TEST_CASE("arc tangent is within a rounding or two of double precision in the wh
       worst = std::max(worst, std::abs(arc_tangent(y, x) - std::atan2(double(y), double(x))));
     }
   }
-  WARN("arc tangent: largest error " << worst);
-  CHECK(worst < 4e-7);
+  INFO("arc tangent: largest error " << worst);
+  CHECK(worst < 3e-7);
 }
 
 TEST_CASE("arc tangent on the axes", "[trigonometry]")
