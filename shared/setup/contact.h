@@ -1,6 +1,6 @@
 /* contact.h - contact constraints from manifolds: effective masses, friction, bounce, warm start.
  *
- * Constraints stand in colour order. Normals are solved point by point; friction of a manifold is solved
+ * Constraints stand in colour order. The points of a manifold are pressed together; its friction is solved
  * at its centre as one cone and one twist (Catto, Box2D version 3, "Solver2D", 2024):
  *
  *            n ^   ^ twist about n, limited by friction x normal impulse x twist radius
