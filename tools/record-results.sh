@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|widths|all]
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -20,12 +20,12 @@ record() { # NAME ARGUMENTS...: runs tandem with --json, keeps the file and says
 }
 
 record devices devices
-if [ "$what" != times ]; then
+if [ "$what" = parity ] || [ "$what" = all ]; then
   for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes mixed; do
     record "parity-${scene%%:*}" diff "$scene" --between "serial,tbb,cl:pocl,$gpu" --steps 300
   done
 fi
-if [ "$what" != parity ]; then
+if [ "$what" = times ] || [ "$what" = all ]; then
   for size in 10,10,10 20,20,20 32,32,32 40,40,40 50,40,50 100,100,100; do
     IFS=, read -r nx ny nz <<< "$size"
     record "box-grid-$((nx * ny * nz))-gpu" run "box-grid:nx=$nx,ny=$ny,nz=$nz" --on "$gpu" --steps 120
@@ -37,4 +37,10 @@ if [ "$what" != parity ]; then
   record box-grid-8000-tbb-2-threads run box-grid:nx=20,ny=20,nz=20 --on tbb:threads=2 --steps 120
   record sort-gpu bench sort --on "$gpu" --n 16777216
   record scan-gpu bench scan --on "$gpu" --n 16777216
+fi
+if [ "$what" = widths ] || [ "$what" = all ]; then
+  backends="serial,serial:order=backward,serial:order=shuffled,tbb:threads=1,lanes=1,tbb:threads=2,lanes=4,tbb:threads=7,lanes=8"
+  for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes box-stack pyramid spheres mixed; do
+    record "widths-${scene%%:*}" diff "$scene" --between "$backends,tbb:lanes=16,cl:pocl,$gpu" --steps 120
+  done
 fi
