@@ -41,3 +41,10 @@ TEST_CASE("parity on CPU: a few boxes and spheres", "[sanitizer]")
   const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
   for (const char *scene : {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30"}) require_parity(scene, backends, 5);
 }
+
+/* Large enough that every kernel is split over several threads. */
+TEST_CASE("parity on CPU: threads share each kernel", "[sanitizer]")
+{
+  require_parity("box-grid:nx=8,ny=8,nz=8", {"serial", "tbb:threads=4"}, 6);
+  require_parity("falling-boxes:n=600,height=0", {"serial", "tbb:threads=4"}, 6);
+}

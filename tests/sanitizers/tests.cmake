@@ -1,5 +1,5 @@
-# The tests of a sanitizer tree (presets asan and tsan): the Catch2 tests tagged [sanitizer], and small runs of the
-# command, large enough that every kernel is split over several threads. Drivers of OpenCL are not instrumented: left out.
+# The tests of a sanitizer tree (presets asan and tsan): the Catch2 tests tagged [sanitizer], among them scenes large
+# enough that kernels are split over several threads. Drivers of OpenCL are not instrumented: left out.
 set(launcher)
 if(TANDEM_SANITIZE MATCHES thread)
   # The thread sanitizer of some compilers cannot place its shadow memory under strong address randomisation.
@@ -14,9 +14,3 @@ function(sanitizer_test name)
 endfunction()
 
 sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
-if(TARGET tandem_command)
-  sanitizer_test(box-grid $<TARGET_FILE:tandem_command> diff box-grid:nx=8,ny=8,nz=8 --between serial,tbb:threads=4 --steps 10)
-  sanitizer_test(falling-boxes $<TARGET_FILE:tandem_command> run falling-boxes:n=600 --on tbb:threads=4 --steps 20)
-  sanitizer_test(bad-input $<TARGET_FILE:tandem_command> run no-such-scene --on serial)
-  set_tests_properties(sanitizer.bad-input PROPERTIES PASS_REGULAR_EXPRESSION "no-such-scene" FAIL_REGULAR_EXPRESSION "Sanitizer|runtime error")
-endif()
