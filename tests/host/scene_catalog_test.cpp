@@ -8,7 +8,7 @@
 #include <cmath>
 
 using namespace tandem;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -220,25 +220,25 @@ TEST_CASE("parameters default, apply and show in the scene's name")
 
 TEST_CASE("bad specifications are refused with what exists")
 {
-  CHECK_THAT(complaint("box-gird"), Contains("unknown scene 'box-gird'") &&
-                                        Contains("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
-  CHECK_THAT(complaint("pile.urdf"), Contains(".json, .gltf or .glb"));
-  CHECK_THAT(complaint(""), Contains("unknown scene ''"));
-  CHECK_THAT(complaint("box-grid:mx=3"), Contains("unknown parameter 'mx'; parameters: nx, ny, nz"));
-  CHECK_THAT(complaint("box-grid:nx=0"), Contains("nx=0 is out of range; 1 to 360"));
-  CHECK_THAT(complaint("box-grid:nx=-5"), Contains("out of range"));
-  CHECK_THAT(complaint("spheres:n=1e300"), Contains("out of range"));
-  CHECK_THAT(complaint("spheres:n=1e999"), Contains("out of range"));
-  CHECK_THAT(complaint("box-grid:nx=2.5"), Contains("an integer is needed"));
-  CHECK_THAT(complaint("box-grid:nx=two"), Contains("an integer is needed"));
-  CHECK_THAT(complaint("box-grid:nx="), Contains("an integer is needed"));
-  CHECK_THAT(complaint("spheres:radius=0.5m"), Contains("a number is needed"));
-  CHECK_THAT(complaint("spheres:radius=nan"), Contains("a number is needed"));
-  CHECK_THAT(complaint("box-grid:nx"), Contains("'nx' is not key=value"));
-  CHECK_THAT(complaint("box-grid:=3"), Contains("is not key=value"));
-  CHECK_THAT(complaint("box-grid:nx=3,"), Contains("'' is not key=value"));
-  CHECK_THAT(complaint("box-grid:nx=3,nx=4"), Contains("given twice"));
-  CHECK_THAT(complaint("box-grid:nx=360,ny=10000,nz=360"), Contains("1296000001 bodies; at most 4000000"));
-  CHECK_THAT(complaint("missing/scene.json"), Contains("missing/scene.json: cannot read: No such file"));
-  CHECK_THAT(complaint("missing/scene.gltf"), Contains("cannot read"));
+  CHECK_THAT(complaint("box-gird"), ContainsSubstring("unknown scene 'box-gird'") &&
+                                        ContainsSubstring("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
+  CHECK_THAT(complaint("pile.urdf"), ContainsSubstring(".json, .gltf or .glb"));
+  CHECK_THAT(complaint(""), ContainsSubstring("unknown scene ''"));
+  CHECK_THAT(complaint("box-grid:mx=3"), ContainsSubstring("unknown parameter 'mx'; parameters: nx, ny, nz"));
+  CHECK_THAT(complaint("box-grid:nx=0"), ContainsSubstring("nx=0 is out of range; 1 to 360"));
+  CHECK_THAT(complaint("box-grid:nx=-5"), ContainsSubstring("out of range"));
+  CHECK_THAT(complaint("spheres:n=1e300"), ContainsSubstring("out of range"));
+  CHECK_THAT(complaint("spheres:n=1e999"), ContainsSubstring("out of range"));
+  CHECK_THAT(complaint("box-grid:nx=2.5"), ContainsSubstring("an integer is needed"));
+  CHECK_THAT(complaint("box-grid:nx=two"), ContainsSubstring("an integer is needed"));
+  CHECK_THAT(complaint("box-grid:nx="), ContainsSubstring("an integer is needed"));
+  CHECK_THAT(complaint("spheres:radius=0.5m"), ContainsSubstring("a number is needed"));
+  CHECK_THAT(complaint("spheres:radius=nan"), ContainsSubstring("a number is needed"));
+  CHECK_THAT(complaint("box-grid:nx"), ContainsSubstring("'nx' is not key=value"));
+  CHECK_THAT(complaint("box-grid:=3"), ContainsSubstring("is not key=value"));
+  CHECK_THAT(complaint("box-grid:nx=3,"), ContainsSubstring("'' is not key=value"));
+  CHECK_THAT(complaint("box-grid:nx=3,nx=4"), ContainsSubstring("given twice"));
+  CHECK_THAT(complaint("box-grid:nx=360,ny=10000,nz=360"), ContainsSubstring("1296000001 bodies; at most 4000000"));
+  CHECK_THAT(complaint("missing/scene.json"), ContainsSubstring("missing/scene.json: cannot read: No such file"));
+  CHECK_THAT(complaint("missing/scene.gltf"), ContainsSubstring("cannot read"));
 }

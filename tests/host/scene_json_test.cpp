@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 using namespace tandem;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -147,70 +147,70 @@ TEST_CASE("a file written by hand is read")
 
 TEST_CASE("malformed JSON: file, line and column")
 {
-  CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"), Contains("pile.json:3:11: malformed JSON: "));
-  CHECK_THAT(complaint(""), Contains("pile.json:1:1: malformed JSON"));
-  CHECK_THAT(complaint("{\"tandem_scene\": 1"), Contains("pile.json:1:19: malformed JSON"));
-  CHECK_THAT(complaint("{\"a\": 1e999}"), Contains("malformed JSON"));
-  CHECK_THAT(complaint(with_body(R"("mass": NaN)")), Contains("malformed JSON"));
-  CHECK_THAT(complaint(std::string(100000, '[')), Contains("malformed JSON"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1, "mass": 2)")), Contains("pile.json: the key \"mass\" stands twice"));
+  CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"), ContainsSubstring("pile.json:3:11: malformed JSON: "));
+  CHECK_THAT(complaint(""), ContainsSubstring("pile.json:1:1: malformed JSON"));
+  CHECK_THAT(complaint("{\"tandem_scene\": 1"), ContainsSubstring("pile.json:1:19: malformed JSON"));
+  CHECK_THAT(complaint("{\"a\": 1e999}"), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(complaint(with_body(R"("mass": NaN)")), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(complaint(std::string(100000, '[')), ContainsSubstring("malformed JSON"));
+  CHECK_THAT(complaint(with_body(R"("mass": 1, "mass": 2)")), ContainsSubstring("pile.json: the key \"mass\" stands twice"));
 }
 
 TEST_CASE("unknown keys and wrong types are refused with their place")
 {
   CHECK_THAT(complaint(with_body(R"("mas": 1)")),
-             Contains("pile.json: bodies[1].mas: unknown key; known here: name, motion, shape"));
-  CHECK_THAT(complaint(with_body(R"("mass": "heavy")")), Contains("pile.json: bodies[1].mass: is \"heavy\"; a number"));
-  CHECK_THAT(complaint(with_body(R"("mass": null)")), Contains("bodies[1].mass: is null; a number"));
-  CHECK_THAT(complaint(with_body(R"("mass": "nan")")), Contains("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0xinf")")), Contains("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x1p+200")")), Contains("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x1.8p+1kg")")), Contains("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": "0x")")), Contains("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1e39)")), Contains("bodies[1].mass: is 1e+39; no finite 32-bit float"));
+             ContainsSubstring("pile.json: bodies[1].mas: unknown key; known here: name, motion, shape"));
+  CHECK_THAT(complaint(with_body(R"("mass": "heavy")")), ContainsSubstring("pile.json: bodies[1].mass: is \"heavy\"; a number"));
+  CHECK_THAT(complaint(with_body(R"("mass": null)")), ContainsSubstring("bodies[1].mass: is null; a number"));
+  CHECK_THAT(complaint(with_body(R"("mass": "nan")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(complaint(with_body(R"("mass": "0xinf")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(complaint(with_body(R"("mass": "0x1p+200")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(complaint(with_body(R"("mass": "0x1.8p+1kg")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(complaint(with_body(R"("mass": "0x")")), ContainsSubstring("bodies[1].mass"));
+  CHECK_THAT(complaint(with_body(R"("mass": 1e39)")), ContainsSubstring("bodies[1].mass: is 1e+39; no finite 32-bit float"));
   CHECK_THAT(complaint(with_body(R"("position": [1, 2])")),
-             Contains("bodies[1].position: is [1,2]; an array of 3 numbers"));
-  CHECK_THAT(complaint(with_body(R"("position": [1, 2, true])")), Contains("bodies[1].position[2]: is true; a number"));
-  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0])")), Contains("array of 4 numbers"));
+             ContainsSubstring("bodies[1].position: is [1,2]; an array of 3 numbers"));
+  CHECK_THAT(complaint(with_body(R"("position": [1, 2, true])")), ContainsSubstring("bodies[1].position[2]: is true; a number"));
+  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0])")), ContainsSubstring("array of 4 numbers"));
   CHECK_THAT(complaint(with_body(R"("motion": "moving")")),
-             Contains("bodies[1].motion: is \"moving\"; one of fixed, kinematic, dynamic"));
-  CHECK_THAT(complaint(with_body(R"("shape": -1)")), Contains("bodies[1].shape: is -1; an integer from 0"));
-  CHECK_THAT(complaint(with_body(R"("filter_mask": 4294967296)")), Contains("bodies[1].filter_mask"));
-  CHECK_THAT(complaint(with_body(R"("infinite_inertia": 1)")), Contains("true or false"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"), Contains("shapes: is {}; an array"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"), Contains("bodies[0]: is 3; an object"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": []})"), Contains("\"bodies\" is missing"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 2, "shapes": [], "bodies": []})"), Contains("version 1 is known"));
-  CHECK_THAT(complaint(R"({"shapes": []})"), Contains("this is not a Tandem scene"));
-  CHECK_THAT(complaint("[]"), Contains("an object is needed"));
+             ContainsSubstring("bodies[1].motion: is \"moving\"; one of fixed, kinematic, dynamic"));
+  CHECK_THAT(complaint(with_body(R"("shape": -1)")), ContainsSubstring("bodies[1].shape: is -1; an integer from 0"));
+  CHECK_THAT(complaint(with_body(R"("filter_mask": 4294967296)")), ContainsSubstring("bodies[1].filter_mask"));
+  CHECK_THAT(complaint(with_body(R"("infinite_inertia": 1)")), ContainsSubstring("true or false"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"), ContainsSubstring("shapes: is {}; an array"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"), ContainsSubstring("bodies[0]: is 3; an object"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": []})"), ContainsSubstring("\"bodies\" is missing"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 2, "shapes": [], "bodies": []})"), ContainsSubstring("version 1 is known"));
+  CHECK_THAT(complaint(R"({"shapes": []})"), ContainsSubstring("this is not a Tandem scene"));
+  CHECK_THAT(complaint("[]"), ContainsSubstring("an object is needed"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "capsule"}], "bodies": []})"),
-             Contains("shapes[0].type: is \"capsule\"; one of"));
+             ContainsSubstring("shapes[0].type: is \"capsule\"; one of"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "sphere"}], "bodies": []})"),
-             Contains("\"radius\" is missing"));
+             ContainsSubstring("\"radius\" is missing"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "box", "radius": 1}], "bodies": []})"),
-             Contains("shapes[0].radius: unknown key"));
+             ContainsSubstring("shapes[0].radius: unknown key"));
   CHECK_THAT(
       complaint(R"({"tandem_scene": 1, "shapes": [{"type": "sphere", "radius": 1, "size": [1, 1, 1]}], "bodies": []})"),
-      Contains("exclude"));
+      ContainsSubstring("exclude"));
 }
 
 TEST_CASE("values that cannot be simulated are refused")
 {
   CHECK(complaint(with_body("")).empty());
-  CHECK_THAT(complaint(with_body(R"("mass": -3)")), Contains("pile.json: body 1: mass is -3"));
-  CHECK_THAT(complaint(with_body(R"("shape": 1)")), Contains("shape 1 does not exist; the scene has 1"));
-  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0, 0])")), Contains("a quaternion of length 1"));
+  CHECK_THAT(complaint(with_body(R"("mass": -3)")), ContainsSubstring("pile.json: body 1: mass is -3"));
+  CHECK_THAT(complaint(with_body(R"("shape": 1)")), ContainsSubstring("shape 1 does not exist; the scene has 1"));
+  CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0, 0])")), ContainsSubstring("a quaternion of length 1"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [{"type": "box", "half_extents": [1, 0, 1]}], "bodies": []})"),
-             Contains("shape 0: a half extent is 0"));
+             ContainsSubstring("shape 0: a half extent is 0"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "materials": [], "shapes": [], "bodies": []})"),
-             Contains("at least one"));
+             ContainsSubstring("at least one"));
 }
 
 TEST_CASE("unwritable and unreadable places are named")
 {
   CHECK_THROWS_WITH(write_scene_json(load_scene("pyramid:rows=1"), "no/such/folder/a.json"),
-                    Contains("no/such/folder/a.json: cannot write: No such file"));
-  CHECK_THROWS_WITH(read_scene_json("/"), Contains("/: cannot read: Is a directory"));
+                    ContainsSubstring("no/such/folder/a.json: cannot write: No such file"));
+  CHECK_THROWS_WITH(read_scene_json("/"), ContainsSubstring("/: cannot read: Is a directory"));
   Scene bad = load_scene("pyramid:rows=1");
   bad.bodies[0].name = "\xff";
   CHECK_THROWS_AS(to_scene_json(bad), InputError);
