@@ -161,7 +161,7 @@ struct World::Implementation {
                                          plan.known[COUNT_STATUS]));
   }
 
-  /* A quarter of slack in launches keeps a growing scene from repeating every step. */
+  /* Some rounds and a colour of slack keep a growing scene from repeating every step. */
   void accept()
   {
     ++statistics.steps;
@@ -172,7 +172,6 @@ struct World::Implementation {
 
   void prepare_repetition(uint32_t status)
   {
-    if (status & STATUS_PAIRS) grow_pairs(plan.known[COUNT_PAIRS_NEEDED]);
     if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
     if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
     if (status & STATUS_NONFINITE) quarantine(plan.known[COUNT_NONFINITE]);
@@ -180,6 +179,7 @@ struct World::Implementation {
     plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
     plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
     plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
+    if (status & STATUS_PAIRS) grow_pairs(plan.known[COUNT_PAIRS_NEEDED]); /* last: it forgets what is known */
   }
 
   void grow_pairs(uint32_t needed)

@@ -73,6 +73,19 @@ TEST_CASE("several bodies that are not finite are quarantined in one step", "[ph
   CHECK(all_finite(world.bodies()));
 }
 
+TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics]")
+{
+  World world(crowd(sphere_shape(0.4f), 200));
+  BodyState poison = world.bodies()[50];
+  poison.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
+  world.set_body_unchecked(50, poison);
+  world.step();
+  CHECK(world.statistics().overflow > 0);
+  REQUIRE(world.quarantined().size() == 1);
+  CHECK(world.quarantined().front().body == 50);
+  CHECK(all_finite(world.bodies()));
+}
+
 TEST_CASE("a speed that overflows in a step is caught before it is committed", "[physics]")
 {
   Scene scene = empty_scene();
