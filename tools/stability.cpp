@@ -102,6 +102,7 @@ int execute(const StabilityOptions &options)
     }
   const Json json = stability::results_json(results);
   if (!options.out.empty()) write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
+  if (!options.out.empty()) write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   options.json.write(json);
   return 0;
 }

@@ -88,9 +88,9 @@ Check at_end(Check check)
 
 void add_standing(Trial &trial, const Standing &bounds)
 {
+  trial.checks.push_back(check("deepest contact", "m", bounds.depth, penetration()));
   trial.checks.push_back(check("largest tilt", "rad", bounds.tilt, tilt(trial.scene)));
   trial.checks.push_back(check("farthest sideways", "m", bounds.sideways, sideways(trial.scene)));
-  trial.checks.push_back(check("deepest contact", "m", bounds.depth, penetration()));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bounds.speed, speed())));
 }
 

@@ -55,7 +55,7 @@ Trial overlap_weightless_trial(Length length)
 Trial many_on_one_trial(Length length)
 {
   const int side = length == Length::full ? 100 : length == Length::quick ? 40 : 12;
-  Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
+  Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
   add_ground(trial.scene);
   const float half = 0.15f * float(side) / 2;
   add_body(trial.scene, Motion::dynamic, box_shape(half, 0.5f, half), {0, 0.5f, 0}, float(side * side));
@@ -129,7 +129,7 @@ void add_degenerate_cases(std::vector<Case> &cases)
   cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity", "nothing is faster than 3 m/s (the push speed), all are apart to 2 cm after 10 s",
                    overlap_weightless_trial});
   cases.push_back({"many-on-one", group, "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
-                   "nothing leaves by 2 cm or turns by 0.05 rad, contacts at most 2 cm deep, at rest after 5 s", many_on_one_trial, true});
+                   "nothing leaves by 2 cm or turns by 0.05 rad, contacts at most 2 cm deep, at rest after 2 s", many_on_one_trial, true});
   cases.push_back({"coplanar", group, "72 slabs in two layers, face to face with all their neighbours", "nothing leaves by 5 mm or turns by 0.01 rad in 10 s", coplanar_trial});
   cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles", "it loses less than 5 cm/s and is lifted by less than 2 mm",
                    seams_trial});

@@ -181,7 +181,7 @@ Trial stop_trial(Length length)
     }
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 1; /* geometric mean, so ... */
   for (size_t i = 1; i < trial.scene.materials.size(); ++i) trial.scene.materials[i].friction_combine = Combine::minimum; /* ... mu itself */
-  trial.checks.push_back(at_end(check("largest error of the way to rest", "", 0.02, [way](const Moment &moment) {
+  trial.checks.push_back(at_end(check("largest error of the way to rest", "", 0.03, [way](const Moment &moment) {
     double worst = 0;
     for (size_t i = 0; i < way.size(); ++i) worst = std::max(worst, std::abs(double(moment.bodies[i + 1].position[0]) / way[i] - 1));
     return worst;
@@ -249,7 +249,7 @@ void add_motion_cases(std::vector<Case> &cases)
   cases.push_back({"friction-cone", group, "boxes on ramps, ten coefficients of friction from 0.1 to 1", "each slips at atan mu within 2 degrees", cone_trial});
   cases.push_back({"incline", group, "boxes slide down ramps 10 degrees steeper than their friction holds", "the way after 2 s is within 2% of g (sin a - mu cos a) t^2 / 2",
                    incline_trial});
-  cases.push_back({"sliding-stop", group, "sliding boxes come to rest", "after v^2 / (2 mu g), within 2%", stop_trial});
+  cases.push_back({"sliding-stop", group, "sliding boxes come to rest", "after v^2 / (2 mu g), within 3%", stop_trial});
   cases.push_back({"rolling-ball", group, "a ball that starts sliding", "rolls at 5/7 of its speed, within 1%, without slip", rolling_trial});
   cases.push_back({"bullet-thin-wall", group, "a ball of 10 cm at 300 m/s against a wall of 1 cm", "its centre never gets beyond the wall's",
                    [](Length length) { return thin_wall_trial(sphere_shape(0.05f), 300, length); }});

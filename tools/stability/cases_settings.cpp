@@ -21,9 +21,9 @@ Scene column_and_ball()
 
 void watch_ball_and_column(Trial &trial, double depth)
 {
+  trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth, penetration())));
   trial.checks.push_back(check("farthest sideways", "m", 0.05, sideways(trial.scene)));
   trial.checks.push_back(check("gain of energy", "J/kg", 0.05, energy_gain()));
-  trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth, penetration())));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", 0.05, speed())));
 }
 

@@ -75,12 +75,24 @@ Trial dominoes_trial(Length length)
   return trial;
 }
 
-/* What the ball has of its speed along z at the end of its flight through, or rather against, the wall. */
+/* The ball is left out: nothing stops it from rolling on. */
+Figure fastest_brick()
+{
+  return [](const Moment &moment) {
+    double worst = 0;
+    for (size_t i = 1; i + 1 < moment.bodies.size(); ++i) {
+      const double speed = vector_of(moment.bodies[i].linear_velocity).norm();
+      if (std::isnan(speed) || speed > worst) worst = speed;
+    }
+    return worst;
+  };
+}
+
 Trial wall_trial(Length length)
 {
   Trial trial = trial_of(load_scene(length == Length::brief ? "wall:rows=4,length=3,distance=1" : "wall"), steps_for(length, 600, 600));
   trial.checks.push_back(check("gain of energy", "J/kg", 0.01, energy_gain()));
-  trial.checks.push_back(at_end(check("fastest at the end", "m/s", 1.0, speed())));
+  trial.checks.push_back(at_end(check("fastest brick at the end", "m/s", 0.1, fastest_brick())));
   trial.checks.push_back(check("farthest under the ground", "m", 0, below(0.15))); /* a brick on edge has its centre at 0.2 */
   trial.checks.push_back(check("deepest contact", "m", 0.2, penetration()));
   return trial;
@@ -101,7 +113,7 @@ void add_structure_cases(std::vector<Case> &cases)
   cases.push_back({"dominoes", "stacks", "a row of 30 dominoes, the first pushed over", "all 30 fall; energy never grows; contacts at most 5 cm deep",
                    dominoes_trial});
   cases.push_back({"wall-hit", "stacks", "a wall of 95 bricks of 1 kg, hit by a ball of 20 kg at 20 m/s",
-                   "energy never grows, nothing sinks into the ground, contacts at most 20 cm deep (half a brick), all slower than 1 m/s after 10 s",
+                   "energy never grows, nothing sinks into the ground, contacts at most 20 cm deep (half a brick), all bricks at rest (0.1 m/s) after 10 s",
                    wall_trial});
 }
 

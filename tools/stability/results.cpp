@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace tandem::stability {
 namespace {
 
@@ -36,6 +38,16 @@ Json result_json(const Result &result)
 void Results::add(const Case &which, const Trial &trial, Outcome outcome)
 {
   results.push_back({which, std::move(outcome), settings_text(trial.settings), trial.scene.bodies, trial.scene.shapes});
+}
+
+std::string series_csv(const Results &results)
+{
+  std::string text = "case,solver,figure,unit,time_s,value\n";
+  for (const Result &result : results.results)
+    for (const CheckResult &check : result.outcome.checks)
+      for (const Sample &sample : check.series)
+        text += fmt::format("{},{},{},{},{:.6g},{:.6g}\n", result.outcome.name, result.outcome.solver, check.what, check.unit, sample.time, sample.value);
+  return text;
 }
 
 Json results_json(const Results &results)

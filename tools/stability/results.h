@@ -24,5 +24,7 @@ struct Results {
 };
 
 Json results_json(const Results &results);
+/* Every figure over time: case, solver, figure, unit, time, value. */
+std::string series_csv(const Results &results);
 
 } // namespace tandem::stability

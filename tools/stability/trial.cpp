@@ -29,7 +29,7 @@ struct Record {
   }
   CheckResult result() const
   {
-    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound};
+    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound, series};
   }
 };
 
@@ -59,7 +59,6 @@ void conclude(Outcome &outcome, const std::vector<Record> &records, World &world
   }
   outcome.passed = passed;
   outcome.headline = outcome.checks.at(headline);
-  outcome.series = records[headline].series;
   if (lost != poisoned) outcome.note = fmt::format("{} bodies stopped being finite, {} expected: {}", lost, poisoned, names_of(world.quarantined()));
   outcome.end = world.bodies();
   outcome.body_hash = world.body_hash();
@@ -88,7 +87,7 @@ void simulate(Outcome &outcome, std::vector<Record> &records, World &world, cons
 void fail(Outcome &outcome, const Trial &trial, const std::string &why)
 {
   const Check &first = trial.checks.front();
-  outcome.headline = {first.what, first.unit, std::numeric_limits<double>::quiet_NaN(), first.bound, false};
+  outcome.headline = {first.what, first.unit, std::numeric_limits<double>::quiet_NaN(), first.bound, false, {}};
   outcome.checks = {outcome.headline};
   outcome.passed = false;
   outcome.note = why;

@@ -70,14 +70,15 @@ struct Case {
 /* Name in reports: a shortened case must not be taken for the whole one. */
 std::string reported_name(const Case &which, Length length);
 
+struct Sample {
+  double time, value;
+};
+
 struct CheckResult {
   std::string what, unit;
   double figure, bound;
   bool passed;
-};
-
-struct Sample {
-  double time, value;
+  std::vector<Sample> series;
 };
 
 struct Outcome {
@@ -85,7 +86,6 @@ struct Outcome {
   bool passed = false;
   CheckResult headline; /* the first check that failed, else the first */
   std::vector<CheckResult> checks;
-  std::vector<Sample> series; /* of the headline check */
   std::string note;           /* why there is no figure, or which body was lost */
   double milliseconds_per_step = 0;
   uint64_t steps = 0; /* done */
