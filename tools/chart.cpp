@@ -35,7 +35,7 @@ public:
   double at(double value) const
   {
     if (logarithmic() && value <= 0) return from_;
-    const double share = logarithmic() ? std::log(value / low_) / std::log(high_ / low_) : (value - low_) / (high_ - low_);
+    const double share = logarithmic() ? (std::log(value) - std::log(low_)) / (std::log(high_) - std::log(low_)) : (value - low_) / (high_ - low_);
     return from_ + share * (to_ - from_);
   }
   std::vector<double> ticks() const { return ticks_of(low_, high_, scale_); }
@@ -259,7 +259,7 @@ std::vector<double> logarithmic_ticks(double low, double high)
 {
   const int first = static_cast<int>(std::floor(std::log10(low) + 1e-9)), last = static_cast<int>(std::ceil(std::log10(high) - 1e-9));
   const int stride = std::max(1, (last - first + 9) / 10);
-  const bool digits = std::log10(high / low) < 3.3;
+  const bool digits = std::log10(high) - std::log10(low) < 3.3;
   std::vector<double> ticks;
   for (int decade = first; decade <= last; decade += stride)
     for (const double digit : {1.0, 2.0, 5.0}) {
