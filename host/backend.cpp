@@ -13,8 +13,8 @@ namespace {
 
 [[noreturn]] void refuse(const std::string &text, const std::string &why)
 {
-  throw InputError(fmt::format("backend '{}': {}; use serial, tbb[:threads=N,lanes=1|4|8|16], cl, cl:PLATFORM.DEVICE or "
-                               "cl:PART-OF-A-NAME (`tandem devices` lists them)",
+  throw InputError(fmt::format("backend '{}': {}; use serial, tbb[:threads=N,lanes=1|4|8|16], cl, cl:PLATFORM.DEVICE, "
+                               "cl:PART-OF-A-NAME (`tandem devices` lists them) or reference[:threads=N]",
                                text, why));
 }
 
@@ -51,10 +51,12 @@ Backend::Order order_from(const std::string &text, const std::string &value)
 std::unique_ptr<Backend> make_cpu_backend(const std::string &text, const std::string &kind, size_t colon)
 {
   minicl::Options options;
-  if (kind == "serial") options.threads = options.lanes = 1;
+  options.reference = kind == "reference";
+  if (kind != "tbb") options.lanes = 1;
+  if (kind == "serial") options.threads = 1;
   for (const auto &[name, value] : options_of(text, colon)) {
     if (kind == "serial" && name == "order") options.order = order_from(text, value);
-    else if (kind == "tbb" && name == "threads") options.threads = number_from(text, name, value, 1024);
+    else if (kind != "serial" && name == "threads") options.threads = number_from(text, name, value, 1024);
     else if (kind == "tbb" && name == "lanes") {
       options.lanes = number_from(text, name, value, 16);
       if (options.lanes != 1 && !minicl::lanes_table(options.lanes))
@@ -70,7 +72,7 @@ std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexac
 {
   const size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
-  if (kind == "serial" || kind == "tbb") return make_cpu_backend(text, kind, colon);
+  if (kind == "serial" || kind == "tbb" || kind == "reference") return make_cpu_backend(text, kind, colon);
   if (kind == "cl") return opencl::make_backend(text, colon == std::string::npos ? "" : text.substr(colon + 1), allow_inexact);
   refuse(text, "unknown");
 }

@@ -53,7 +53,8 @@ public:
   double build_milliseconds = 0; /* spent in prepare */
 };
 
-/* "serial[:order=backward]", "tbb[:threads=N,lanes=1|4|8|16]", "cl[:P.D]", "cl:part-of-a-name".
+/* "serial[:order=backward]", "tbb[:threads=N,lanes=1|4|8|16]", "cl[:P.D]", "cl:part-of-a-name",
+ * "reference[:threads=N]": the same kernels in double, for measuring errors, never compared bit for bit.
  * InputError names what is available when the text names nothing. */
 std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexact = false);
 

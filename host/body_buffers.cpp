@@ -100,6 +100,22 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
   return states;
 }
 
+std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  const auto position = memory.read_reals(Buffer::body_position, 4 * n), orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
+  const auto velocity = memory.read_reals(Buffer::body_velocity, 8 * n);
+  std::vector<PreciseBodyState> states(n);
+  for (size_t i = 0; i < n; ++i) {
+    PreciseBodyState &state = states[order[i]];
+    std::copy_n(&position[4 * i], 3, state.position.begin());
+    std::copy_n(&orientation[4 * i], 4, state.orientation.begin());
+    std::copy_n(&velocity[8 * i], 3, state.linear_velocity.begin());
+    std::copy_n(&velocity[8 * i + 4], 3, state.angular_velocity.begin());
+  }
+  return states;
+}
+
 bool is_finite(const BodyState &state)
 {
   const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }); };

@@ -13,6 +13,7 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
 void upload_materials(Memory &memory, const Scene &scene);
 void upload_body(Memory &memory, uint32_t index, const BodyState &state);
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order);
+std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order);
 
 bool is_finite(const BodyState &state);
 

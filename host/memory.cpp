@@ -11,7 +11,7 @@ namespace {
 
 class HostStorage : public Storage {
 public:
-  void *allocate(size_t bytes, void *) override
+  void *allocate(Element, size_t bytes, void *) override
   {
     const size_t rounded = (std::max<size_t>(bytes, 1) + 4095) / 4096 * 4096;
     void *memory = std::aligned_alloc(4096, rounded);
@@ -38,7 +38,17 @@ Storage &host_storage()
   return storage;
 }
 
-Memory::Memory() = default;
+void Storage::read_reals(void *handle, size_t first, double *to, size_t count)
+{
+  std::vector<float> values(count);
+  read(handle, first * sizeof(float), values.data(), count * sizeof(float));
+  std::copy(values.begin(), values.end(), to);
+}
+
+Memory::Memory()
+{
+  for (size_t i = 0; i < buffer_count; ++i) entries_[i].element = row_of(buffer_at(i)).element;
+}
 
 Memory::~Memory()
 {
@@ -77,10 +87,10 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
     if (copy.storage == &storage) return copy;
   if (&storage != &host_storage() && storage.shares_host_memory()) {
     void *host = copy_in(entry, host_storage()).handle;
-    entry.copies.push_back({&storage, storage.allocate(entry.bytes, host), false});
+    entry.copies.push_back({&storage, storage.allocate(entry.element, entry.bytes, host), false});
     return entry.copies.back();
   }
-  const Copy fresh{&storage, storage.allocate(entry.bytes, nullptr), entry.copies.empty()};
+  const Copy fresh{&storage, storage.allocate(entry.element, entry.bytes, nullptr), entry.copies.empty()};
   const auto place = &storage == &host_storage() ? entry.copies.begin() : entry.copies.end();
   return *entry.copies.insert(place, fresh);
 }
@@ -140,6 +150,16 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
   copy_in(entry, host_storage());
   for (Copy &copy : entry.copies)
     if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+}
+
+std::vector<double> Memory::read_reals(Buffer buffer, size_t count, size_t first)
+{
+  std::vector<double> values(count);
+  Entry &entry = entries_[index_of(buffer)];
+  copy_in(entry, host_storage());
+  const auto valid = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+  if (count > 0) valid->storage->read_reals(valid->handle, first, values.data(), count);
+  return values;
 }
 
 } // namespace tandem

@@ -18,11 +18,14 @@ namespace tandem {
 class Storage {
 public:
   virtual ~Storage() = default;
-  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. */
-  virtual void *allocate(size_t bytes, void *host_memory) = 0;
+  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. Sizes and offsets
+   * are those of the host's copy, whose numbers are floats, also where a storage keeps wider ones. */
+  virtual void *allocate(Element element, size_t bytes, void *host_memory) = 0;
   virtual void release(void *handle) = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
+  /* Reals of a buffer of rows or reals, as precise as this storage keeps them. */
+  virtual void read_reals(void *handle, size_t first, double *to, size_t count);
   /* True for a device that works in the host's own memory: moves cost no copy. */
   virtual bool shares_host_memory() const { return false; }
   virtual void wait() {} /* until no work given so far reads or writes any buffer */
@@ -55,6 +58,8 @@ public:
     download(buffer, values.data(), elements * sizeof(T), first * sizeof(T));
     return values;
   }
+  /* Scalars of a buffer of rows or reals, in double where a backend has left them in double. */
+  std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
 
 private:
   struct Copy {
@@ -63,6 +68,7 @@ private:
     bool valid;
   };
   struct Entry {
+    Element element;
     size_t bytes = 0;
     std::vector<Copy> copies;
   };

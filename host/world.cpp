@@ -251,6 +251,11 @@ void World::set_observer(Observer observer) { implementation_->launcher.set_obse
 
 std::vector<BodyState> World::bodies() { return download_bodies(implementation_->memory, implementation_->special.order); }
 
+std::vector<PreciseBodyState> World::precise_bodies()
+{
+  return download_precise_bodies(implementation_->memory, implementation_->special.order);
+}
+
 void World::set_body(uint32_t body, const BodyState &state)
 {
   if (body >= implementation_->plan.bodies)

@@ -27,6 +27,13 @@ struct BodyState {
   Vec3 angular_velocity;
 };
 
+/* The same as precise as it is known: in double where everything runs on the reference backend. */
+struct PreciseBodyState {
+  std::array<double, 3> position;
+  std::array<double, 4> orientation;
+  std::array<double, 3> linear_velocity, angular_velocity;
+};
+
 /* What is known after a step. Penetration is over the contact points of the step's collision
  * detection: metres, positive when shapes overlap; touching ahead of contact counts as 0. */
 struct Statistics {
@@ -75,6 +82,7 @@ public:
   const Settings &settings() const;
 
   std::vector<BodyState> bodies();                     /* in the order of Scene::bodies */
+  std::vector<PreciseBodyState> precise_bodies();
   void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
   /* As set_body, but unchecked: for tests of what happens to a NaN. */
   void set_body_unchecked(uint32_t body, const BodyState &state);

@@ -15,6 +15,7 @@
 
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
+#include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"
 #include "shared/platform.h"
 
@@ -69,13 +70,14 @@ class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
-        scalar_(options.order == Order::forward ? scalar_kernels : backward_kernels), lanes_(lanes_table(options.lanes))
+        scalar_(options.reference ? reference_kernels : options.order == Order::forward ? scalar_kernels : backward_kernels),
+        lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(options.reference ? reference_storage() : host_storage())
   {
     allow_threads(options.threads);
   }
 
   const std::string &name() const override { return name_; }
-  Storage &storage() override { return host_storage(); }
+  Storage &storage() override { return storage_; }
   void prepare(uint32_t, const std::vector<Kernel> &) override {}
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
@@ -157,6 +159,7 @@ private:
   uint32_t threads_;
   const KernelTable &scalar_;
   const KernelTable *lanes_;
+  Storage &storage_;
   bool profiling_ = false;
   std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };

@@ -17,6 +17,7 @@ struct Options {
   uint32_t threads = 0; /* 0: all of the machine; 1: no TBB */
   uint32_t lanes = 0;   /* 0: the widest this processor runs; 1, 4, 8, 16 */
   Backend::Order order = Backend::Order::forward;
+  bool reference = false; /* in double, one item at a time */
 };
 
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options);

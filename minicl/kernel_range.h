@@ -44,7 +44,7 @@ template <auto function> static void run_items(void *const *arguments, uint32_t 
 template <auto function> static void run_groups(void *const *arguments, uint32_t first, uint32_t last)
 {
   constexpr size_t count = Signature<decltype(function)>::count - 2;
-  alignas(64) uint local_memory[LOCAL_WORDS];
+  alignas(64) uint local_memory[LOCAL_WORDS * sizeof(memory_real) / sizeof(float)];
   with_arguments<function>(
       arguments,
       [&](auto... bound) {

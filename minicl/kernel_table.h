@@ -22,6 +22,7 @@ struct KernelTable {
 
 extern const KernelTable scalar_kernels;
 extern const KernelTable backward_kernels;
+extern const KernelTable reference_kernels; /* in double */
 extern const KernelTable lanes4_kernels;
 extern const KernelTable lanes8_kernels;
 extern const KernelTable lanes16_kernels;

@@ -15,6 +15,18 @@
 
 typedef struct { real sine, cosine; } angle_functions;
 
+/* Up to an eighth of a turn, as polynomials of the square rr: sin r = r + r rr (...), cos r = 1 - rr / 2 + rr rr (...). The
+ * reference build goes on to the terms that double precision needs. */
+#ifdef TANDEM_REFERENCE
+#define SINE_TERMS(rr) (-1.0 / 6 + rr * (1.0 / 120 + rr * (-1.0 / 5040 + rr * (1.0 / 362880 + rr * (-1.0 / 39916800 + \
+  rr * (1.0 / 6227020800 + rr * (-1.0 / 1307674368000 + rr * (1.0 / 355687428096000))))))))
+#define COSINE_TERMS(rr) (1.0 / 24 + rr * (-1.0 / 720 + rr * (1.0 / 40320 + rr * (-1.0 / 3628800 + rr * (1.0 / 479001600 + \
+  rr * (-1.0 / 87178291200 + rr * (1.0 / 20922789888000 + rr * (-1.0 / 6402373705728000))))))))
+#else
+#define SINE_TERMS(rr) (R(-1.6666654611e-1) + rr * (R(8.3321608736e-3) + rr * R(-1.9515295891e-4)))
+#define COSINE_TERMS(rr) (R(4.166664568298827e-2) + rr * (R(-1.388731625493765e-3) + rr * R(2.443315711809948e-5)))
+#endif
+
 /* Adding and taking away 1.5 x 2^23 rounds to the nearest integer, in the rounding mode all backends share. */
 #ifdef TANDEM_REFERENCE
 #define ROUNDING_CONSTANT 6755399441055744.0
@@ -30,8 +42,8 @@ SHARED angle_functions sine_cosine(real angle)
   /* pi/2 in three parts, the first two short, so that the products are exact. */
   real r = ((x - quarter_turns * R(1.5703125)) - quarter_turns * R(4.837512969970703125e-4)) - quarter_turns * R(7.54978995489188216e-8);
   real rr = r * r;
-  real s = r + r * rr * (R(-1.6666654611e-1) + rr * (R(8.3321608736e-3) + rr * R(-1.9515295891e-4)));
-  real c = (R(1.0) - R(0.5) * rr) + rr * rr * (R(4.166664568298827e-2) + rr * (R(-1.388731625493765e-3) + rr * R(2.443315711809948e-5)));
+  real s = r + r * rr * SINE_TERMS(rr);
+  real c = (R(1.0) - R(0.5) * rr) + rr * rr * COSINE_TERMS(rr);
   natural quadrant = to_natural(quarter_turns) & 3u;
   mask swapped = (quadrant & 1u) == 1u;
   real sine = choose(swapped, c, s), cosine = choose(swapped, s, c);

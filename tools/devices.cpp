@@ -48,13 +48,16 @@ Json devices_json(const std::vector<opencl::DeviceInfo> &devices)
   list.push_back({{"name", "serial"}, {"kind", "cpu"}, {"threads", 1}, {"lanes", {1}}, {"exact", true}});
   list.push_back({{"name", "tbb"}, {"kind", "cpu"}, {"threads", tbb::info::default_concurrency()}, {"lanes", lane_widths()},
                   {"exact", true}});
+  list.push_back({{"name", "reference"}, {"kind", "cpu"}, {"threads", tbb::info::default_concurrency()}, {"lanes", {1}}, {"exact", false},
+                  {"note", "double precision"}});
   for (const opencl::DeviceInfo &device : devices) list.push_back(device_json(device));
   return {{"backends", list}};
 }
 
 void print_devices(const std::vector<opencl::DeviceInfo> &devices)
 {
-  fmt::print("serial   one thread, one item at a time: the reference, and the one for gdb\n");
+  fmt::print("serial   one thread, one item at a time: what every other is compared with, and the one for gdb\n");
+  fmt::print("reference  the same kernels in double: for measuring errors, never compared bit for bit\n");
   fmt::print("tbb      {} threads, {} lanes\n", tbb::info::default_concurrency(), fmt::join(lane_widths(), ", "));
   for (const opencl::DeviceInfo &device : devices) {
     fmt::print("{:<8} {} {}\n", short_name(device), device.type, device.device_name);

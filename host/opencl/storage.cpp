@@ -81,7 +81,7 @@ cl_int finish_queue(const DeviceContext &context)
 DeviceStorage::DeviceStorage(const DeviceContext &context) : context_(context), shares_(shares_memory(context)) {}
 
 /* The fill also makes drivers that put allocation off do it, so that running out shows here. */
-void *DeviceStorage::allocate(size_t bytes, void *host_memory)
+void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
 {
   auto buffer = std::make_unique<DeviceBuffer>();
   buffer->bytes = rounded(bytes);

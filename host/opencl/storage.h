@@ -22,7 +22,7 @@ class DeviceStorage : public Storage {
 public:
   explicit DeviceStorage(const DeviceContext &context);
 
-  void *allocate(size_t bytes, void *host_memory) override;
+  void *allocate(Element element, size_t bytes, void *host_memory) override;
   void release(void *handle) override;
   void write(void *handle, size_t offset, const void *from, size_t bytes) override;
   void read(void *handle, size_t offset, void *to, size_t bytes) override;

@@ -18,6 +18,9 @@
 
 SHARED real along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
+/* As precise as the keys are: rounding keeps the order, so nothing that starts inside is missed in double either. */
+SHARED real as_sorted(real x) { return (real)(float)x; }
+
 SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
@@ -40,10 +43,10 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
     box_bounds own = load_bounds(bounds, body);                                                                      \
     for (uint b = 0; b < large && b < body; ++b)                                                                     \
       if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
-    real end = along(own.upper, axis);                                                                               \
+    real end = as_sorted(along(own.upper, axis));                                                                    \
     for (uint at = i < large ? small : i - large + 1u; at < small; ++at) {                                           \
       box_bounds other = load_bounds(sweep_bounds, at);                                                              \
-      if (along(other.lower, axis) > end) break;                                                                     \
+      if (as_sorted(along(other.lower, axis)) > end) break;                                                          \
       if (!bounds_overlap(own, other)) continue;                                                                     \
       uint found = sort_value[at];                                                                                   \
       uint a = body > found ? body : found, b = body > found ? found : body;                                         \

@@ -153,7 +153,7 @@ TEST_CASE("an allocation that no device can hold is refused with its size and th
   const auto backend = prepared(*device);
   try {
     Memory memory;
-    backend->storage().allocate(size_t{1} << 52, nullptr);
+    backend->storage().allocate(Element::uint, size_t{1} << 52, nullptr);
     FAIL("4 PiB were allocated");
   } catch (const opencl::DeviceError &error) {
     REQUIRE(std::string(error.what()).find(std::to_string(size_t{1} << 52)) != std::string::npos);

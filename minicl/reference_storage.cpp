@@ -1,0 +1,108 @@
+/* reference_storage.cpp - widens floats on the way in, rounds doubles on the way out; see reference_storage.h. */
+#include "minicl/reference_storage.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+#include <new>
+#include <unordered_map>
+
+namespace tandem::minicl {
+namespace {
+
+/* How one buffer lies in both precisions, in bytes of the host's copy: reals up to `reals_end`, then whole numbers. */
+struct Layout {
+  size_t reals_end, bytes;
+};
+
+Layout layout_of(Element element, size_t bytes)
+{
+  switch (element) {
+  case Element::row:
+  case Element::real: return {bytes, bytes};
+  case Element::Parameters: return {reference_parameters.reals * sizeof(float), bytes};
+  case Element::uint:
+  case Element::ulong: return {0, bytes};
+  }
+  return {0, bytes};
+}
+
+size_t wide_bytes(const Layout &layout) { return layout.bytes + layout.reals_end; }
+
+class ReferenceStorage : public Storage {
+public:
+  void *allocate(Element element, size_t bytes, void *) override
+  {
+    const Layout layout = layout_of(element, bytes);
+    const size_t rounded = (std::max<size_t>(wide_bytes(layout), reference_parameters.bytes) + 63) / 64 * 64;
+    void *memory = std::aligned_alloc(64, rounded);
+    if (!memory) throw std::bad_alloc();
+    std::memset(memory, 0, rounded);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    layouts_[memory] = layout;
+    return memory;
+  }
+
+  void release(void *handle) override
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    layouts_.erase(handle);
+    std::free(handle);
+  }
+
+  void write(void *handle, size_t offset, const void *from, size_t bytes) override
+  {
+    const Layout layout = layout_at(handle);
+    const size_t reals = reals_in(layout, offset, bytes);
+    for (size_t i = 0; i < reals; ++i) {
+      float value;
+      std::memcpy(&value, static_cast<const char *>(from) + i * sizeof value, sizeof value);
+      static_cast<double *>(handle)[offset / sizeof value + i] = value;
+    }
+    const size_t done = reals * sizeof(float);
+    std::memcpy(static_cast<char *>(handle) + layout.reals_end + offset + done, static_cast<const char *>(from) + done, bytes - done);
+  }
+
+  void read(void *handle, size_t offset, void *to, size_t bytes) override
+  {
+    const Layout layout = layout_at(handle);
+    const size_t reals = reals_in(layout, offset, bytes);
+    for (size_t i = 0; i < reals; ++i) {
+      const auto value = static_cast<float>(static_cast<const double *>(handle)[offset / sizeof(float) + i]);
+      std::memcpy(static_cast<char *>(to) + i * sizeof value, &value, sizeof value);
+    }
+    const size_t done = reals * sizeof(float);
+    std::memcpy(static_cast<char *>(to) + done, static_cast<const char *>(handle) + layout.reals_end + offset + done, bytes - done);
+  }
+
+  void read_reals(void *handle, size_t first, double *to, size_t count) override
+  {
+    std::copy_n(static_cast<const double *>(handle) + first, count, to);
+  }
+
+private:
+  Layout layout_at(void *handle)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return layouts_.at(handle);
+  }
+
+  static size_t reals_in(const Layout &layout, size_t offset, size_t bytes)
+  {
+    return offset >= layout.reals_end ? 0 : std::min(bytes, layout.reals_end - offset) / sizeof(float);
+  }
+
+  std::mutex mutex_;
+  std::unordered_map<void *, Layout> layouts_;
+};
+
+} // namespace
+
+Storage &reference_storage()
+{
+  static ReferenceStorage storage;
+  return storage;
+}
+
+} // namespace tandem::minicl
