@@ -2,6 +2,7 @@
 #include "host/scene_catalog.h"
 
 #include "host/random.h"
+#include "host/scene_catalog_closed_forms.h"
 #include "host/scene_catalog_structures.h"
 #include "host/scene_gltf.h"
 #include "host/scene_json.h"
@@ -314,6 +315,7 @@ const std::vector<BuiltInScene> &catalog()
   static const std::vector<BuiltInScene> rows = [] {
     std::vector<BuiltInScene> all = simple_scenes();
     for (BuiltInScene &scene : structure_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));
     return all;
   }();
   return rows;
