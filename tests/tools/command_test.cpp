@@ -178,6 +178,33 @@ TEST_CASE("command: what comes later says so", "[command]")
     check_refused(later, "later version");
 }
 
+TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes", "[command]")
+{
+  const Scratch scratch;
+  const std::string out = " --out " + scratch.file("report");
+  const Json json = json_of("stability --only flight,gravity-0 --solvers soft-step --on serial" + out);
+  REQUIRE(json["cases"].size() == 2);
+  for (const Json &each : json["cases"]) check_keys(each, {"name", "solver", "passed", "figure", "bound", "unit"});
+  CHECK(json["cases"][0]["name"] == "flight");
+  CHECK(json["cases"][0]["passed"] == true);
+  for (const char *name : {"index.html", "stability.json", "figures.csv"}) CHECK(files::file_size(scratch.file("report/") + name) > 100);
+  CHECK(Json::parse(contents(scratch.file("report/stability.json"))) == json);
+  check_refused("stability --only castle" + out, "castle");
+  check_refused("stability --solvers magic" + out, "magic");
+  check_refused("stability --on gpu" + out, "gpu");
+  check_refused("stability --only flight", "--out");
+  check_refused("stability --only flight --out /nonexistent/folder", "/nonexistent/folder");
+  check_refused("stability --only flight --between serial", "two");
+}
+
+TEST_CASE("command: stability cases have the same bits on OpenCL", "[command]")
+{
+  const Json json = json_of("stability --only flip,column-20,heavy-on-light-10000,deep-overlap,poisoned --solvers soft-step --between serial,tbb,cl:pocl");
+  CHECK(json["equal"] == true);
+  REQUIRE(json["cases"].size() == 5);
+  for (const Json &each : json["cases"]) CHECK(each["body_hash"].size() == 3);
+}
+
 TEST_CASE("command: help and version", "[command]")
 {
   CHECK(tandem("--version").out.find("tandem ") == 0);

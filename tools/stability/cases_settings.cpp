@@ -59,6 +59,7 @@ Case passes_case(const std::string &name, const std::string &what, uint32_t subs
   return {name, "settings", what, "nothing leaves sideways by 5 cm or turns by 0.05 rad, contacts at most 2 cm deep, at rest at the end",
           [=](Length length) {
             Trial trial = trial_of(column_of(equal(height)), steps_for(length, steps, steps));
+            trial.own_passes = true;
             trial.settings.substeps = substeps;
             trial.settings.iterations = iterations;
             if (length == Length::brief) trial.settings.iterations = std::min(iterations, 5u);

@@ -24,6 +24,8 @@ struct Results {
 };
 
 Json results_json(const Results &results);
+/* The page: a table case by solver, then each case with its pictures and its figure over time. `command` made it. */
+std::string results_page(const Results &results, const std::string &command);
 /* Every figure over time: case, solver, figure, unit, time, value. */
 std::string series_csv(const Results &results);
 

@@ -112,22 +112,30 @@ std::string reported_name(const Case &which, Length length)
   return length == Length::quick && which.shorter ? which.name + "-short" : which.name;
 }
 
+Settings settings_of(const Trial &trial, const std::string &solver)
+{
+  const Settings own = settings_for(solver);
+  Settings settings = trial.settings;
+  settings.solver = solver;
+  if (trial.own_passes) return settings;
+  settings.substeps = own.substeps;
+  settings.iterations = own.iterations;
+  return settings;
+}
+
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step)
 {
   Outcome outcome;
   outcome.name = name;
   outcome.solver = solver;
-  Settings settings = trial.settings;
-  settings.solver = solver;
+  const Settings settings = settings_of(trial, solver);
   std::vector<Record> records;
   for (const Check &check : trial.checks) records.push_back({&check, nothing_seen, {}});
   try {
     World world(trial.scene, settings, placement);
     simulate(outcome, records, world, trial, after_step);
     conclude(outcome, records, world, trial.poisoned);
-  } catch (const InputError &) {
-    throw;
   } catch (const std::exception &error) {
     fail(outcome, trial, error.what());
   }
@@ -136,7 +144,7 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
 
 std::string settings_text(const Settings &settings)
 {
-  const Settings defaults;
+  const Settings defaults = settings_for(settings.solver);
   std::string text;
   const auto add = [&](const char *name, auto value, auto standard) {
     if (value != standard) text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, static_cast<double>(value));

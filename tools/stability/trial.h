@@ -48,6 +48,7 @@ struct Check {
 struct Trial {
   Scene scene;
   Settings settings;
+  bool own_passes = false; /* substeps and iterations are the case's point: a solver's own defaults do not replace them */
   uint64_t steps = 600;
   uint64_t every = 1;       /* steps between two moments that are looked at; the last step always is */
   std::vector<Check> checks; /* the first is the case's figure */
@@ -93,8 +94,11 @@ struct Outcome {
   std::vector<BodyState> end;
 };
 
-/* Runs to the end, or until the first body is lost; what a device or solver throws becomes a failed outcome.
- * InputError passes through. `after_step(done, of)` may be empty. */
+/* The trial's settings with this solver, and its own substeps and iterations where the case leaves them open. */
+Settings settings_of(const Trial &trial, const std::string &solver);
+
+/* Runs to the end, or until the first body is lost; what a device or solver throws becomes a failed outcome, with the
+ * reason as its note. `after_step(done, of)` may be empty. */
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
