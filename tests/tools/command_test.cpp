@@ -193,16 +193,16 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
   check_refused("stability --solvers magic" + out, "magic");
   check_refused("stability --on gpu" + out, "gpu");
   check_refused("stability --only flight", "--out");
-  check_refused("stability --only flight --out /nonexistent/folder", "/nonexistent/folder");
+  check_refused("stability --only flight --out /dev/null/folder", "/dev/null/folder");
   check_refused("stability --only flight --between serial", "two");
 }
 
-TEST_CASE("command: stability cases have the same bits on OpenCL", "[command]")
+TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")
 {
-  const Json json = json_of("stability --only flip,column-20,heavy-on-light-10000,deep-overlap,poisoned --solvers soft-step --between serial,tbb,cl:pocl");
+  const Json json = json_of("stability --only heavy-on-light-10000 --solvers soft-step --between serial,tbb,cl:pocl");
   CHECK(json["equal"] == true);
-  REQUIRE(json["cases"].size() == 5);
-  for (const Json &each : json["cases"]) CHECK(each["body_hash"].size() == 3);
+  REQUIRE(json["cases"].size() == 1);
+  CHECK(json["cases"][0]["body_hash"].size() == 3);
 }
 
 TEST_CASE("command: help and version", "[command]")

@@ -13,7 +13,7 @@
 namespace tandem::stability {
 namespace {
 
-constexpr double width = 360; /* px */
+constexpr double most_pixels = 360; /* of the longer side */
 constexpr size_t most_drawn = 1500;
 
 struct Point {
@@ -70,7 +70,8 @@ void widen(Window &window, const Shape &shape, const BodyState &state)
 /* Metres to pixels. */
 struct Frame {
   const Window &window;
-  double scale = width / (window.right - window.left);
+  double scale = most_pixels / std::max(window.right - window.left, window.top - window.bottom);
+  double width() const { return (window.right - window.left) * scale; }
   double height() const { return (window.top - window.bottom) * scale; }
   std::string at(const Point &p) const { return fmt::format("{:.1f},{:.1f}", (p.x - window.left) * scale, (window.top - p.y) * scale); }
 };
@@ -132,10 +133,11 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
   for (size_t i = 0; i < end.size(); ++i)
     if (start[i].motion == Motion::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], end[i]);
   const auto moving = std::count_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
-  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size, least_height = 0.3 * size;
+  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size, least_height = 0.3 * size, least_width = 0.1 * size;
   const double most_wide = moving <= 5 ? 10 * size : size; /* few bodies travel far, seen by their own size */
   wide.left = std::max(wide.left, tight.left - most_wide) - room;
   wide.right = std::min(wide.right, tight.right + most_wide) + room;
+  if (wide.right - wide.left < least_width) wide.left -= 0.5 * least_width, wide.right += 0.5 * least_width;
   wide.bottom = std::max(wide.bottom, tight.bottom - 0.3 * size) - room;
   wide.top = std::max(std::min(wide.top, tight.top + most_wide) + room, wide.bottom + least_height);
   return wide;
@@ -146,13 +148,13 @@ std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bo
 {
   const Frame frame{window};
   std::string svg = fmt::format("<svg class=\"scene\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" role=\"img\" aria-label=\"{}\">\n<title>{}</title>\n",
-                                width, frame.height(), width, title, title);
+                                frame.width(), frame.height(), frame.width(), title, title);
   for (size_t i : drawing_order(bodies, states)) {
     const Shape &shape = shapes[bodies[i].shape];
     if (shape.type != ShapeType::half_space) svg += drawing_of(shape, states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
     else {
       const double y = (window.top - double(states[i].position[1])) * frame.scale;
-      svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", width, y, y);
+      svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", frame.width(), y, y);
     }
   }
   return svg + "</svg>\n";

@@ -130,6 +130,11 @@ PageTable checks_of(const CaseResults &results)
   return table;
 }
 
+std::string captioned(const std::string &picture, const std::string &caption)
+{
+  return fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", picture, caption);
+}
+
 void add_case(Page &page, const CaseResults &results)
 {
   const Result &first = *results.front();
@@ -138,14 +143,18 @@ void add_case(Page &page, const CaseResults &results)
   for (const Result *result : results)
     if (!result->outcome.note.empty()) page.paragraph(fmt::format("{}: {}", result->outcome.solver, result->outcome.note));
   const Window window = window_of(first.shapes, first.start, first.outcome.end);
-  std::string pictures = "<div class=\"scenes\">" + svg_of(first.shapes, first.start, states_of(first.start), window, "start");
-  if (!first.outcome.end.empty()) pictures += svg_of(first.shapes, first.start, first.outcome.end, window, "end, " + first.outcome.solver);
-  page.html(pictures + "</div>\n");
+  page.html("<div class=\"scenes\">" + captioned(svg_of(first.shapes, first.start, states_of(first.start), window, "start"), "start"));
+  if (!first.outcome.end.empty())
+    page.html(captioned(svg_of(first.shapes, first.start, first.outcome.end, window, "end"), fmt::format("end, {}", first.outcome.solver)));
+  page.html("</div>\n");
   page.chart(chart_of(results));
   page.table(checks_of(results));
 }
 
 const char *const picture_style = R"(<style>
+.scenes { display: flex; flex-wrap: wrap; align-items: end; }
+.scenes figure { margin: 0 1em 0.5em 0; }
+.scenes figcaption { font-size: 0.8em; opacity: 0.7; }
 svg.scene { margin: 0.3em 0.6em 0.3em 0; border: 1px solid #8886; vertical-align: top; }
 svg.scene .moving { fill: #56b4e9aa; stroke: currentColor; stroke-width: 0.4; }
 svg.scene .fixed { fill: #8884; stroke: currentColor; stroke-width: 0.4; }
