@@ -88,10 +88,10 @@ void check_backend(const Placement &placement)
   World(scene, {}, placement).step();
 }
 
-stability::Outcome run_with_progress(const Case &which, const stability::Trial &trial, const std::string &solver, const Placement &placement, Length length)
+stability::Outcome run_with_progress(const Case &which, const std::string &solver, const Placement &placement, Length length)
 {
-  Progress progress(fmt::format("{} {}", which.name, solver), trial.steps);
-  return run_trial(reported_name(which, length), trial, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
+  Progress progress(fmt::format("{} {}", which.name, solver), which.build(length).steps);
+  return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
 }
 
 /* As it would be typed again. */
@@ -133,11 +133,10 @@ int run_cases(const StabilityOptions &options)
   stability::Results results{options.on, solvers, length, {}};
   for (const Case *each : cases)
     for (const std::string &solver : solvers) {
-      const stability::Trial trial = each->build(length);
-      stability::Outcome outcome = run_with_progress(*each, trial, solver, placement, length);
+      stability::Outcome outcome = run_with_progress(*each, solver, placement, length);
       if (!options.json.takes_standard_output()) fmt::print("{}\n", verdict(outcome));
       std::fflush(stdout);
-      results.add(*each, trial, std::move(outcome));
+      results.add(*each, each->build(length).scene, std::move(outcome));
     }
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
@@ -165,7 +164,7 @@ int compare_backends(const StabilityOptions &options)
       bool equal = true;
       std::string first;
       for (const std::string &backend : backends) {
-        const stability::Outcome outcome = run_with_progress(*each, each->build(Length::brief), solver, {backend, {}, options.inexact}, Length::brief);
+        const stability::Outcome outcome = run_with_progress(*each, solver, {backend, {}, options.inexact}, Length::brief);
         const std::string hash = outcome.end.empty() ? outcome.note : hash_text(outcome.body_hash);
         if (first.empty()) first = hash;
         equal = equal && hash == first && !outcome.end.empty();

@@ -210,6 +210,35 @@ TEST_CASE("stability: what a solver or device throws is a failed outcome that sa
   CHECK(std::isnan(outcome.headline.figure));
 }
 
+TEST_CASE("stability: documented settings are tried only where the default ones fail, and are named", "[stability]")
+{
+  const auto with_bound = [](double bound, bool documented) {
+    Case made{"bounded", "test", "a cube", "at rest", {}};
+    made.build = [=](Length) {
+      Trial trial = trial_of(column_of({1}), 5);
+      trial.checks.push_back(check("one over the substeps", "", bound, [](const Moment &moment) { return 1.0 / moment.world.settings().substeps; }));
+      if (documented) {
+        trial.documented = trial.settings;
+        trial.documented->substeps = 50;
+      }
+      return trial;
+    };
+    return run_case(made, Length::quick, solver_names().front(), Placement{"serial", {}, false});
+  };
+  CHECK(with_bound(1, true).default_passed);
+  CHECK(with_bound(1, true).settings == "default");
+  CHECK_FALSE(with_bound(0.03, false).passed);
+  const Outcome helped = with_bound(0.03, true);
+  CHECK(helped.passed);
+  CHECK_FALSE(helped.default_passed);
+  CHECK(helped.settings == "substeps 50");
+  CHECK(helped.note.find("by default 0.25") != std::string::npos);
+  const Outcome beyond = with_bound(0.001, true);
+  CHECK_FALSE(beyond.passed);
+  CHECK(beyond.settings == "default");
+  CHECK(beyond.note.find("fails with substeps 50 too") != std::string::npos);
+}
+
 /* Theory against theory: the small-amplitude limit of steady precession, m g d / (I W), and the integral's known value. */
 TEST_CASE("stability: theory of the top and of the flip", "[stability]")
 {
@@ -224,8 +253,7 @@ TEST_CASE("stability: the page and the JSON hold every case", "[stability]")
 {
   Results results{"serial", {solver_names().front()}, Length::brief, {}};
   for (const char *name : {"heavy-on-light-10", "boxes-in-one-place", "far-1000-km"}) {
-    const Trial trial = case_named(name).build(Length::brief);
-    results.add(case_named(name), trial, run_trial(reported_name(case_named(name), Length::brief), trial, results.solvers.front(), {}));
+    results.add(case_named(name), case_named(name).build(Length::brief).scene, run_case(case_named(name), Length::brief, results.solvers.front(), {}));
   }
   const Json json = results_json(results);
   REQUIRE(json["cases"].size() == 3);

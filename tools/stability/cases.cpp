@@ -70,6 +70,14 @@ uint64_t steps_for(Length length, uint64_t full, uint64_t quick)
   return length == Length::full ? full : length == Length::quick ? quick : std::min<uint64_t>(quick, 20);
 }
 
+Settings with_substeps(uint32_t substeps)
+{
+  Settings settings;
+  settings.substeps = substeps;
+  settings.contact_hertz = 12.0f * float(substeps);
+  return settings;
+}
+
 Check check(std::string what, std::string unit, double bound, Figure value)
 {
   Check made;

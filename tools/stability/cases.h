@@ -48,6 +48,10 @@ struct Standing {
 };
 void add_standing(Trial &trial, const Standing &bounds);
 
+/* The setting that heavy loads and tall stacks need: more substeps, and contacts as stiff as those allow (h w <= sqrt 2 is the
+ * limit of stability of a soft contact, 0.2 / h hertz is below it). docs/stability.md derives both. */
+Settings with_substeps(uint32_t substeps);
+
 Check check(std::string what, std::string unit, double bound, Figure value);
 Check at_end(Check check);
 

@@ -15,6 +15,7 @@ Trial standing_trial(const std::string &spec, uint64_t steps, const Standing &bo
 {
   Trial trial = trial_of(load_scene(spec), steps);
   trial.every = std::max<uint64_t>(1, trial.scene.bodies.size() / 200);
+  trial.documented = with_substeps(16);
   add_standing(trial, bounds);
   return trial;
 }

@@ -29,7 +29,8 @@ Json result_json(const Result &result)
           {"unit", outcome.headline.unit},
           {"what", outcome.headline.what},
           {"group", result.which.group},
-          {"settings", result.settings},
+          {"settings", outcome.settings},
+          {"default_passed", outcome.default_passed},
           {"steps", outcome.steps},
           {"ms", outcome.milliseconds_per_step},
           {"note", outcome.note},
@@ -47,7 +48,9 @@ std::string with_unit(double figure, const std::string &unit)
 PageCell verdict_cell(const Result &result)
 {
   const Outcome &outcome = result.outcome;
-  PageCell cell(fmt::format("{} {}", outcome.passed ? "pass" : "FAIL", with_unit(outcome.headline.figure, outcome.headline.unit)), outcome.headline.figure);
+  const std::string settings = outcome.passed && !outcome.default_passed ? " with " + outcome.settings : "";
+  PageCell cell(fmt::format("{} {}{}", outcome.passed ? "pass" : "FAIL", with_unit(outcome.headline.figure, outcome.headline.unit), settings),
+                outcome.headline.figure);
   cell.mark = outcome.passed ? "good" : "bad";
   return cell;
 }
@@ -139,7 +142,7 @@ void add_case(Page &page, const CaseResults &results)
 {
   const Result &first = *results.front();
   page.subsection(first.outcome.name);
-  page.paragraph(fmt::format("{}. Passes if: {}. Settings: {}; {} steps.", first.which.what, first.which.criterion, first.settings, first.outcome.steps));
+  page.paragraph(fmt::format("{}. Passes if: {}. Settings: {}; {} steps.", first.which.what, first.which.criterion, first.outcome.settings, first.outcome.steps));
   for (const Result *result : results)
     if (!result->outcome.note.empty()) page.paragraph(fmt::format("{}: {}", result->outcome.solver, result->outcome.note));
   const Window window = window_of(first.shapes, first.start, first.outcome.end);
@@ -186,10 +189,9 @@ std::string results_page(const Results &results, const std::string &command)
   return page.text();
 }
 
-void Results::add(const Case &which, const Trial &trial, Outcome outcome)
+void Results::add(const Case &which, const Scene &scene, Outcome outcome)
 {
-  std::string settings = settings_text(settings_of(trial, outcome.solver));
-  results.push_back({which, std::move(outcome), std::move(settings), trial.scene.bodies, trial.scene.shapes});
+  results.push_back({which, std::move(outcome), scene.bodies, scene.shapes});
 }
 
 std::string series_csv(const Results &results)

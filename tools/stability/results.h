@@ -9,7 +9,6 @@ namespace tandem::stability {
 struct Result {
   Case which;
   Outcome outcome;
-  std::string settings;
   std::vector<Body> start; /* for the pictures, with the shapes */
   std::vector<Shape> shapes;
 };
@@ -20,7 +19,7 @@ struct Results {
   Length length;
   std::vector<Result> results; /* case by case, within each solver by solver */
 
-  void add(const Case &which, const Trial &trial, Outcome outcome);
+  void add(const Case &which, const Scene &scene, Outcome outcome);
 };
 
 Json results_json(const Results &results);

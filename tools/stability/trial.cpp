@@ -130,6 +130,7 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
   outcome.name = name;
   outcome.solver = solver;
   const Settings settings = settings_of(trial, solver);
+  outcome.settings = settings_text(settings);
   std::vector<Record> records;
   for (const Check &check : trial.checks) records.push_back({&check, nothing_seen, {}});
   try {
@@ -139,7 +140,31 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
   } catch (const std::exception &error) {
     fail(outcome, trial, error.what());
   }
+  outcome.default_passed = outcome.passed;
   return outcome;
+}
+
+Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
+                 const std::function<void(uint64_t done, uint64_t of)> &after_step)
+{
+  const std::string name = reported_name(which, length);
+  const Trial trial = which.build(length);
+  Outcome first = run_trial(name, trial, solver, placement, after_step);
+  if (first.passed || !trial.documented || length == Length::brief) return first;
+  Trial again = which.build(length); /* its figures have seen nothing yet */
+  const Settings own = settings_for(solver);
+  again.settings = *trial.documented;
+  again.settings.substeps = std::max(again.settings.substeps, own.substeps);
+  again.settings.iterations = std::max(again.settings.iterations, own.iterations);
+  again.own_passes = true;
+  Outcome second = run_trial(name, again, solver, placement, after_step);
+  if (!second.passed) {
+    first.note += fmt::format("{}fails with {} too", first.note.empty() ? "" : "; ", second.settings);
+    return first;
+  }
+  second.default_passed = false;
+  second.note = fmt::format("with {}; by default {:.3g} {} ({})", second.settings, first.headline.figure, first.headline.unit, first.headline.what);
+  return second;
 }
 
 std::string settings_text(const Settings &settings)

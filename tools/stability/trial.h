@@ -48,6 +48,7 @@ struct Check {
 struct Trial {
   Scene scene;
   Settings settings;
+  std::optional<Settings> documented; /* tried if the case fails: what it needs, where the default settings do not do */
   bool own_passes = false; /* substeps and iterations are the case's point: a solver's own defaults do not replace them */
   uint64_t steps = 600;
   uint64_t every = 1;       /* steps between two moments that are looked at; the last step always is */
@@ -87,7 +88,9 @@ struct Outcome {
   bool passed = false;
   CheckResult headline; /* the first check that failed, else the first */
   std::vector<CheckResult> checks;
-  std::string note;           /* why there is no figure, or which body was lost */
+  std::string settings;       /* settings_text() of the run */
+  bool default_passed = false; /* false and passed: with the documented settings */
+  std::string note;           /* why there is no figure, which body was lost, or what the default settings gave */
   double milliseconds_per_step = 0;
   uint64_t steps = 0; /* done */
   uint64_t body_hash = 0;
@@ -101,6 +104,10 @@ Settings settings_of(const Trial &trial, const std::string &solver);
  * reason as its note. `after_step(done, of)` may be empty. */
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
+
+/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is returned. */
+Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
+                 const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
 /* What differs from the defaults: "dt 0.1, iterations 1000"; "default" if nothing does. */
 std::string settings_text(const Settings &settings);
