@@ -29,10 +29,10 @@ __kernel void problem_jacobi(__global const uint *problem_start, __global const 
   problem_jacobi_item(problem_start, problem_column, problem_block, problem_free, problem_step, from, to, i);
 }
 
-__kernel void problem_change(__global const row *problem_impulse, __global const row *problem_previous,
-                             __global memory_real *change, RANGE)
+__kernel void problem_change(__global const row *problem_step, __global const row *problem_impulse,
+                             __global const row *problem_previous, __global memory_real *change, RANGE)
 {
-  FOR_EACH_IN_RANGE(i) problem_change_item(problem_impulse, problem_previous, change, i);
+  FOR_EACH_IN_RANGE(i) problem_change_item(problem_step, problem_impulse, problem_previous, change, i);
 }
 
 __kernel void problem_conjugate(__global const memory_real *now, __global const memory_real *before, __global row *problem_impulse,

@@ -12,6 +12,7 @@
 #include "host/launcher.h"
 #include "host/primitives.h"
 #include "host/scene.h"
+#include "shared/problem/residual.h"
 
 namespace tandem {
 namespace {
@@ -29,8 +30,8 @@ public:
     run({Kernel::problem_prepare, {Buffer::problem_term_a, Buffer::problem_term_b}});
     add_up(Reduction::sum, Buffer::problem_term_a, Buffer::problem_trace);
     add_up(Reduction::sum, Buffer::problem_term_b, Buffer::problem_sum);
-    const double rho = 8.0 * 3 * contacts_ / memory_.read_reals(Buffer::problem_trace, 1)[0]; /* rho_of() of the kernels */
-    const double size = rho * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
+    const double trace = memory_.read_reals(Buffer::problem_trace, 1)[0];
+    const double size = double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
     scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and found at once */
   }
   ~Solver() { backend_.finish(); }

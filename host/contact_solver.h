@@ -1,6 +1,6 @@
 /* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
  *
- * The launches of shared/problem/ in order: see docs/metrics.md for what is measured and shared/problem/sweep.h for the methods.
+ * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and shared/problem/sweep.h for the methods.
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /* residual.h - how far the impulses of a friction problem are from its solution, contact by contact.
  *
- * Three measures that are 0 at a solution and nowhere else (the third: in the cone and nowhere else); docs/metrics.md defines them
+ * Three measures that are 0 at a solution and nowhere else (the third: in the cone and nowhere else); docs/contact-problems.md defines them
  * and says why so. Each contact writes its term and a fixed tree adds them (shared/parallel/reduce.h).
  *
  * natural           | r - P_K(r - rho (u + mu |u_T| n)) |^2
@@ -15,7 +15,7 @@
 #include "shared/problem/friction_problem.h"
 
 /* rho of the problem: an impulse for a velocity, RHO_FACTOR over the mean of the diagonal of W. */
-#define RHO_FACTOR R(8.0)
+#define RHO_FACTOR R(10.0)
 SHARED real rho_of(GLOBAL const uint *counts, GLOBAL const memory_real *problem_trace)
 {
   return RHO_FACTOR * R(3.0) * to_real(counts[COUNT_LENGTH]) / problem_trace[0];

@@ -81,10 +81,14 @@ SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const u
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, from, to, 1, i);
 }
 
-/* What a pass has changed, squared. */
-SHARED void problem_change_item(GLOBAL const row *problem_impulse, GLOBAL const row *problem_previous, GLOBAL memory_real *change, uint i)
+/* What a pass has changed, squared, in the metric in which the pass descends: over the steps, so that normal and tangents count
+ * by their masses. */
+SHARED void problem_change_item(GLOBAL const row *problem_step, GLOBAL const row *problem_impulse, GLOBAL const row *problem_previous,
+                                GLOBAL memory_real *change, uint i)
 {
-  change[i] = length_squared(subtract(xyz(load_row(problem_impulse, i)), xyz(load_row(problem_previous, i))));
+  vec4 step = load_row(problem_step, i);
+  vec3 moved = subtract(xyz(load_row(problem_impulse, i)), xyz(load_row(problem_previous, i)));
+  change[i] = moved.x * moved.x / step.x + (moved.y * moved.y + moved.z * moved.z) / step.y;
 }
 
 /* now, before: the squared changes of this pass and of the one before; the first pass has none before it. */
