@@ -5,8 +5,9 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -23,9 +24,8 @@ public:
   explicit Numbers(const std::string &path) : path_(path)
   {
     std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    if (!file || !(text << file.rdbuf())) throw InputError(fmt::format("{}: cannot be read as a contact problem", path));
-    text_ = text.str();
+    if (!file || std::filesystem::is_directory(path)) throw InputError(fmt::format("{}: cannot be read as a contact problem", path));
+    text_.assign(std::istreambuf_iterator<char>(file), {});
   }
 
   [[noreturn]] void refuse(const std::string &why) const { throw InputError(fmt::format("{}: line {}: {}", path_, line_, why)); }

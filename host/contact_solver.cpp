@@ -27,7 +27,7 @@ public:
       if (row_of(kernel_at(k)).stage == Stage::problem) kernels.push_back(kernel_at(k));
     backend_.prepare(0, kernels);
     upload_problem(problem);
-    run({Kernel::problem_prepare, {Buffer::problem_term_a, Buffer::problem_term_b}});
+    run({Kernel::problem_prepare, {Buffer::problem_term_a, Buffer::problem_term_b}, {}});
     add_up(Reduction::sum, Buffer::problem_term_a, Buffer::problem_trace);
     add_up(Reduction::sum, Buffer::problem_term_b, Buffer::problem_sum);
     const double trace = memory_.read_reals(Buffer::problem_trace, 1)[0];
@@ -47,7 +47,7 @@ public:
 
   double natural_residual()
   {
-    run({Kernel::problem_residual, {impulse_, Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c}});
+    run({Kernel::problem_residual, {impulse_, Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c}, {}});
     return relative(Buffer::problem_term_a);
   }
 
@@ -124,13 +124,13 @@ private:
   void jacobi_sweep()
   {
     const Buffer to = impulse_ == Buffer::problem_impulse ? Buffer::problem_previous : Buffer::problem_impulse;
-    run({Kernel::problem_jacobi, {impulse_, to}});
+    run({Kernel::problem_jacobi, {impulse_, to}, {}});
     impulse_ = to;
   }
 
   void conjugate()
   {
-    run({Kernel::problem_change, {Buffer::problem_term_a}});
+    run({Kernel::problem_change, {Buffer::problem_term_a}, {}});
     add_up(Reduction::sum, Buffer::problem_term_a, change_);
     run({Kernel::problem_conjugate, {change_, change_before_}, {conjugate_passes_++ == 0 ? 1u : 0u}});
     std::swap(change_, change_before_);
