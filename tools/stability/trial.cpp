@@ -181,6 +181,7 @@ std::string settings_text(const Settings &settings)
   add("contact_damping_ratio", settings.contact_damping_ratio, defaults.contact_damping_ratio);
   add("push_speed", settings.push_speed, defaults.push_speed);
   add("slop", settings.slop, defaults.slop);
+  add("slop_share", settings.slop_share, defaults.slop_share);
   add("restitution_speed", settings.restitution_speed, defaults.restitution_speed);
   return text.empty() ? "default" : text;
 }
