@@ -14,6 +14,7 @@ Trial sizes_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
   add_ground(trial.scene);
+  trial.documented = with_substeps(32);
   add_body(trial.scene, Motion::dynamic, box_shape(500, 500, 500), {-600, 500, 0}, 1e9f);
   for (int i = 0; i < 3; ++i) add_body(trial.scene, Motion::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
   trial.checks.push_back(check("small cubes moved by", "m", 2e-4, [start = trial.scene.bodies](const Moment &moment) {
@@ -37,6 +38,7 @@ Case size_case(const std::string &name, double edge, double gravity)
           [edge, gravity](Length length) {
             Trial trial = trial_of(empty_scene({0, float(-gravity), 0}), steps_for(length, 300, 300));
             add_ground(trial.scene);
+            trial.documented = with_substeps(32);
             for (int i = 0; i < 5; ++i)
               add_body(trial.scene, Motion::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)), {0, float(edge * (i + 0.5)), 0},
                        float(1000 * edge * edge * edge));

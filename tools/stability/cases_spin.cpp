@@ -65,6 +65,8 @@ Trial top_trial(Length length)
   Trial trial = trial_of(load_scene("tops"), steps_for(length, 5000, 5000));
   trial.settings.step = 1e-3f;
   trial.every = 20;
+  trial.documented = trial.settings;
+  trial.documented->slop = 1e-4f; /* sunk by 5 mm the top precesses about another point than its corner */
   const double rate = steady_precession(0.1, 100, 0.3, 10);
   trial.checks.push_back(at_end(check("error of the precession's angle", "", 0.05, precession_error(rate))));
   trial.checks.push_back(check("change of the lean", "rad", 0.05, nutation(trial.scene)));
