@@ -1,0 +1,329 @@
+/* island_solver.cpp - see island_solver.h. The one file of the library that uses Eigen.
+ *
+ * Results must be the same on every processor. Eigen's blocked products cut their sums by the size of the caches, so none
+ * is used: the factorisation is FullPivLU, which changes one element at a time, and sums are loops.
+ */
+#include "host/solvers/island_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace tandem {
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/* Four points of a face carry one load in many ways; a little compliance, relative to each row, chooses one. */
+constexpr double compliance = 1e-9;
+constexpr double tolerance = 1e-9;
+constexpr double rounding = 1e-13; /* of the sums that make a speed */
+constexpr int rounds = 4, newton_limit = 16, first_sweeps = 32;
+
+class IslandSolver {
+public:
+  explicit IslandSolver(IslandProblem &problem)
+      : problem_(problem), n_(problem.rows), matrix_(Eigen::Map<const Matrix>(problem.matrix.data(), n_, n_)), step_(n_), speed_(n_), map_(n_)
+  {
+    for (Eigen::Index i = 0; i < n_; ++i) matrix_(i, i) *= 1 + compliance;
+    for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
+    for (const ManifoldRows &m : problem_.manifolds)
+      if (m.slides) step_[tangent(m)] = step_[tangent(m) + 1] = tangent_step(tangent(m));
+  }
+
+  IslandResult run()
+  {
+    Vector x = Eigen::Map<const Vector>(problem_.impulse.data(), n_);
+    admit(x);
+    best_ = x;
+    result_.residual = residual(x);
+    for (int round = 0; round < rounds && !result_.converged; ++round) {
+      newton(x);
+      if (result_.converged) break;
+      if (residual(x) > result_.residual) x = best_;
+      sweep(x, first_sweeps << round);
+    }
+    std::copy_n(best_.data(), n_, problem_.impulse.begin());
+    return result_;
+  }
+
+private:
+  static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
+  static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
+
+  /* One step for both, or projecting on a circle would not be a projection: 1 / largest eigenvalue. */
+  double tangent_step(Eigen::Index t) const
+  {
+    const double a = matrix_(t, t), b = matrix_(t + 1, t + 1), mixed = matrix_(t, t + 1);
+    return 2 / (a + b + std::sqrt((a - b) * (a - b) + 4 * mixed * mixed));
+  }
+
+  static double pressure(const ManifoldRows &m, const Vector &x)
+  {
+    double sum = 0;
+    for (uint32_t k = 0; k < m.normals; ++k) sum += x[m.first + k];
+    return std::max(sum, 0.0);
+  }
+
+  void evaluate_speeds(const Vector &x)
+  {
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      double sum = problem_.offset[static_cast<size_t>(i)];
+      for (Eigen::Index k = 0; k < n_; ++k) sum += matrix_(k, i) * x[k];
+      speed_[i] = sum;
+    }
+  }
+
+  /* What the laws allow nearest to y, into y. */
+  static void project_tangent(double radius, double &first, double &second)
+  {
+    const double length = std::sqrt(first * first + second * second);
+    if (length <= radius) return;
+    first *= radius / length;
+    second *= radius / length;
+  }
+
+  void admit(Vector &x) const
+  {
+    for (const ManifoldRows &m : problem_.manifolds) {
+      for (uint32_t k = 0; k < m.normals; ++k) x[m.first + k] = std::max(x[m.first + k], 0.0);
+      const double limit = m.friction * pressure(m, x);
+      if (m.slides) project_tangent(limit, x[tangent(m)], x[tangent(m) + 1]);
+      if (m.twists) x[twist(m)] = std::clamp(x[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
+    }
+  }
+
+  /* map = x - projection(x - step * speed): zero at a solution. */
+  void evaluate_map(const Vector &x)
+  {
+    evaluate_speeds(x);
+    map_ = x - step_.cwiseProduct(speed_);
+    for (const ManifoldRows &m : problem_.manifolds) {
+      for (uint32_t k = 0; k < m.normals; ++k) map_[m.first + k] = std::max(map_[m.first + k], 0.0);
+      const double limit = m.friction * pressure(m, x);
+      if (m.slides) project_tangent(limit, map_[tangent(m)], map_[tangent(m) + 1]);
+      if (m.twists) map_[twist(m)] = std::clamp(map_[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
+    }
+    map_ = x - map_;
+  }
+
+  double merit() const
+  {
+    double sum = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) sum += map_[i] * map_[i] / step_[i];
+    return sum;
+  }
+
+  double residual(const Vector &x)
+  {
+    evaluate_map(x);
+    double worst = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) worst = std::max(worst, std::abs(map_[i]) / step_[i]);
+    return worst;
+  }
+
+  double accepted_residual(const Vector &x) const
+  {
+    double largest = 0, sums = 0;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      double sum = 0;
+      for (Eigen::Index k = 0; k < n_; ++k) sum += std::abs(matrix_(k, i) * x[k]);
+      sums = std::max(sums, sum);
+      largest = std::max(largest, std::abs(problem_.offset[static_cast<size_t>(i)]));
+    }
+    return tolerance * largest + rounding * sums;
+  }
+
+  /* Judges what is inside the laws: that is what the bodies get. True once it is good enough. */
+  bool keep_if_better(const Vector &x)
+  {
+    Vector inside = x;
+    admit(inside);
+    const double now = residual(inside);
+    if (now <= result_.residual) {
+      result_.residual = now;
+      best_ = inside;
+    }
+    result_.converged = now <= accepted_residual(inside);
+    return result_.converged;
+  }
+
+  /* Rows of the derivative of the map at x, whose speeds and map are evaluated. */
+  void linearise(const Vector &x)
+  {
+    derivative_.setZero(n_, n_);
+    for (const ManifoldRows &m : problem_.manifolds) {
+      for (uint32_t k = 0; k < m.normals; ++k) {
+        const Eigen::Index i = m.first + k;
+        if (x[i] - step_[i] * speed_[i] > 0) derivative_.row(i) = step_[i] * matrix_.row(i);
+        else derivative_(i, i) = 1;
+      }
+      const double limit = m.friction * pressure(m, x);
+      if (m.slides) linearise_tangent(m, limit, x);
+      if (m.twists) linearise_twist(m, limit * m.twist_radius, x);
+    }
+  }
+
+  /* On the cone: x - radius(x) * direction(x - step * speed). */
+  void linearise_tangent(const ManifoldRows &m, double radius, const Vector &x)
+  {
+    const Eigen::Index t = tangent(m);
+    const double first = x[t] - step_[t] * speed_[t], second = x[t + 1] - step_[t] * speed_[t + 1];
+    const double length = std::sqrt(first * first + second * second);
+    if (length <= radius) {
+      derivative_.row(t) = step_[t] * matrix_.row(t);
+      derivative_.row(t + 1) = step_[t] * matrix_.row(t + 1);
+      return;
+    }
+    derivative_(t, t) = derivative_(t + 1, t + 1) = 1;
+    if (radius <= 0) return;
+    const double along[2] = {first / length, second / length};
+    for (int a = 0; a < 2; ++a) {
+      for (int b = 0; b < 2; ++b) {
+        const double share = radius / length * ((a == b ? 1.0 : 0.0) - along[a] * along[b]);
+        derivative_(t + a, t + b) -= share;
+        derivative_.row(t + a) += share * step_[t] * matrix_.row(t + b);
+      }
+      for (uint32_t k = 0; k < m.normals; ++k) derivative_(t + a, m.first + k) -= along[a] * m.friction;
+    }
+  }
+
+  void linearise_twist(const ManifoldRows &m, double limit, const Vector &x)
+  {
+    const Eigen::Index i = twist(m);
+    const double wanted = x[i] - step_[i] * speed_[i];
+    if (std::abs(wanted) <= limit) {
+      derivative_.row(i) = step_[i] * matrix_.row(i);
+      return;
+    }
+    derivative_(i, i) = 1;
+    if (limit <= 0) return;
+    const double change = (wanted > 0 ? 1 : -1) * m.friction * m.twist_radius;
+    for (uint32_t k = 0; k < m.normals; ++k) derivative_(i, m.first + k) -= change;
+  }
+
+  bool alone(Eigen::Index i) const
+  {
+    for (Eigen::Index k = 0; k < n_; ++k)
+      if (derivative_(i, k) != (i == k ? 1.0 : 0.0)) return false;
+    return true;
+  }
+
+  /* Rows that are at rest (x = 0 and nothing else) are solved at sight; the others, scaled alike, by LU. */
+  Vector newton_change()
+  {
+    Vector change = -map_;
+    std::vector<Eigen::Index> coupled;
+    for (Eigen::Index i = 0; i < n_; ++i)
+      if (!alone(i)) coupled.push_back(i);
+    const auto size = static_cast<Eigen::Index>(coupled.size());
+    if (size == 0) return change;
+    std::vector<bool> is_coupled(static_cast<size_t>(n_), false);
+    for (Eigen::Index i : coupled) is_coupled[static_cast<size_t>(i)] = true;
+    Matrix system(size, size);
+    Vector right(size);
+    for (Eigen::Index r = 0; r < size; ++r) {
+      const Eigen::Index i = coupled[static_cast<size_t>(r)];
+      const double scale = 1 / std::sqrt(step_[i]);
+      double sum = -map_[i];
+      for (Eigen::Index k = 0; k < n_; ++k)
+        if (!is_coupled[static_cast<size_t>(k)]) sum -= derivative_(i, k) * change[k];
+      right[r] = scale * sum;
+      for (Eigen::Index c = 0; c < size; ++c) {
+        const Eigen::Index k = coupled[static_cast<size_t>(c)];
+        system(r, c) = scale * derivative_(i, k) * std::sqrt(step_[k]);
+      }
+    }
+    Eigen::FullPivLU<Matrix> factors;
+    factors.setThreshold(1e-14);
+    factors.compute(system);
+    const Vector solved = factors.solve(right);
+    for (Eigen::Index r = 0; r < size; ++r) {
+      const Eigen::Index i = coupled[static_cast<size_t>(r)];
+      change[i] = solved[r] * std::sqrt(step_[i]);
+    }
+    return change;
+  }
+
+  void newton(Vector &x)
+  {
+    for (int k = 0; k < newton_limit; ++k) {
+      if (keep_if_better(x)) return;
+      evaluate_map(x);
+      const double before = merit();
+      linearise(x);
+      ++result_.newton_steps;
+      const Vector change = newton_change();
+      if (!change.allFinite() || !search(x, change, before)) return;
+    }
+    keep_if_better(x);
+  }
+
+  /* Halves the change until it makes the map smaller. */
+  bool search(Vector &x, const Vector &change, double before)
+  {
+    for (double share = 1; share > 1.0 / 100; share *= 0.5) {
+      const Vector there = x + share * change;
+      evaluate_map(there);
+      if (!(merit() < (1 - 1e-4 * share) * before)) continue;
+      x = there;
+      return true;
+    }
+    return false;
+  }
+
+  void move(Vector &x, Eigen::Index i, double to)
+  {
+    const double change = to - x[i];
+    if (change == 0) return;
+    x[i] = to;
+    for (Eigen::Index k = 0; k < n_; ++k) speed_[k] += matrix_(k, i) * change;
+  }
+
+  void sweep_manifold(const ManifoldRows &m, Vector &x)
+  {
+    for (uint32_t k = 0; k < m.normals; ++k) {
+      const Eigen::Index i = m.first + k;
+      move(x, i, std::max(x[i] - step_[i] * speed_[i], 0.0));
+    }
+    const double limit = m.friction * pressure(m, x);
+    if (m.slides) {
+      const Eigen::Index t = tangent(m);
+      double first = x[t] - step_[t] * speed_[t], second = x[t + 1] - step_[t] * speed_[t + 1];
+      project_tangent(limit, first, second);
+      move(x, t, first);
+      move(x, t + 1, second);
+    }
+    if (!m.twists) return;
+    const Eigen::Index i = twist(m);
+    move(x, i, std::clamp(x[i] - step_[i] * speed_[i], -limit * m.twist_radius, limit * m.twist_radius));
+  }
+
+  void sweep(Vector &x, int count)
+  {
+    admit(x);
+    for (int k = 0; k < count; ++k) {
+      if (k % 16 == 0) {
+        if (keep_if_better(x)) return;
+        evaluate_speeds(x); /* anew: changes would add up their rounding */
+      }
+      for (const ManifoldRows &m : problem_.manifolds) sweep_manifold(m, x);
+      ++result_.sweeps;
+    }
+    keep_if_better(x);
+  }
+
+  IslandProblem &problem_;
+  Eigen::Index n_;
+  Matrix matrix_, derivative_;
+  Vector step_, speed_, map_, best_;
+  IslandResult result_;
+};
+
+} // namespace
+
+IslandResult solve_island(IslandProblem &problem) { return IslandSolver(problem).run(); }
+
+} // namespace tandem
