@@ -1,36 +1,86 @@
 /* island_solver.cpp - see island_solver.h. The one file of the library that uses Eigen.
  *
- * Results must be the same on every processor. Eigen's blocked products cut their sums by the size of the caches, so none
- * is used: the factorisation is FullPivLU, which changes one element at a time, and sums are loops.
+ * Results must be the same on every processor. Eigen's blocked products and factorisations cut their sums by the size of
+ * the caches, so only its vectors are used, and elimination goes row by row. Manifolds come in an order in which neighbours
+ * are near each other, so rows are short: a stack costs n b^2 instead of n^3.
  */
 #include "host/solvers/island_solver.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 namespace tandem {
 namespace {
 
 using Vector = Eigen::VectorXd;
-using Matrix = Eigen::MatrixXd;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/* Four points of a face carry one load in many ways; a little compliance, relative to each row, chooses one. */
-constexpr double compliance = 1e-9;
+/* Four points of a face carry one load in many ways, and floats have rounded each a little differently, so that no way fits
+ * exactly. A compliance, relative to each row's own, chooses the way nearest to the guess: at rest, where the guess is the
+ * answer, it gives no speed away. Much smaller, and rounding alone would decide which points bear. */
+constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* of the sums that make a speed */
 constexpr int rounds = 4, newton_limit = 16, first_sweeps = 32;
 
+/* Gaussian elimination with row pivots on rows that end early: [0, ends[i]). The solution replaces `right`; false: singular. */
+bool eliminate(Matrix &a, Vector &right)
+{
+  const Eigen::Index n = a.rows();
+  std::vector<Eigen::Index> ends(static_cast<size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) {
+    Eigen::Index end = n;
+    while (end > 0 && a(i, end - 1) == 0) --end;
+    ends[static_cast<size_t>(i)] = end;
+  }
+  const auto end_of = [&](Eigen::Index i) -> Eigen::Index & { return ends[static_cast<size_t>(i)]; };
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = k;
+    for (Eigen::Index i = k + 1; i < n; ++i)
+      if (std::abs(a(i, k)) > std::abs(a(pivot, k))) pivot = i;
+    if (!(std::abs(a(pivot, k)) > 1e-14)) return false;
+    if (pivot != k) {
+      a.row(pivot).swap(a.row(k));
+      std::swap(right[pivot], right[k]);
+      std::swap(end_of(pivot), end_of(k));
+    }
+    const Eigen::Index length = end_of(k) - k;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      if (a(i, k) == 0) continue;
+      const double share = a(i, k) / a(k, k);
+      a.row(i).segment(k, length) -= share * a.row(k).segment(k, length);
+      right[i] -= share * right[k];
+      end_of(i) = std::max(end_of(i), end_of(k));
+    }
+  }
+  for (Eigen::Index k = n; k-- > 0;) {
+    for (Eigen::Index c = k + 1; c < end_of(k); ++c) right[k] -= a(k, c) * right[c];
+    right[k] /= a(k, k);
+  }
+  return true;
+}
+
 class IslandSolver {
 public:
   explicit IslandSolver(IslandProblem &problem)
-      : problem_(problem), n_(problem.rows), matrix_(Eigen::Map<const Matrix>(problem.matrix.data(), n_, n_)), step_(n_), speed_(n_), map_(n_)
+      : problem_(problem), n_(problem.rows), matrix_(Eigen::Map<const Matrix>(problem.matrix.data(), n_, n_)),
+        offset_(Eigen::Map<const Vector>(problem.offset.data(), n_)), step_(n_), speed_(n_), map_(n_)
   {
-    for (Eigen::Index i = 0; i < n_; ++i) matrix_(i, i) *= 1 + compliance;
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      offset_[i] -= compliance * matrix_(i, i) * problem_.impulse[static_cast<size_t>(i)];
+      matrix_(i, i) *= 1 + compliance;
+    }
     for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
     for (const ManifoldRows &m : problem_.manifolds)
       if (m.slides) step_[tangent(m)] = step_[tangent(m) + 1] = tangent_step(tangent(m));
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      Eigen::Index first = 0, last = n_;
+      while (first < i && matrix_(i, first) == 0) ++first;
+      while (last > i + 1 && matrix_(i, last - 1) == 0) --last;
+      reach_.push_back({first, last});
+    }
   }
 
   IslandResult run()
@@ -40,7 +90,7 @@ public:
     best_ = x;
     result_.residual = residual(x);
     for (int round = 0; round < rounds && !result_.converged; ++round) {
-      newton(x);
+      newton(x, round % 2 == 0);
       if (result_.converged) break;
       if (residual(x) > result_.residual) x = best_;
       sweep(x, first_sweeps << round);
@@ -50,6 +100,12 @@ public:
   }
 
 private:
+  /* Where a row of the matrix is not zero. */
+  struct Reach {
+    Eigen::Index first, last;
+  };
+  const Reach &reach(Eigen::Index i) const { return reach_[static_cast<size_t>(i)]; }
+
   static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
   static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
 
@@ -70,8 +126,8 @@ private:
   void evaluate_speeds(const Vector &x)
   {
     for (Eigen::Index i = 0; i < n_; ++i) {
-      double sum = problem_.offset[static_cast<size_t>(i)];
-      for (Eigen::Index k = 0; k < n_; ++k) sum += matrix_(k, i) * x[k];
+      double sum = offset_[i];
+      for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) sum += matrix_(i, k) * x[k];
       speed_[i] = sum;
     }
   }
@@ -129,9 +185,9 @@ private:
     double largest = 0, sums = 0;
     for (Eigen::Index i = 0; i < n_; ++i) {
       double sum = 0;
-      for (Eigen::Index k = 0; k < n_; ++k) sum += std::abs(matrix_(k, i) * x[k]);
+      for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) sum += std::abs(matrix_(i, k) * x[k]);
       sums = std::max(sums, sum);
-      largest = std::max(largest, std::abs(problem_.offset[static_cast<size_t>(i)]));
+      largest = std::max(largest, std::abs(offset_[i]));
     }
     return tolerance * largest + rounding * sums;
   }
@@ -211,15 +267,15 @@ private:
     return true;
   }
 
-  /* Rows that are at rest (x = 0 and nothing else) are solved at sight; the others, scaled alike, by LU. */
-  Vector newton_change()
+  /* Rows that are at rest (x = 0 and nothing else) are solved at sight; the others, scaled alike, by elimination. */
+  bool newton_change(Vector &change) const
   {
-    Vector change = -map_;
+    change = -map_;
     std::vector<Eigen::Index> coupled;
     for (Eigen::Index i = 0; i < n_; ++i)
       if (!alone(i)) coupled.push_back(i);
     const auto size = static_cast<Eigen::Index>(coupled.size());
-    if (size == 0) return change;
+    if (size == 0) return true;
     std::vector<bool> is_coupled(static_cast<size_t>(n_), false);
     for (Eigen::Index i : coupled) is_coupled[static_cast<size_t>(i)] = true;
     Matrix system(size, size);
@@ -236,27 +292,27 @@ private:
         system(r, c) = scale * derivative_(i, k) * std::sqrt(step_[k]);
       }
     }
-    Eigen::FullPivLU<Matrix> factors;
-    factors.setThreshold(1e-14);
-    factors.compute(system);
-    const Vector solved = factors.solve(right);
+    if (!eliminate(system, right)) return false;
     for (Eigen::Index r = 0; r < size; ++r) {
       const Eigen::Index i = coupled[static_cast<size_t>(r)];
-      change[i] = solved[r] * std::sqrt(step_[i]);
+      change[i] = right[r] * std::sqrt(step_[i]);
     }
-    return change;
+    return true;
   }
 
-  void newton(Vector &x)
+  /* Careful: no step may make the map larger. At a kink none can; there whole steps, however large, often find the way. */
+  void newton(Vector &x, bool careful)
   {
+    Vector change;
     for (int k = 0; k < newton_limit; ++k) {
       if (keep_if_better(x)) return;
       evaluate_map(x);
       const double before = merit();
       linearise(x);
       ++result_.newton_steps;
-      const Vector change = newton_change();
-      if (!change.allFinite() || !search(x, change, before)) return;
+      if (!newton_change(change) || !change.allFinite()) return;
+      if (!careful) x += change;
+      else if (!search(x, change, before)) return;
     }
     keep_if_better(x);
   }
@@ -279,7 +335,7 @@ private:
     const double change = to - x[i];
     if (change == 0) return;
     x[i] = to;
-    for (Eigen::Index k = 0; k < n_; ++k) speed_[k] += matrix_(k, i) * change;
+    for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) speed_[k] += matrix_(i, k) * change;
   }
 
   void sweep_manifold(const ManifoldRows &m, Vector &x)
@@ -318,7 +374,8 @@ private:
   IslandProblem &problem_;
   Eigen::Index n_;
   Matrix matrix_, derivative_;
-  Vector step_, speed_, map_, best_;
+  Vector offset_, step_, speed_, map_, best_;
+  std::vector<Reach> reach_;
   IslandResult result_;
 };
 

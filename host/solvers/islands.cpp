@@ -131,6 +131,33 @@ std::vector<std::vector<uint32_t>> find_islands(const Rows &rows)
   return islands;
 }
 
+/* Constraints by their distance from `start` over shared moving bodies, breadth first. */
+std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &constraints, size_t start)
+{
+  const auto touch = [&](uint32_t one, uint32_t other) {
+    for (uint32_t body : {rows.a[one], rows.b[one]})
+      if (rows.moves(body) && (body == rows.a[other] || body == rows.b[other])) return true;
+    return false;
+  };
+  std::vector<uint32_t> order = {constraints[start]};
+  std::vector<bool> seen(constraints.size(), false);
+  seen[start] = true;
+  for (size_t at = 0; at < order.size(); ++at)
+    for (size_t k = 0; k < constraints.size(); ++k) {
+      if (seen[k] || !touch(order[at], constraints[k])) continue;
+      seen[k] = true;
+      order.push_back(constraints[k]);
+    }
+  return order;
+}
+
+/* Neighbours near each other, so that the matrix is narrow (Cuthill and McKee, 1969): from the far end of a first walk. */
+std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32_t> &constraints)
+{
+  const uint32_t end = walk_from(rows, constraints, 0).back();
+  return walk_from(rows, constraints, static_cast<size_t>(std::find(constraints.begin(), constraints.end(), end) - constraints.begin()));
+}
+
 /* --- rows of a constraint -------------------------------------------------------------------------- */
 
 /* speed = direction . (v_b - v_a) + turn_b . w_b - turn_a . w_a */
@@ -330,7 +357,8 @@ Outcome solve_one(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t
   uint32_t points = 0;
   for (uint32_t i : constraints) points += points_of(rows, i);
   if (points > most_island_points) return Outcome::left;
-  Island island(rows, constraints, pass);
+  const std::vector<uint32_t> order = in_narrow_order(rows, constraints);
+  Island island(rows, order, pass);
   if (!island.is_finite()) return Outcome::left;
   return island.solve() ? Outcome::solved : Outcome::stalled;
 }
