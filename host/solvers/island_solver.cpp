@@ -24,6 +24,8 @@ constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* of the sums that make a speed */
 constexpr int rounds = 4, newton_limit = 16, first_sweeps = 32;
+/* Where plain Newton stalls: much compliance about what is known, which is easy, then less and less (proximal point method). */
+constexpr double softened[] = {1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 
 /* Gaussian elimination with row pivots on rows that end early: [0, ends[i]). The solution replaces `right`; false: singular. */
 bool eliminate(Matrix &a, Vector &right)
@@ -68,10 +70,9 @@ public:
       : problem_(problem), n_(problem.rows), matrix_(Eigen::Map<const Matrix>(problem.matrix.data(), n_, n_)),
         offset_(Eigen::Map<const Vector>(problem.offset.data(), n_)), step_(n_), speed_(n_), map_(n_)
   {
-    for (Eigen::Index i = 0; i < n_; ++i) {
-      offset_[i] -= compliance * matrix_(i, i) * problem_.impulse[static_cast<size_t>(i)];
-      matrix_(i, i) *= 1 + compliance;
-    }
+    guess_ = Eigen::Map<const Vector>(problem.impulse.data(), n_);
+    own_ = matrix_.diagonal();
+    yield(compliance, guess_);
     for (Eigen::Index i = 0; i < n_; ++i) step_[i] = 1 / matrix_(i, i);
     for (const ManifoldRows &m : problem_.manifolds)
       if (m.slides) step_[tangent(m)] = step_[tangent(m) + 1] = tangent_step(tangent(m));
@@ -93,6 +94,7 @@ public:
       newton(x, round % 2 == 0);
       if (result_.converged) break;
       if (residual(x) > result_.residual) x = best_;
+      if (round > 0) soften(x);
       sweep(x, first_sweeps << round);
     }
     std::copy_n(best_.data(), n_, problem_.impulse.begin());
@@ -108,6 +110,32 @@ private:
 
   static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
   static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
+
+  /* Rows give way by the share of their own response to what x differs from `about`. */
+  void yield(double share, const Vector &about)
+  {
+    for (Eigen::Index i = 0; i < n_; ++i) {
+      offset_[i] = problem_.offset[static_cast<size_t>(i)] - share * own_[i] * about[i];
+      matrix_(i, i) = own_[i] * (1 + share);
+    }
+  }
+
+  void soften(Vector &x)
+  {
+    Vector change;
+    for (const double share : softened) {
+      yield(share, x);
+      for (int k = 0; k < newton_limit / 2; ++k) {
+        if (residual(x) <= accepted_residual(x)) break;
+        const double before = merit();
+        linearise(x);
+        ++result_.newton_steps;
+        if (!newton_change(change) || !change.allFinite() || !search(x, change, before)) break;
+      }
+      admit(x);
+    }
+    yield(compliance, guess_);
+  }
 
   /* One step for both, or projecting on a circle would not be a projection: 1 / largest eigenvalue. */
   double tangent_step(Eigen::Index t) const
@@ -374,7 +402,7 @@ private:
   IslandProblem &problem_;
   Eigen::Index n_;
   Matrix matrix_, derivative_;
-  Vector offset_, step_, speed_, map_, best_;
+  Vector guess_, own_, offset_, step_, speed_, map_, best_;
   std::vector<Reach> reach_;
   IslandResult result_;
 };

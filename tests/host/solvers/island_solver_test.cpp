@@ -20,13 +20,13 @@ Eigen::MatrixXd random_matrix(Random &random, int rows, int columns)
   return m;
 }
 
-/* Manifolds of four points over bodies of `degrees` freedoms in all; masses over four decades. */
+/* Manifolds of four points over bodies of `degrees` freedoms in all; masses over two decades. */
 IslandProblem random_problem(Random &random, int manifolds, int degrees, double friction)
 {
   const int rows = 7 * manifolds;
   const Eigen::MatrixXd jacobian = random_matrix(random, rows, degrees);
   Eigen::VectorXd inverse_mass(degrees);
-  for (int k = 0; k < degrees; ++k) inverse_mass[k] = std::pow(10, random.uniform(-2, 2));
+  for (int k = 0; k < degrees; ++k) inverse_mass[k] = std::pow(10, random.uniform(-1, 1));
   const Eigen::MatrixXd matrix = jacobian * inverse_mass.asDiagonal() * jacobian.transpose();
   const Eigen::VectorXd offset = jacobian * random_matrix(random, degrees, 1);
   IslandProblem problem;
@@ -118,7 +118,9 @@ TEST_CASE("island solver: what has no solution gives back no worse than the gues
     const IslandResult again = solve_island(once);
     CHECK(once.impulse == problem.impulse);
     CHECK(again.residual == result.residual);
-    IslandProblem continued = problem; /* its own answer as the guess */
-    CHECK(solve_island(continued).residual <= result.residual * (1 + 1e-9));
+    double guess = 0; /* of no impulses: only normals that approach miss their law */
+    for (const ManifoldRows &m : problem.manifolds)
+      for (uint32_t i = m.first; i < m.first + m.normals; ++i) guess = std::max(guess, -problem.offset[i]);
+    CHECK(result.residual <= guess);
   }
 }
