@@ -214,6 +214,7 @@ private:
 };
 
 double *component_of(row &r, uint32_t k) { return k == 0 ? &r.x : k == 1 ? &r.y : k == 2 ? &r.z : &r.w; }
+double value_of(const row &r, uint32_t k) { return k == 0 ? r.x : k == 1 ? r.y : k == 2 ? r.z : r.w; }
 
 void Island::add_row(const Row &row, double bias)
 {
@@ -247,7 +248,7 @@ void Island::add_constraint(uint32_t i)
 bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const
 {
   const Parameters &p = rows_.parameters;
-  const double old = *component_of(const_cast<row &>(rows_.normal_impulse[i]), k);
+  const double old = value_of(rows_.normal_impulse[i], k);
   const bool ahead = separation > 0;
   if (pass_ == island_pass_biased) {
     bias = ahead ? separation * p.inverse_substep : maximum(rate * minimum(separation + p.slop, 0.0), -p.push_speed);
@@ -255,8 +256,8 @@ bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, 
   }
   bias = ahead ? separation * p.inverse_substep : 0.0;
   if (pass_ == island_pass_bouncing) {
-    const double wished = *component_of(const_cast<row &>(rows_.bounce[i]), k);
-    const double highest = *component_of(const_cast<row &>(rows_.bounce[rows_.count + i]), k);
+    const double wished = value_of(rows_.bounce[i], k);
+    const double highest = value_of(rows_.bounce[rows_.count + i], k);
     if (wished >= 0 && highest > 0) {
       bias = -wished;
       return true;
@@ -345,7 +346,7 @@ void Island::note_highest()
   for (uint32_t i : constraints_)
     for (uint32_t k = 0; k < 4; ++k) {
       double *const highest = component_of(rows_.bounce[rows_.count + i], k);
-      *highest = std::max(*highest, *component_of(rows_.normal_impulse[i], k));
+      *highest = std::max(*highest, value_of(rows_.normal_impulse[i], k));
     }
 }
 

@@ -52,6 +52,15 @@ TEST_CASE("parity on CPU: a stage of the host stays there wherever it is placed,
   CHECK_THROWS_AS(backend_of_islands(Placement{"serial", {{"solve_islands", "no-such-backend"}}, false}), InputError);
 }
 
+TEST_CASE("parity on OpenCL: islands solved on the host between stages on a device")
+{
+  if (!has_pocl()) return;
+  const uint64_t expected = state_after("mixed:n=20", "serial", 8, settings_for("direct"));
+  World world(load_scene("mixed:n=20"), settings_for("direct"), Placement{"tbb", {{"setup", "cl:pocl"}, {"integrate", "cl:pocl"}}, false});
+  for (int k = 0; k < 8; ++k) world.step();
+  CHECK(world.state_hash() == expected);
+}
+
 /* Doubles of the reference are read and written back as doubles, whoever looks at the buffers in between. */
 TEST_CASE("parity on CPU: the solver direct in double does not round what passes through it")
 {

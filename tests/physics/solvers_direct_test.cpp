@@ -204,6 +204,38 @@ TEST_CASE("direct: islands past its limit are left to the iterative rows, and co
   CHECK(small.statistics().direct_islands == 10);
 }
 
+TEST_CASE("direct: a body that is not a number is taken out, and the stack beside it stands", "[physics][direct]")
+{
+  Scene scene = stack({1, 1, 1});
+  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {3, 0.5f, 0});
+  World world(scene, direct());
+  run(world, 5);
+  BodyState broken = world.bodies()[4];
+  broken.linear_velocity[1] = std::nanf("");
+  world.set_body_unchecked(4, broken);
+  run(world, 30);
+  REQUIRE(world.quarantined().size() == 1);
+  CHECK(world.quarantined()[0].body == 4);
+  CHECK(all_finite(world.bodies()));
+  CHECK(world.bodies()[3].position[1] == Approx(2.5).margin(1e-4));
+}
+
+TEST_CASE("direct: boxes in one place come apart without flying off", "[physics][direct]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  for (int k = 0; k < 6; ++k) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.6f, 0});
+  World world(scene, direct());
+  double fastest = 0;
+  for (int k = 0; k < 60; ++k) {
+    world.step();
+    for (const BodyState &state : world.bodies()) fastest = std::max<double>(fastest, vector_of(state.linear_velocity).norm());
+  }
+  INFO("six boxes in one place: fastest " << fastest << " m/s");
+  CHECK(all_finite(world.bodies()));
+  CHECK(fastest < 20);
+}
+
 TEST_CASE("direct: free fall follows the parabola", "[physics][direct]")
 {
   Scene scene = empty_scene();
