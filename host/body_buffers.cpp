@@ -141,6 +141,9 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   statistics.pairs = pairs;
   statistics.manifolds = counts[COUNT_CONSTRAINTS];
   statistics.colors = counts[COUNT_COLORS];
+  statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
+  statistics.direct_left = counts[COUNT_DIRECT_LEFT];
+  statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
   const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs);
   double sum = 0;
   for (uint32_t plane = 0; plane < 4; ++plane) {

@@ -35,7 +35,7 @@ constexpr size_t buffer_count = 0
 #undef BUFFER
     ;
 
-enum class Form : uint8_t { item, lanes, group };
+enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
 enum class Stage : uint8_t { parallel, broadphase, narrowphase, batching, setup, solve, integrate, problem };
 constexpr size_t stage_count = 8;

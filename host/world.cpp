@@ -10,6 +10,7 @@
 #include "host/body_buffers.h"
 #include "host/debug.h"
 #include "host/hash.h"
+#include "host/host_stages.h"
 #include "host/layout.h"
 #include "host/parameters.h"
 #include "host/specialise.h"
@@ -93,11 +94,24 @@ struct World::Implementation {
     return text;
   }
 
+  /* Stages of the host run there whatever is said of them; a name that means nothing is refused all the same. */
+  Backend &backend_for(const Placement &placement, Kernel kernel)
+  {
+    Backend &named = backend_named(backend_text(placement, kernel), placement.allow_inexact);
+    if (row_of(kernel).form != Form::host) return named;
+    std::unique_ptr<Backend> &host = backends[host_stages_name];
+    if (!host) {
+      host = make_host_stages();
+      host->set_profiling(profiling);
+    }
+    return *host;
+  }
+
   /* All that can fail comes before the first change of what is placed. */
   void place(const Placement &placement)
   {
     std::map<Backend *, std::vector<Kernel>> own;
-    for (Kernel kernel : kernels) own[&backend_named(backend_text(placement, kernel), placement.allow_inexact)].push_back(kernel);
+    for (Kernel kernel : kernels) own[&backend_for(placement, kernel)].push_back(kernel);
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;

@@ -14,6 +14,7 @@ const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 5, 1, launch_soft_step},
+      {"direct", "soft-step, then small islands solved to convergence in double on the CPU", 4, 1, launch_direct},
   };
   return list;
 }
