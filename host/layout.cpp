@@ -23,6 +23,9 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::PAIRS: return sizes.pairs;
   case Capacity::SWEEP_PAIRS: return sizes.sweep ? sizes.pairs : 0;
   case Capacity::SWEEP_BODIES: return sizes.sweep ? size_t{sizes.bodies} + 1 : 0;
+  case Capacity::CELL_BODIES: return sizes.two_stage ? sizes.bodies : 0;
+  case Capacity::CHECKED_BODIES: return sizes.check ? sizes.bodies : 0;
+  case Capacity::CHECKED_PAIRS: return sizes.check ? sizes.pairs : 0;
   case Capacity::CELLS: return sizes.grid ? size_t{sizes.cells} + 1 : 0;
   case Capacity::TILES: return spatial ? (size_t{sizes.bodies} + TILE) / TILE : 0;
   case Capacity::SORTABLE: return sortable;

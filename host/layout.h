@@ -17,6 +17,8 @@ struct Sizes {
   uint32_t features = 0;
   bool grid = false;
   bool sweep = false;
+  bool two_stage = false; /* batching by cells */
+  bool check = false;     /* batches are proven */
 };
 
 /* 0 for a buffer that the scene and settings do not need. */

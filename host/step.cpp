@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "host/batching/batcher.h"
 #include "host/primitives.h"
 
 namespace tandem {
@@ -99,16 +100,13 @@ private:
 
   void color_contacts()
   {
-    run(Kernel::match_pairs);
-    if (settings_.batching == "sequential") run(Kernel::color_in_order);
-    else
-      for (uint32_t round = 0; round < plan_.rounds; ++round) {
-        run(Kernel::color_bid, {round});
-        run(Kernel::color_assign, {round});
-      }
+    const Batcher &batcher = batcher_named(settings_.batching);
+    run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
+    batcher.launch(launcher_, plan_);
     run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan_.capacity_pairs, 0, 8);
     run(Kernel::color_starts);
+    if (settings_.check) check_batches(launcher_, plan_);
   }
 
   void solve_substep()

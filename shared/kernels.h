@@ -16,8 +16,12 @@
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/sweep.h"
+#include "shared/batching/cells.h"
+#include "shared/batching/check.h"
 #include "shared/batching/coloring.h"
+#include "shared/batching/iterative.h"
 #include "shared/batching/order.h"
+#include "shared/batching/single_group.h"
 #include "shared/solve/tail.h"
 
 #endif

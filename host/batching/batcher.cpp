@@ -1,0 +1,44 @@
+/* batcher.cpp - the rows of the batchers, and what they share; see batcher.h. */
+#include "host/batching/batcher.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <stdexcept>
+
+namespace tandem {
+
+std::span<const Batcher> batchers()
+{
+  static constexpr std::array<Batcher, 5> rows{{
+      {"coloring", true, batch_by_coloring},
+      {"sequential", false, batch_in_sequence},
+      {"single-group", false, batch_in_single_group},
+      {"iterative", false, batch_by_iteration},
+      {"two-stage", false, batch_in_two_stages},
+  }};
+  return rows;
+}
+
+const Batcher &batcher_named(const std::string &name)
+{
+  for (const Batcher &batcher : batchers())
+    if (name == batcher.name) return batcher;
+  throw std::logic_error("no batcher '" + name + "'");
+}
+
+void launch_kernel(Launcher &launcher, const StepPlan &plan, Kernel kernel, const std::vector<uint32_t> &values)
+{
+  const uint32_t last = row_of(kernel).items;
+  launcher.launch({kernel, {}, values, COUNT_ZERO, last, plan.known[last]});
+}
+
+void check_batches(Launcher &launcher, const StepPlan &plan)
+{
+  for (Kernel kernel : {Kernel::clear_body_marks, Kernel::clear_pair_marks, Kernel::mark_batches, Kernel::check_batches, Kernel::check_pairs})
+    launch_kernel(launcher, plan, kernel);
+}
+
+uint32_t batch_cells_for(uint32_t bodies) { return std::clamp<uint32_t>(std::bit_ceil(bodies / 512 + 1), 4, 8192); }
+
+} // namespace tandem
