@@ -45,10 +45,12 @@ __kernel void color_in_order(__global const uint *pair_a, __global const uint *p
 
 __kernel void color_in_group(__global const uint *pair_a, __global const uint *pair_b,
                              __global const uint *body_traits, __global uint *counts,
-                             __global uint *pair_color, __global uint *body_colors, __global uint *body_bid, RANGE)
+                             __global uint *pair_color, __global uint *body_colors, __global uint *body_bid,
+                             uint rounds, RANGE)
 {
-  __local uint local_memory[TILE + 1u];
-  color_in_group_group(pair_a, pair_b, body_traits, counts, pair_color, body_colors, body_bid, local_memory, GROUP_NUMBER);
+  __local uint local_memory[1];
+  color_in_group_group(pair_a, pair_b, body_traits, counts, pair_color, body_colors, body_bid, rounds, local_memory,
+                       GROUP_NUMBER);
   END_GROUP;
 }
 
@@ -68,10 +70,12 @@ __kernel void batch_reserve(__global const uint *pair_a, __global const uint *pa
   batch_reserve_item(pair_a, pair_b, body_traits, counts, pair_color, body_colors, body_bid, batch, round, i);
 }
 
-__kernel void batch_rest(__global uint *counts, __global uint *pair_color, RANGE)
+__kernel void batch_rest(__global const uint *pair_a, __global const uint *pair_b,
+                         __global const uint *body_traits, __global uint *counts, __global uint *pair_color,
+                         __global uint *body_colors, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  batch_rest_item(counts, pair_color, i);
+  batch_rest_item(pair_a, pair_b, body_traits, counts, pair_color, body_colors, i);
 }
 
 __kernel void clear_cells(__global uint *body_cells, RANGE)

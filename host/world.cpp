@@ -17,6 +17,7 @@
 #include "host/specialise.h"
 #include "host/step.h"
 #include "minicl/floating_point.h"
+#include "shared/batching/limits.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -70,7 +71,7 @@ struct World::Implementation {
   {
     StepPlan all = plan;
     all.colors = COLOR_LIMIT + 1;
-    all.rounds = most_rounds;
+    all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
     Recorder recorder;
     launch_step(recorder, all, settings);
     kernels = recorder.kernels;
@@ -218,7 +219,7 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
-  static constexpr uint32_t most_rounds = 4096;
+  static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
   Settings settings;

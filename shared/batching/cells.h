@@ -19,9 +19,9 @@
 #ifndef TANDEM_SHARED_BATCHING_CELLS_H
 #define TANDEM_SHARED_BATCHING_CELLS_H
 
+#include "shared/batching/coloring.h"
 #include "shared/batching/limits.h"
 #include "shared/batching/order.h"
-#include "shared/batching/single_group.h"
 #include "shared/conversion.h"
 
 /* Never negative: floor_to_int saturates at 2^30. */
@@ -75,6 +75,13 @@ SHARED void cell_keys_item(GLOBAL const Parameters *parameters, GLOBAL const uin
   uint inside = key < behind && owns_body(body_traits, body_cells, a, key / cells, key) && owns_body(body_traits, body_cells, b, key / cells, key);
   sort_key[i] = inside ? key : behind;
   sort_value[i] = i;
+}
+
+SHARED void clear_bids(GLOBAL const uint *body_traits, GLOBAL uint *body_bid, uint body)
+{
+  if (!is_moving(body_traits, body)) return;
+  ATOMIC_MIN(body_bid + 2u * body, 0u);
+  ATOMIC_MIN(body_bid + 2u * body + 1u, 0u);
 }
 
 /* One group a cell of the class `parity`: the rounds of coloring.h over its contacts alone. local_memory[round]: contacts

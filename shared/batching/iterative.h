@@ -50,10 +50,13 @@ SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
 }
 
 /* After the last batch: what is left goes to the tail. */
-SHARED void batch_rest_item(GLOBAL uint *counts, GLOBAL uint *pair_color, uint i)
+SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
+                            GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   pair_color[i] = COLOR_TAIL;
+  if (is_moving(body_traits, pair_a[i])) occupy_color(body_colors, pair_a[i], COLOR_TAIL);
+  if (is_moving(body_traits, pair_b[i])) occupy_color(body_colors, pair_b[i], COLOR_TAIL);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
 }
 
