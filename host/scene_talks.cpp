@@ -110,7 +110,7 @@ std::vector<BuiltInScene> talk_scenes()
            {{"nx", integer, 8, 1, 1000, "boxes along x"},
             {"ny", integer, 47, 1, 1000, "layers"},
             {"nz", integer, 8, 1, 1000, "boxes along z"},
-            {"jitter", real, 0.05, 0, 0.29, "largest random shift along x and z, m"},
+            {"jitter", real, 0.15, 0, 0.29, "largest random shift along x and z, m"},
             {"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"}},
            talk_3d_bodies,
            talk_3d}};

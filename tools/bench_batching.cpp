@@ -85,9 +85,9 @@ private:
       backend_.finish();
       const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
       const auto after = world_.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-      const bool whole = after[COUNT_UNCOLORED] == 0, exact = plan_.rounds <= after[COUNT_ROUNDS] + 3;
+      const bool whole = after[COUNT_UNCOLORED] == 0, wasteful = plan_.rounds > std::max(after[COUNT_ROUNDS] + 3, 4u);
       plan_.rounds = whole ? std::max(after[COUNT_ROUNDS] + 3, 4u) : 2 * plan_.rounds;
-      if (whole && exact) return milliseconds;
+      if (whole && !wasteful) return milliseconds;
     }
   }
 
