@@ -14,7 +14,6 @@
 
 #include "host/batching/batcher.h"
 #include "host/layout.h"
-#include "host/primitives.h"
 #include "host/scene_catalog.h"
 #include "tools/progress.h"
 
@@ -38,7 +37,7 @@ public:
     plan_.bodies = counts_[COUNT_BODIES];
     plan_.capacity_pairs = counts_[CAPACITY_PAIRS];
     plan_.rounds = 256;
-    const Sizes sizes{plan_.bodies, 1, plan_.capacity_pairs, counts_[CAPACITY_CELLS], plan_.features, true, false, true, true};
+    const Sizes sizes{plan_.bodies, 1, plan_.capacity_pairs, counts_[CAPACITY_CELLS], plan_.features};
     for (Buffer buffer : {Buffer::body_cells, Buffer::body_marks, Buffer::pair_marks}) memory.resize(buffer, bytes_of(buffer, sizes));
     prepare_kernels();
   }
@@ -69,8 +68,8 @@ private:
     counts_[COUNT_FIRST_CONFLICT] = counts_[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
     world_.memory().upload(Buffer::counts, counts_.data(), sizeof counts_);
     plan_.known = counts_;
-    launch_kernel(launcher_, plan_, Kernel::prepare_bodies);
-    launch_kernel(launcher_, plan_, Kernel::match_pairs, {keep ? 1u : 0u});
+    step_.run(Kernel::prepare_bodies);
+    step_.run(Kernel::match_pairs, {keep ? 1u : 0u});
     backend_.finish();
   }
 
@@ -81,7 +80,7 @@ private:
     for (;;) {
       begin(keep);
       const Clock::time_point start = Clock::now();
-      batcher.launch(launcher_, plan_);
+      batcher.launch(step_);
       backend_.finish();
       const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
       const auto after = world_.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL);
@@ -93,11 +92,10 @@ private:
 
   BatchTable check()
   {
-    launch_kernel(launcher_, plan_, Kernel::color_keys);
-    sort_pairs(launcher_, Buffer::sort_key, Buffer::sort_value, Buffer::sort_key_other, Buffer::sort_value_other, Buffer::sort_histogram,
-               Buffer::scan_sums, COUNT_PAIRS, plan_.capacity_pairs, 0, 8);
-    launch_kernel(launcher_, plan_, Kernel::color_starts);
-    check_batches(launcher_, plan_);
+    step_.run(Kernel::color_keys);
+    step_.sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan_.capacity_pairs, 0, 8);
+    step_.run(Kernel::color_starts);
+    launch_check(step_);
     const auto after = world_.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     BatchTable table;
     for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
@@ -112,6 +110,8 @@ private:
   Backend &backend_;
   DirectLauncher launcher_;
   StepPlan plan_;
+  Settings settings_;
+  StepLaunches step_{launcher_, plan_, settings_};
   std::array<uint32_t, COUNT_TOTAL> counts_{};
 };
 

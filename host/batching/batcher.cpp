@@ -27,16 +27,10 @@ const Batcher &batcher_named(const std::string &name)
   throw std::logic_error("no batcher '" + name + "'");
 }
 
-void launch_kernel(Launcher &launcher, const StepPlan &plan, Kernel kernel, const std::vector<uint32_t> &values)
-{
-  const uint32_t last = row_of(kernel).items;
-  launcher.launch({kernel, {}, values, COUNT_ZERO, last, plan.known[last]});
-}
-
-void check_batches(Launcher &launcher, const StepPlan &plan)
+void launch_check(StepLaunches &step)
 {
   for (Kernel kernel : {Kernel::clear_body_marks, Kernel::clear_pair_marks, Kernel::mark_batches, Kernel::check_batches, Kernel::check_pairs})
-    launch_kernel(launcher, plan, kernel);
+    step.run(kernel);
 }
 
 uint32_t batch_cells_for(uint32_t bodies) { return std::clamp<uint32_t>(std::bit_ceil(bodies / 512 + 1), 4, 8192); }

@@ -3,11 +3,11 @@
 
 namespace tandem {
 
-void batch_by_coloring(Launcher &launcher, const StepPlan &plan)
+void batch_by_coloring(StepLaunches &step)
 {
-  for (uint32_t round = 0; round < plan.rounds; ++round) {
-    launch_kernel(launcher, plan, Kernel::color_bid, {round});
-    launch_kernel(launcher, plan, Kernel::color_assign, {round});
+  for (uint32_t round = 0; round < step.plan().rounds; ++round) {
+    step.run(Kernel::color_bid, {round});
+    step.run(Kernel::color_assign, {round});
   }
 }
 

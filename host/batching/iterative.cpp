@@ -7,14 +7,14 @@
 
 namespace tandem {
 
-void batch_by_iteration(Launcher &launcher, const StepPlan &plan)
+void batch_by_iteration(StepLaunches &step)
 {
-  const uint32_t batches = std::min((plan.rounds + BATCH_ROUNDS - 1) / BATCH_ROUNDS, COLOR_LIMIT);
+  const uint32_t batches = std::min((step.plan().rounds + BATCH_ROUNDS - 1) / BATCH_ROUNDS, COLOR_LIMIT);
   for (uint32_t round = 0; round < batches * BATCH_ROUNDS; ++round) {
-    launch_kernel(launcher, plan, Kernel::batch_bid, {round / BATCH_ROUNDS, round});
-    launch_kernel(launcher, plan, Kernel::batch_reserve, {round / BATCH_ROUNDS, round});
+    step.run(Kernel::batch_bid, {round / BATCH_ROUNDS, round});
+    step.run(Kernel::batch_reserve, {round / BATCH_ROUNDS, round});
   }
-  if (batches == COLOR_LIMIT) launch_kernel(launcher, plan, Kernel::batch_rest);
+  if (batches == COLOR_LIMIT) step.run(Kernel::batch_rest);
 }
 
 } // namespace tandem

@@ -3,6 +3,6 @@
 
 namespace tandem {
 
-void batch_in_sequence(Launcher &launcher, const StepPlan &plan) { launch_kernel(launcher, plan, Kernel::color_in_order); }
+void batch_in_sequence(StepLaunches &step) { step.run(Kernel::color_in_order); }
 
 } // namespace tandem

@@ -3,6 +3,6 @@
 
 namespace tandem {
 
-void batch_in_single_group(Launcher &launcher, const StepPlan &plan) { launch_kernel(launcher, plan, Kernel::color_in_group, {plan.rounds}); }
+void batch_in_single_group(StepLaunches &step) { step.run(Kernel::color_in_group, {step.plan().rounds}); }
 
 } // namespace tandem

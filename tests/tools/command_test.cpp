@@ -310,10 +310,10 @@ TEST_CASE("command: --check proves the batches", "[command]")
   CHECK(fine.status == 0);
   CHECK(fine.out.find("free of conflict in all 3 steps") != std::string::npos);
   const Result wrong = tandem("diff box-stack:n=10,height=10 --batching sequential --check --between serial,tbb --steps 1 "
-                              "--plant color_in_order:pair_color:5");
+                              "--plant color_in_order:pair_color:8");
   CHECK(wrong.status == 1);
   CHECK(wrong.error.find("tandem: batches wrong in step 0: colour ") != std::string::npos);
-  CHECK(wrong.error.find("pairs (5, 4) and (6, 5)") != std::string::npos);
+  CHECK(wrong.error.find("pairs (4, 3) and (5, 4)") != std::string::npos);
 }
 
 TEST_CASE("command: bench batching", "[command]")

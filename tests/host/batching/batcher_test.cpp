@@ -120,7 +120,9 @@ TEST_CASE("batching: no conflict whatever the sizes of bodies and the number of 
   run(slab, 2);
   const Contacts contacts(slab);
   CHECK(contacts.touching() == 800);
-  CHECK(std::count(contacts.color.begin(), contacts.color.end(), COLOR_TAIL) == 400 - COLOR_LIMIT);
+  const auto tail = std::count(contacts.color.begin(), contacts.color.end(), COLOR_TAIL); /* a colour may be lost to the ground */
+  CHECK(tail >= 400 - COLOR_LIMIT);
+  CHECK(tail <= 402 - COLOR_LIMIT);
   CHECK_FALSE(slab.batch_fault());
 }
 
@@ -165,19 +167,26 @@ TEST_CASE("batching: talk-3d has the talk's 3,008 boxes, and the oracle's batche
   CHECK(contacts.color == batches_of_the_talk(contacts));
 }
 
+/* The same contacts, reached in ten steps and in none. */
 TEST_CASE("batching: batches but for kept colours follow from the contacts alone")
 {
   const std::string batching = GENERATE("sequential", "single-group", "iterative", "two-stage");
-  World world(load_scene("pyramid-2d:n=300"), settings_for(batching));
+  const Scene scene = load_scene("pyramid-2d:n=300");
+  World world(scene, settings_for(batching)), fresh(scene, settings_for(batching));
+  run(world, 10);
+  const std::vector<BodyState> states = world.bodies();
+  for (uint32_t i = 0; i < states.size(); ++i) fresh.set_body(i, states[i]);
   world.step();
-  const std::vector<uint32_t> first = Contacts(world).color;
-  world.step();
+  fresh.step();
+  const Contacts reached(world), anew(fresh);
   CAPTURE(batching);
-  CHECK(Contacts(world).color == first);
-  CHECK(Contacts(world).sizes().size() <= 11); /* six contacts at a body: twice as many less one, at most */
+  CHECK(reached.touching() > 400);
+  REQUIRE(reached.points == anew.points);
+  CHECK(reached.color == anew.color);
+  CHECK(reached.sizes().size() <= 11); /* six contacts at a body: twice as many less one, at most */
 }
 
-/* A column of cubes: pair k is (k + 1, k), its colours alternate, and one more or less is that of its neighbours. */
+/* A column of cubes: two pairs a cube, with the ground's bounds and with the cube below; contact (k + 1, k) has colour k % 2. */
 TEST_CASE("batching: the check finds and names a planted conflict")
 {
   const std::string backend = GENERATE("serial", "serial:order=backward", "tbb:threads=7,lanes=8");
@@ -186,9 +195,11 @@ TEST_CASE("batching: the check finds and names a planted conflict")
   REQUIRE_FALSE(world.batch_fault());
   world.set_observer([&](const Launch &launch) {
     if (launch.kernel != Kernel::color_in_order) return;
-    const uint32_t color = world.memory().read<uint32_t>(Buffer::pair_color, 1, 5)[0];
-    const uint32_t planted = 1 - color;
-    world.memory().upload(Buffer::pair_color, &planted, sizeof planted, 5 * sizeof planted);
+    const Contacts contacts(world);
+    REQUIRE(contacts.a[8] == 5);
+    REQUIRE(contacts.color[8] == 0);
+    const uint32_t planted = 1;
+    world.memory().upload(Buffer::pair_color, &planted, sizeof planted, 8 * sizeof planted);
   });
   world.step();
   REQUIRE(world.batch_fault());
@@ -196,11 +207,11 @@ TEST_CASE("batching: the check finds and names a planted conflict")
   CHECK(fault.conflict);
   CHECK(fault.step == 1);
   CHECK(fault.color == 1);
-  CHECK(fault.body == 5);
-  CHECK(fault.pair == std::array<uint32_t, 2>{5, 4});
-  CHECK(fault.other == std::array<uint32_t, 2>{6, 5});
+  CHECK(fault.body == 4);
+  CHECK(fault.pair == std::array<uint32_t, 2>{4, 3});
+  CHECK(fault.other == std::array<uint32_t, 2>{5, 4});
   CHECK(fault.constraints == 3);
-  CHECK_THAT(describe(fault), ContainsSubstring("step 1: colour 1 touches body 5 twice, in pairs (5, 4) and (6, 5)"));
+  CHECK_THAT(describe(fault), ContainsSubstring("step 1: colour 1 touches body 4 twice, in pairs (4, 3) and (5, 4)"));
 }
 
 TEST_CASE("batching: the check finds a contact that no batch holds, and a batch that holds none")
