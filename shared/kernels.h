@@ -23,5 +23,7 @@
 #include "shared/batching/order.h"
 #include "shared/batching/single_group.h"
 #include "shared/solve/tail.h"
+#include "shared/problem/residual.h"
+#include "shared/problem/sweep.h"
 
 #endif
