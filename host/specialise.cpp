@@ -74,16 +74,6 @@ uint32_t body_features(const Scene &scene)
   return features;
 }
 
-float median_radius(const Scene &scene)
-{
-  std::vector<float> radii;
-  for (const Body &body : scene.bodies)
-    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene.shapes[body.shape]));
-  if (radii.empty()) return 0;
-  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  return radii[radii.size() / 2];
-}
-
 std::vector<uint32_t> large_bodies(const Scene &scene)
 {
   const float limit = large_ratio * median_radius(scene);
@@ -101,6 +91,16 @@ std::vector<uint32_t> large_bodies(const Scene &scene)
 }
 
 } // namespace
+
+float median_radius(const Scene &scene)
+{
+  std::vector<float> radii;
+  for (const Body &body : scene.bodies)
+    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene.shapes[body.shape]));
+  if (radii.empty()) return 0;
+  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  return radii[radii.size() / 2];
+}
 
 float bounding_radius(const Shape &shape)
 {

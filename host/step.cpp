@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "host/batching/batcher.h"
 #include "host/primitives.h"
 #include "host/solvers/solvers.h"
 #include "host/step_launches.h"
@@ -94,16 +95,13 @@ private:
 
   void color_contacts()
   {
-    run(Kernel::match_pairs);
-    if (settings().batching == "sequential") run(Kernel::color_in_order);
-    else
-      for (uint32_t round = 0; round < plan().rounds; ++round) {
-        run(Kernel::color_bid, {round});
-        run(Kernel::color_assign, {round});
-      }
+    const Batcher &batcher = batcher_named(settings().batching);
+    run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
+    batcher.launch(*this);
     run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
     run(Kernel::color_starts);
+    if (settings().check) launch_check(*this);
   }
 
   void commit()

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "host/batch_fault.h"
+#include "host/batching/batcher.h"
 #include "host/body_buffers.h"
 #include "host/debug.h"
 #include "host/hash.h"
@@ -16,6 +18,8 @@
 #include "host/specialise.h"
 #include "host/step.h"
 #include "minicl/floating_point.h"
+#include "shared/batching/limits.h"
+#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -71,6 +75,7 @@ struct World::Implementation {
   {
     StepPlan all = plan;
     all.colors = COLOR_LIMIT + 1;
+    all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
     Recorder recorder;
     launch_step(recorder, all, settings);
     kernels = recorder.kernels;
@@ -142,6 +147,8 @@ struct World::Implementation {
     counts[CAPACITY_PAIRS] = plan.capacity_pairs;
     counts[CAPACITY_CELLS] = plan.capacity_cells;
     counts[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    counts[COUNT_BATCH_CELLS] = batch_cells_for(plan.bodies);
+    counts[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
     memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
     index_of_body.resize(plan.bodies);
     for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
@@ -163,6 +170,7 @@ struct World::Implementation {
     known[COUNT_ZERO] = 0;
     known[COUNT_ONE] = 1;
     known[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    known[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
     known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
     for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
   }
@@ -183,6 +191,7 @@ struct World::Implementation {
   /* Some rounds and a colour of slack keep a growing scene from repeating every step. */
   void accept()
   {
+    if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
     ++statistics.steps;
     plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
     plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
@@ -229,7 +238,7 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
-  static constexpr uint32_t most_rounds = 4096;
+  static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
   Settings settings;
@@ -245,6 +254,7 @@ struct World::Implementation {
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;
+  std::optional<BatchFault> fault;
   Statistics statistics;
 };
 
@@ -263,6 +273,7 @@ void World::place(const Placement &placement) { implementation_->place(placement
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
+const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
 uint32_t World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->kernels; }
 Memory &World::memory() { return implementation_->memory; }

@@ -148,6 +148,8 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
+  if (world.settings().check)
+    table.add({"batches", world.batch_fault() ? "WRONG" : fmt::format("free of conflict in all {} steps", outcome.steps)});
   return table.text("  ");
 }
 
@@ -201,7 +203,8 @@ int execute(const RunOptions &options)
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
   print_warnings(outcome, world);
   options.json.write(outcome_json(outcome, world, placement));
-  return 0;
+  if (world.batch_fault()) fmt::print(stderr, "tandem: {}\n", describe(*world.batch_fault()));
+  return world.batch_fault() ? 1 : 0;
 }
 
 } // namespace

@@ -22,6 +22,10 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_DIRECT_LEFT] = 0u;
   counts[COUNT_DIRECT_STALLED] = 0u;
   counts[COUNT_NONFINITE] = INDEX_NONE;
+  counts[COUNT_CONFLICTS] = 0u;
+  counts[COUNT_FIRST_CONFLICT] = INDEX_NONE;
+  counts[COUNT_MISBATCHED] = 0u;
+  counts[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
 }
 
 SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
