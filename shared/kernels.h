@@ -19,5 +19,8 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/order.h"
 #include "shared/solve/tail.h"
+#include "shared/solve/pgs_tail.h"
+#include "shared/solve/nncg_tail.h"
+#include "shared/solve/rolling_tail.h"
 
 #endif

@@ -6,14 +6,20 @@ namespace {
 
 constexpr uint32_t biased = 1, relaxing = 0;
 
+void sweep(StepLaunches &step, uint32_t kind)
+{
+  step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {kind});
+  solve_rolling(step);
+}
+
 void launch_substep(StepLaunches &step)
 {
   step.run(Kernel::integrate_velocities);
   step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
-    step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {biased});
+  warm_start_rolling(step);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) sweep(step, biased);
   step.run(Kernel::integrate_positions);
-  step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {relaxing});
+  sweep(step, relaxing);
 }
 
 } // namespace

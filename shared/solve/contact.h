@@ -101,16 +101,10 @@ SHARED arm_shift load_arm_shift(GLOBAL const row *solver_delta, contact c)
   return shift_of_arms(c, subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))));
 }
 
-SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                            GLOBAL row *solver_velocity, item_index i)
+/* All impulses of a manifold at once: pushes of the four points, friction (first, second, twist) at its centre. */
+SHARED contact apply_impulses(GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, uint stride, contact c, arm_shift shift,
+                              vec4 impulses, vec4 friction, item_index i)
 {
-  uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  arm_shift shift = load_arm_shift(solver_delta, c);
   vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
   tangents t = tangents_of(c.normal);
   vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
@@ -122,7 +116,20 @@ SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
     turn_b = add(turn_b, outer(add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b), push));
     slide = add(slide, push);
   }
-  store_contact_motion(solver_velocity, apply_impulse(c, slide, turn_a, turn_b, R(1.0)));
+  return apply_impulse(c, slide, turn_a, turn_b, R(1.0));
+}
+
+SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                            GLOBAL row *solver_velocity, item_index i)
+{
+  uint stride = counts[CAPACITY_PAIRS];
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
+  arm_shift shift = load_arm_shift(solver_delta, c);
+  store_contact_motion(solver_velocity, apply_impulses(constraint_points, constraint_center, stride, c, shift, impulses, friction, i));
 }
 
 typedef struct { contact c; vec4 impulse; } solved;

@@ -41,6 +41,7 @@ bool same_bits(const Material &a, const Material &b)
 {
   return a.name == b.name && same_bits(a.static_friction, b.static_friction) &&
          same_bits(a.dynamic_friction, b.dynamic_friction) && same_bits(a.restitution, b.restitution) &&
+         same_bits(a.rolling_friction, b.rolling_friction) && same_bits(a.spinning_friction, b.spinning_friction) &&
          a.friction_combine == b.friction_combine && a.restitution_combine == b.restitution_combine;
 }
 
