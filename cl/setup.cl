@@ -29,14 +29,12 @@ __kernel void prepare_contacts(__global const Parameters *parameters, __global c
 }
 
 __kernel void prepare_rolling(__global const row *material, __global const row *material_rolling,
-                              __global const uint *body_traits, __global const row *solver_inertia,
-                              __global const uint *pair_cached, __global const row *cached_rolling_impulse,
-                              __global const uint *constraint_pair, __global const uint *constraint_a,
-                              __global const uint *constraint_b, __global const row *constraint_normal,
+                              __global const uint *body_traits, __global const uint *pair_cached,
+                              __global const row *cached_rolling_impulse, __global const uint *constraint_pair,
+                              __global const uint *constraint_a, __global const uint *constraint_b,
                               __global const uint *counts, __global row *constraint_rolling, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  prepare_rolling_item(material, material_rolling, body_traits, solver_inertia, pair_cached,
-                       cached_rolling_impulse, constraint_pair, constraint_a, constraint_b, constraint_normal,
-                       counts, constraint_rolling, i);
+  prepare_rolling_item(material, material_rolling, body_traits, pair_cached, cached_rolling_impulse,
+                       constraint_pair, constraint_a, constraint_b, counts, constraint_rolling, i);
 }

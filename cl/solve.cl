@@ -142,6 +142,17 @@ __kernel void pgs_friction_tail(__global const uint *constraint_a, __global cons
                          constraint_friction_impulse, solver_velocity, i);
 }
 
+__kernel void pgs_masses(__global const uint *constraint_a, __global const uint *constraint_b,
+                         __global const row *constraint_normal, __global const row *solver_velocity,
+                         __global const row *solver_inertia, __global const row *solver_delta,
+                         __global const uint *counts, __global row *constraint_points,
+                         __global row *constraint_center, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_masses_item(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, solver_delta,
+                  counts, constraint_points, constraint_center, i);
+}
+
 __kernel void nncg_begin(__global const row *constraint_normal_impulse,
                          __global const row *constraint_friction_impulse, __global const uint *counts,
                          __global row *nncg_impulse, __global row *nncg_direction, RANGE)

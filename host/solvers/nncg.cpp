@@ -32,6 +32,7 @@ void launch_substep(StepLaunches &step)
   warm_start_rolling(step);
   launch_sweeps(step, true);
   step.run(Kernel::integrate_positions);
+  step.run(Kernel::pgs_masses);
   launch_sweeps(step, false);
 }
 

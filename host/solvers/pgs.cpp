@@ -11,6 +11,7 @@ void launch_substep(StepLaunches &step)
   warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_pgs_sweep(step, true);
   step.run(Kernel::integrate_positions);
+  step.run(Kernel::pgs_masses);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_pgs_sweep(step, false);
 }
 

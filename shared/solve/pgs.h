@@ -83,4 +83,25 @@ SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   store_contact_motion(solver_velocity, with_motion_if(rough, c, sliding.c));
 }
 
+/* Effective masses where the bodies are now. Many sweeps over masses of another place do not converge: where a long
+ * body has turned, a row whose mass is more than twice what it should be doubles its error every sweep. */
+SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                            GLOBAL const uint *counts, GLOBAL row *constraint_points, GLOBAL row *constraint_center, item_index i)
+{
+  uint stride = counts[CAPACITY_PAIRS];
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  body_pair bodies = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, c.normal}; /* its offset serves no mass */
+  arm_shift shift = load_arm_shift(solver_delta, c);
+  for (uint k = 0; k < 4u; ++k) {
+    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    vec3 arm_a = add(xyz(load_row(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
+    real mass = inverse_or_zero(response(bodies, arm_a, arm_b, c.normal, c.normal));
+    store_row(constraint_points, stride * (k + 4u) + i, extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
+  }
+  vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
+  store_row(constraint_center, i, extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
+  store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, c.normal)));
+}
+
 #endif

@@ -31,6 +31,23 @@ SHARED void warm_start_rolling_item(GLOBAL const uint *constraint_a, GLOBAL cons
   store_contact_motion(solver_velocity, with_motion_if(wanted, c, apply_turn(c, torque, torque, R(1.0))));
 }
 
+/* 1 / largest eigenvalue of the inverse inertia within the tangent plane, so that a disc can be projected as a circle.
+ * From where the bodies are now: they turn within the step. */
+SHARED real rolling_mass(contact c)
+{
+  tangents t = tangents_of(c.normal);
+  vec3 first = add(symmetric_times(c.inertia_a, t.first), symmetric_times(c.inertia_b, t.first));
+  vec3 second = add(symmetric_times(c.inertia_a, t.second), symmetric_times(c.inertia_b, t.second));
+  real along_first = inner(t.first, first), along_second = inner(t.second, second), mixed = inner(t.second, first);
+  real difference = along_first - along_second;
+  return inverse_or_zero(R(0.5) * (along_first + along_second + square_root(difference * difference + R(4.0) * mixed * mixed)));
+}
+
+SHARED real spinning_mass(contact c)
+{
+  return inverse_or_zero(inner(c.normal, add(symmetric_times(c.inertia_a, c.normal), symmetric_times(c.inertia_b, c.normal))));
+}
+
 /* The longest part of v that is no longer than limit. */
 SHARED vec3 onto_disc(vec3 v, real limit)
 {
@@ -51,8 +68,8 @@ SHARED void solve_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uin
   real pressure = (pushes.x + pushes.y) + (pushes.z + pushes.w);
   vec3 old = xyz(load_row(constraint_rolling, i)), speed = subtract(c.motion_b.angular, c.motion_a.angular);
   real old_spin = inner(c.normal, old), spin_speed = inner(c.normal, speed), spin_limit = resistance.y * pressure;
-  real spin = clamped(old_spin - resistance.w * spin_speed, -spin_limit, spin_limit);
-  vec3 rolling = add_scaled(add_scaled(old, c.normal, -old_spin), add_scaled(speed, c.normal, -spin_speed), -resistance.z);
+  real spin = clamped(old_spin - spinning_mass(c) * spin_speed, -spin_limit, spin_limit);
+  vec3 rolling = add_scaled(add_scaled(old, c.normal, -old_spin), add_scaled(speed, c.normal, -spin_speed), -rolling_mass(c));
   vec3 torque = add_scaled(onto_disc(rolling, resistance.x * pressure), c.normal, spin);
   vec3 change = subtract(torque, old);
   store_row_if(wanted, constraint_rolling, i, extend(torque, R(0.0)));
