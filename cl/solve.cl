@@ -172,11 +172,11 @@ __kernel void nncg_change(__global const row *constraint_points, __global const 
                    constraint_friction_impulse, nncg_impulse, counts, nncg_square, i);
 }
 
-__kernel void nncg_beta(__global const memory_real *nncg_sum, __global memory_real *nncg_state, uint first,
+__kernel void nncg_beta(__global const memory_real *nncg_sum, __global memory_real *nncg_state, uint begins,
                         RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  nncg_beta_item(nncg_sum, nncg_state, first, i);
+  nncg_beta_item(nncg_sum, nncg_state, begins, i);
 }
 
 __kernel void nncg_advance(__global const uint *constraint_a, __global const uint *constraint_b,

@@ -60,12 +60,12 @@ SHARED void nncg_change_item(GLOBAL const row *constraint_points, GLOBAL const r
   store_real(nncg_square, i, sum);
 }
 
-/* first: of a series of sweeps, which has no change before it. */
-SHARED void nncg_beta_item(GLOBAL const memory_real *nncg_sum, GLOBAL memory_real *nncg_state, uint first, uint only)
+/* begins: the first sweep of a series, which has no change before it. */
+SHARED void nncg_beta_item(GLOBAL const memory_real *nncg_sum, GLOBAL memory_real *nncg_state, uint begins, uint only)
 {
   (void)only;
   memory_real sum = nncg_sum[0], before = nncg_state[NNCG_SUM_BEFORE];
-  int goes_on = first == 0u && before > NNCG_LEAST && sum <= before;
+  int goes_on = begins == 0u && before > NNCG_LEAST && sum <= before;
   nncg_state[NNCG_BETA] = goes_on ? sum / before : R(0.0);
   nncg_state[NNCG_SUM_BEFORE] = sum;
 }

@@ -90,7 +90,7 @@ Scene scene_of_odd_numbers()
                   half_space_shape(),
                   {ShapeType::sphere, {1, 2, 3}}};
   scene.materials.resize(2);
-  scene.materials[1] = {"glue", 0x1p-149f, 1e30f, 0.3f, Combine::multiply, Combine::average};
+  scene.materials[1] = {"glue", 0x1p-149f, 1e30f, 0.3f, Combine::multiply, Combine::average, 0x1p-140f, 0.1f};
   for (int i = 0; i < 200; ++i) {
     Body body;
     body.name = i % 2 ? "b" + std::to_string(i) : "";
