@@ -22,5 +22,7 @@
 #include "shared/solve/pgs_tail.h"
 #include "shared/solve/nncg_tail.h"
 #include "shared/solve/rolling_tail.h"
+#include "shared/problem/residual.h"
+#include "shared/problem/sweep.h"
 
 #endif

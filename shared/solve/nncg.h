@@ -100,8 +100,10 @@ SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint
 
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
-  c = apply_impulses(constraint_points, constraint_center, stride, c, shift, push_step, friction_step, i);
-  store_contact_motion(solver_velocity, c);
+  support s = load_support(constraint_points, stride, c, shift, push_step, i);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  wrench w = wrench_of(c, s, center_a, center_b, friction_step);
+  store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }
 
 #endif

@@ -28,10 +28,10 @@
 
 /* The new accumulated impulse of a normal row. Without bias a point still ahead that has carried nothing stays so, for
  * the motion it would limit comes later. */
-SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real separation, real speed, real mass, real old, uint biased)
+SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop, real separation, real speed, real mass, real old, uint biased)
 {
   mask ahead = separation > R(0.0);
-  real overlap = minimum(separation + parameters->slop, R(0.0));
+  real overlap = minimum(separation + slop, R(0.0));
   real push = maximum(PGS_BIAS_SHARE * parameters->inverse_substep * overlap, -parameters->push_speed);
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real impulse = maximum(old - mass * (speed + bias), R(0.0));
@@ -39,9 +39,10 @@ SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real separation, re
 }
 
 SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *solver_inertia,
-                             GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
+                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const memory_real *constraint_slop,
+                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                             GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased,
+                             item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -49,13 +50,14 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_arms(c, moved.translation);
   real closed = inner(c.normal, moved.translation);
+  real slop = load_real(constraint_slop, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_a = load_row(constraint_points, stride * k + i), point_b = load_row(constraint_points, stride * (k + 4u) + i);
     vec3 turn_a = outer(add(xyz(point_a), shift.a), c.normal), turn_b = outer(add(xyz(point_b), shift.b), c.normal);
     real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
     real before = component(old, (natural)k);
-    impulse[k] = pgs_impulse(parameters, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
+    impulse[k] = pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
     c = apply_impulse(c, c.normal, turn_a, turn_b, impulse[k] - before);
   }
   store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));

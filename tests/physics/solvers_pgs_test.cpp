@@ -78,6 +78,7 @@ public:
     velocity_ = memory_.read<row>(Buffer::solver_velocity, 2 * counts[COUNT_BODIES]);
     a_ = memory_.read<uint32_t>(Buffer::constraint_a, count_);
     b_ = memory_.read<uint32_t>(Buffer::constraint_b, count_);
+    slop_ = memory_.read_reals(Buffer::constraint_slop, count_);
     normal_ = memory_.read<row>(Buffer::constraint_normal, count_);
     impulse_ = memory_.read<row>(Buffer::constraint_normal_impulse, count_);
     friction_ = memory_.read<row>(Buffer::constraint_friction_impulse, count_);
@@ -110,7 +111,7 @@ private:
       const row &point_a = points_[stride_ * k + i], &point_b = points_[stride_ * (k + 4) + i];
       const double mass = point_b.w, separation = point_a.w, h = double(settings_.step) / settings_.substeps;
       if (mass == 0) continue;
-      const double push = std::max(0.2 / h * std::min(separation + settings_.slop, 0.0), -double(settings_.push_speed));
+      const double push = std::max(0.2 / h * std::min(separation + slop_[i], 0.0), -double(settings_.push_speed));
       const double speed = slide_at(i, xyz(point_a), xyz(point_b)).dot(xyz(normal_[i])) + (separation > 0 ? separation / h : push);
       const double change = std::max(impulses[k] - mass * speed, 0.0) - impulses[k];
       sum += change * change / mass;
@@ -135,6 +136,7 @@ private:
   const Settings settings_;
   uint32_t stride_, count_;
   std::vector<uint32_t> a_, b_;
+  std::vector<double> slop_;
   std::vector<row> velocity_, normal_, impulse_, friction_, center_, points_;
 };
 
