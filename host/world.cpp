@@ -49,6 +49,7 @@ struct World::Implementation {
       : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
+    scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
     plan.bodies = static_cast<uint32_t>(scene.bodies.size());
@@ -128,7 +129,7 @@ struct World::Implementation {
   {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
-      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
+      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_rolling_impulse);
       memory.resize(buffer_at(i), touched[i] ? bytes_of(buffer_at(i), now) : 0, cached);
     }
   }
@@ -244,6 +245,7 @@ struct World::Implementation {
   Settings settings;
   Placement wanted;
   Specialisation special;
+  uint32_t scene_features = 0; /* what the scene needs, also where all is run */
   std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;
   PlacedLauncher launcher;
@@ -320,8 +322,10 @@ uint64_t World::state_hash()
   Memory &memory = implementation_->memory;
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::cached_start, implementation_->plan.bodies + 1);
   uint64_t hash = hash_bytes(starts.data(), starts.size() * sizeof(uint32_t), body_hash());
-  return hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
+  hash = hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
                       starts.back(), hash);
+  const bool rolls = implementation_->scene_features & FEATURE_ROLLING;
+  return rolls ? hash_buffers(memory, {Buffer::cached_rolling_impulse}, starts.back(), hash) : hash;
 }
 
 void World::finish()

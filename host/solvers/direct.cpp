@@ -13,12 +13,15 @@ void launch_substep(StepLaunches &step)
 {
   step.run(Kernel::integrate_velocities);
   step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
+  warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
     step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {PASS_BIASED});
   step.run(Kernel::solve_islands, {island_pass_biased});
+  solve_rolling(step);
   step.run(Kernel::integrate_positions);
   step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {PASS_LAST});
   step.run(Kernel::solve_islands, {island_pass_relaxing});
+  solve_rolling(step);
 }
 
 } // namespace
