@@ -6,6 +6,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <set>
 #include <tuple>
 
 #include "host/buffer_place.h"
@@ -25,6 +26,12 @@ bool holds_reals(Buffer buffer)
 /* All planes of a buffer under one name: "separation[2]" is "separation". */
 std::string field_of(const BufferPlace &place) { return place.field.substr(0, place.field.find('[')); }
 
+/* What stands for no end (BOUNDLESS of records.h) is no measured number. */
+constexpr double boundless = 1e29;
+
+/* The last place of a float of this size. */
+double unit_of(double size) { return std::ldexp(1.0, size == 0 ? -149 : std::max(std::ilogb(size) - 23, -149)); }
+
 class Samples {
 public:
   void add(float value, double exact)
@@ -33,10 +40,19 @@ public:
       ++row_.nonfinite;
       return;
     }
+    if (std::abs(exact) > boundless) return;
     const double distance = std::abs(double{value} - exact);
-    ulps_.push_back(static_cast<float>(std::min(ulps_from(value, exact), 1e30)));
+    ulps_.push_back(static_cast<float>(ulps_from(value, exact)));
+    launch_distance_ = std::max(launch_distance_, distance);
+    launch_largest_ = std::max(launch_largest_, std::abs(exact));
     row_.max_absolute = std::max(row_.max_absolute, distance);
     if (exact != 0) row_.max_relative = std::max(row_.max_relative, distance / std::abs(exact));
+  }
+
+  void end_launch()
+  {
+    row_.max_field_ulps = std::max(row_.max_field_ulps, launch_distance_ / unit_of(launch_largest_));
+    launch_distance_ = launch_largest_ = 0;
   }
 
   RoundingRow row()
@@ -52,6 +68,7 @@ public:
 
 private:
   RoundingRow row_{};
+  double launch_distance_ = 0, launch_largest_ = 0;
   std::vector<float> ulps_;
 };
 
@@ -148,15 +165,18 @@ private:
     const size_t count = before.size() / sizeof(float), capacity = pair_capacity();
     const std::vector<float> value = world_.memory().read<float>(buffer, count);
     const std::vector<double> exact = mirror_.memory().read_reals(buffer, count);
+    std::set<Samples *> touched;
     for (size_t k = 0; k < count; ++k) {
       float old;
       std::memcpy(&old, &before[k * sizeof old], sizeof old);
       if (std::memcmp(&value[k], &old, sizeof old) == 0 && exact[k] == double{old}) continue;
-      samples_of(kernel, buffer, field_of(place_in(buffer, k, capacity))).add(value[k], exact[k]);
+      Samples &samples = samples_[{kernel, buffer, field_of(place_in(buffer, k, capacity))}];
+      samples.add(value[k], exact[k]);
+      touched.insert(&samples);
     }
+    for (Samples *samples : touched) samples->end_launch();
   }
 
-  Samples &samples_of(Kernel kernel, Buffer buffer, const std::string &field) { return samples_[{kernel, buffer, field}]; }
   size_t pair_capacity() { return world_.memory().read<uint32_t>(Buffer::counts, 1, CAPACITY_PAIRS).front(); }
 
   World &world_;
@@ -170,8 +190,7 @@ private:
 
 double ulps_from(float value, double exact)
 {
-  const int exponent = exact == 0 ? -149 : std::max(std::ilogb(exact) - 23, -149);
-  return std::ldexp(std::abs(double{value} - exact), -exponent);
+  return std::abs(double{value} - exact) / unit_of(std::max(std::abs(exact), std::abs(double{value})));
 }
 
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request)

@@ -32,8 +32,12 @@ struct RoundingRow {
   Buffer buffer;
   std::string field;
   uint64_t numbers = 0; /* compared */
-  /* Distance from the double result in units of the last place that a float has there; 0.5 is a perfect rounding. */
+  /* Distance from the double result in units of the last place that a float has there; 0.5 is a perfect rounding, 2^24 means that no
+   * digit is right. */
   double median_ulps = 0, high_ulps = 0 /* 99.9th percentile */, max_ulps = 0;
+  /* The same in units of the last place of the largest number of this field in the launch: what is a difference of large numbers is
+   * not held against a small result. */
+  double max_field_ulps = 0;
   double max_relative = 0; /* distance / |double result| */
   double max_absolute = 0; /* distance, in the field's unit */
   uint64_t nonfinite = 0;  /* numbers that are not finite in one or both; in no other column */
@@ -55,7 +59,7 @@ struct RoundingTable {
 /* InputError as World's constructor. */
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request);
 
-/* |value - exact| in units of the last place of a float of exact's size. */
+/* |value - exact| in units of the last place of a float as large as the larger of them. */
 double ulps_from(float value, double exact);
 
 } // namespace tandem

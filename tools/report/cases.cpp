@@ -12,10 +12,10 @@ namespace tandem {
 namespace {
 
 constexpr std::array<MetricName, 8> metrics = {{
-    {Metric::position, "position", "position error, RMS", "m"},
-    {Metric::rotation, "rotation", "rotation error, RMS", "rad"},
-    {Metric::max_penetration, "max-penetration", "penetration, maximum", "m"},
-    {Metric::mean_penetration, "mean-penetration", "penetration, mean", "m"},
+    {Metric::position, "position", "RMS position error", "m"},
+    {Metric::rotation, "rotation", "RMS rotation error", "rad"},
+    {Metric::max_penetration, "max-penetration", "maximum penetration", "m"},
+    {Metric::mean_penetration, "mean-penetration", "mean penetration", "m"},
     {Metric::natural_map, "natural-map", "natural-map residual", "relative"},
     {Metric::fischer_burmeister, "fischer-burmeister", "Fischer-Burmeister residual", "relative"},
     {Metric::cone_violation, "cone", "friction-cone violation", "relative"},

@@ -135,6 +135,9 @@ std::string amount_text(double value, const std::string &unit)
   return fmt::format("{:.3g} nm", value * 1e9);
 }
 
+/* "RMS" is read letter by letter: an R. */
+const char *article_of(const std::string &label) { return std::string("aeiouR").find(label.front()) == std::string::npos ? "a" : "an"; }
+
 } // namespace
 
 double SceneReport::uncertainty() const
@@ -153,7 +156,9 @@ std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double un
   std::vector<Pick> picks;
   for (const double wished : sensible_wishes(points, most_picks)) {
     const auto run = cheapest_within(points, wished);
-    if (wished >= uncertainty && run) picks.push_back({wished, *run});
+    if (wished < uncertainty || !run) continue;
+    if (!picks.empty() && picks.back().run == *run) picks.pop_back(); /* the same setting keeps a finer error too */
+    picks.push_back({wished, *run});
   }
   return picks;
 }
@@ -166,9 +171,8 @@ std::string pick_sentence(const std::vector<Run> &runs, const std::vector<Pick> 
   for (size_t k = 0; k < picks.size(); ++k) {
     const Run &run = runs[picks[k].run];
     const std::string choice = fmt::format("{} with {} ({:.3g} ms for 1/60 s)", run.solver, short_text(run.settings), run.cost());
-    const bool same = k > 0 && picks[k].run == picks[k - 1].run;
-    sentence += k == 0 ? fmt::format("For a {} of at most {} take {}", name.label, amount_text(picks[k].wished, name.unit), choice)
-                       : fmt::format("; for {} {}", amount_text(picks[k].wished, name.unit), same ? "the same" : choice);
+    sentence += k == 0 ? fmt::format("For {} {} of at most {} take {}", article_of(name.label), name.label, amount_text(picks[k].wished, name.unit), choice)
+                       : fmt::format("; for {} {}", amount_text(picks[k].wished, name.unit), choice);
   }
   return sentence + ".";
 }

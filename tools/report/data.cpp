@@ -64,7 +64,7 @@ Json truth_json(const Truth &truth)
     refinement.push_back({{"steps_per_60th", truth.refinements[k]},
                           {"position", json_number(truth.refinement_errors[k].position_rms())},
                           {"rotation", json_number(truth.refinement_errors[k].angle_rms())}});
-  return {{"closed_form", truth.closed_form}, {"horizon", truth.horizon},   {"chaotic", truth.chaotic}, {"nudge", truth.nudge},
+  return {{"closed_form", truth.closed_form}, {"horizon", truth.horizon},   {"chaotic", truth.chaotic},   {"resolved", truth.resolved}, {"nudge", truth.nudge},
           {"frames", truth.frames.size()},    {"compared", truth.comparable_frames}, {"refinement", refinement},
           {"order", truth.order ? json_number(*truth.order) : Json(nullptr)}};
 }
@@ -91,6 +91,7 @@ Json rounding_json(const RoundingTable &table)
   for (const RoundingRow &row : table.rows)
     rows.push_back({{"kernel", row_of(row.kernel).name}, {"buffer", row_of(row.buffer).name}, {"field", row.field}, {"numbers", row.numbers},
                     {"median_ulps", row.median_ulps}, {"p999_ulps", row.high_ulps}, {"max_ulps", row.max_ulps},
+                    {"max_field_ulps", row.max_field_ulps},
                     {"max_relative", json_number(row.max_relative)}, {"max_absolute", json_number(row.max_absolute)}, {"nonfinite", row.nonfinite}});
   for (const DecisionRow &row : table.decisions)
     decisions.push_back(

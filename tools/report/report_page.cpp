@@ -92,10 +92,13 @@ std::string truth_text(const SceneReport &scene)
   std::string text = truth.closed_form ? "Truth: closed form for the positions; the rest is the reference in double" : "Truth: the reference in double";
   text += fmt::format(" at {} steps for each 1/60 s. ", truth.refinements[2]);
   if (truth.chaotic)
-    text += fmt::format("The scene is chaotic: starts {:.2g} m apart are {:g} times as far apart after {:.2f} s; trajectories are compared up to there, "
-                        "all else to the end at {:g} s. ",
+    text += fmt::format("The scene is chaotic: starts {:.2g} m apart are {:g} times as far apart after {:.2f} s; past that trajectories say nothing "
+                        "and only the rest is compared, at {:g} s. ",
                         truth.nudge, horizon_growth, truth.horizon, scene.duration);
   else text += fmt::format("Starts {:.2g} m apart stay within {:g} times that for all of its {:g} s. ", truth.nudge, horizon_growth, scene.duration);
+  if (!truth.resolved)
+    text += fmt::format("Only up to {:.2f} s is the reference known to {:g} m; trajectories are compared up to there. ",
+                        static_cast<double>(truth.comparable_frames) * frame_time, resolved_bound);
   const auto error = [&](int k) {
     return fmt::format("{:.2g} m and {:.2g} rad at {}", truth.refinement_errors[k].position_rms(), truth.refinement_errors[k].angle_rms(),
                        truth.refinements[k]);
@@ -189,18 +192,18 @@ void add_rounding(Page &page, const RoundingReport &rounding)
 {
   page.section("Rounding, stage by stage");
   page.paragraph(fmt::format("Every launch of {} in float, and the same launch on the same input in double: distance in units of the last place of a "
-                             "float (0.5 is a perfect rounding), relative and absolute. Moved: the same scene {:g} km from the origin. Numbers near 0 that "
+                             "float (0.5 is a perfect rounding), of a float as large as the field's largest number, relative and absolute. Moved: the same scene {:g} km from the origin. Numbers near 0 that "
                              "are differences of large ones have few digits left, which the ulps show and the absolute error does not.",
                              rounding.scene, rounding.far / 1000));
   const auto moved = rows_by_key(rounding.far_table);
   PageTable table{fmt::format("{} launches", rounding.near_table.launches),
-                  {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps", "max relative", "max absolute", "moved: median ulps",
+                  {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps", "max ulps of the field", "max relative", "max absolute", "moved: median ulps",
                    "moved: max ulps", "moved: max absolute"}};
   for (const RoundingRow &row : rounding.near_table.rows) {
     const auto far = moved.find({row.kernel, row.buffer, row.field});
     const RoundingRow *other = far == moved.end() ? nullptr : far->second;
     table.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, row.field, double(row.numbers), row.median_ulps, row.high_ulps,
-                          row.max_ulps, row.max_relative, row.max_absolute, other ? other->median_ulps : NAN, other ? other->max_ulps : NAN,
+                          row.max_ulps, row.max_field_ulps, row.max_relative, row.max_absolute, other ? other->median_ulps : NAN, other ? other->max_ulps : NAN,
                           other ? other->max_absolute : NAN});
   }
   page.table(table);

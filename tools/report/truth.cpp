@@ -54,6 +54,17 @@ size_t frames_together(const Scene &scene, const std::vector<PreciseBodies> &one
   return one.size();
 }
 
+/* How many frames two runs are within `bound` of each other in the mean. */
+size_t frames_resolved(const Scene &scene, const std::vector<PreciseBodies> &one, const std::vector<PreciseBodies> &other)
+{
+  for (size_t k = 0; k < one.size(); ++k) {
+    TrajectoryError error;
+    error.add(scene, one[k], other[k]);
+    if (!(error.position_rms() <= resolved_bound)) return k;
+  }
+  return one.size();
+}
+
 /* Positions and velocities as known exactly; turns stay the reference's, for a closed form need not know them. */
 void take_closed_form(const Scene &scene, Truth &truth)
 {
@@ -68,15 +79,17 @@ void take_closed_form(const Scene &scene, Truth &truth)
   }
 }
 
-/* From runs at three steps, each half of the one before: their errors against the exact, or their differences. */
+/* Of the two finest runs' errors against the exact where it is known; else from the differences of three, each of half the step. */
 std::optional<double> order_of(const Scene &scene, const std::vector<PreciseBodies> (&runs)[3], const Truth &truth)
 {
+  const double rounding = 1e-11;
+  const double exact_coarse = truth.refinement_errors[1].position_rms(), exact_fine = truth.refinement_errors[2].position_rms();
+  if (truth.closed_form && exact_fine > rounding) return std::log2(exact_coarse / exact_fine);
   const auto apart = [&](const std::vector<PreciseBodies> &one, const std::vector<PreciseBodies> &other) {
     const TrajectoryError error = error_of(scene, one, other, truth.comparable_frames);
     return std::hypot(error.position_rms(), error.angle_rms());
   };
   const double coarse = apart(runs[0], runs[1]), fine = apart(runs[1], runs[2]);
-  const double rounding = 1e-11;
   if (fine < rounding) return std::nullopt;
   return std::log2(coarse / fine);
 }
@@ -108,8 +121,11 @@ Truth find_truth(const Scene &scene, double duration, uint32_t refinement, const
   truth.comparable_frames =
       frames_together(scene, runs[0], run_reference(nudged, duration, truth.refinements[0], advance), horizon_growth * truth.nudge);
   truth.chaotic = truth.comparable_frames < truth.frames.size();
+  const size_t resolved = frames_resolved(scene, runs[1], runs[2]);
   truth.horizon = truth.chaotic ? static_cast<double>(truth.comparable_frames) * frame_time : duration;
   take_closed_form(scene, truth);
+  truth.resolved = truth.closed_form || resolved >= truth.comparable_frames;
+  if (!truth.resolved) truth.comparable_frames = resolved;
   for (int k = 0; k < 3; ++k) truth.refinement_errors[k] = error_of(scene, runs[k], truth.frames, truth.comparable_frames);
   truth.order = order_of(scene, runs, truth);
   return truth;

@@ -20,6 +20,7 @@ namespace tandem {
 
 inline constexpr double least_nudge = 1e-9; /* m */
 inline constexpr double horizon_growth = 1000;
+inline constexpr double resolved_bound = 0.01; /* m */
 
 /* Two time steps of 1/60 s, so that a step of 1/30 s can be compared too. */
 inline constexpr double frame_time = 2 * double{base_step};
@@ -29,14 +30,16 @@ struct Truth {
   double nudge = 0;                  /* m, by which the start of the second run differed */
   double horizon = 0;                /* s; the duration if the two runs stay together */
   bool chaotic = false;              /* the horizon lies before the end */
-  size_t comparable_frames = 0;      /* frames up to the horizon */
+  /* Impacts fall into other steps at other time steps; where the two finest runs part (RMS of resolved_bound), the truth is not known. */
+  bool resolved = true;
+  size_t comparable_frames = 0; /* frames up to the horizon, and resolved */
   bool closed_form = false;
 
   /* RMS distance of the reference from the truth over the comparable frames, at r / 4, r / 2 and r steps for each 1/60 s: from the closed form
    * where there is one, else from the finest (the last is then 0). */
   uint32_t refinements[3] = {};
   TrajectoryError refinement_errors[3];
-  std::optional<double> order; /* of convergence, from the three; nothing below rounding */
+  std::optional<double> order; /* of convergence; nothing if the runs agree to rounding */
 
   double uncertainty_position() const { return closed_form ? 0 : refinement_errors[1].position_rms(); }
   double uncertainty_rotation() const { return refinement_errors[1].angle_rms(); }
