@@ -42,7 +42,7 @@ constexpr size_t stage_count = 7;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
-  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, SWEEP_PAIRS, SWEEP_BODIES, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS
+  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS
 };
 
 enum class Element : uint8_t { row, real, uint, ulong, Parameters };

@@ -13,7 +13,6 @@ namespace {
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
   const size_t sortable = std::max(sizes.bodies, sizes.pairs);
-  const bool spatial = sizes.grid || sizes.sweep;
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -21,10 +20,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;
-  case Capacity::SWEEP_PAIRS: return sizes.sweep ? sizes.pairs : 0;
-  case Capacity::SWEEP_BODIES: return sizes.sweep ? size_t{sizes.bodies} + 1 : 0;
-  case Capacity::CELLS: return sizes.grid ? size_t{sizes.cells} + 1 : 0;
-  case Capacity::TILES: return spatial ? (size_t{sizes.bodies} + TILE) / TILE : 0;
+  case Capacity::CELLS: return size_t{sizes.cells} + 1;
+  case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(static_cast<uint32_t>(sortable));
   case Capacity::SCAN_SUMS:

@@ -15,11 +15,9 @@ struct Sizes {
   uint32_t pairs = 0; /* capacity */
   uint32_t cells = 0; /* capacity */
   uint32_t features = 0;
-  bool grid = false;
-  bool sweep = false;
 };
 
-/* 0 for a buffer that the scene and settings do not need. */
+/* 0 for a buffer whose feature the scene lacks. */
 size_t bytes_of(Buffer buffer, const Sizes &sizes);
 
 /* Cells of the uniform grid: about two a body, so that the table costs little and cells hold few. */

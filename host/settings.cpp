@@ -52,7 +52,6 @@ std::string stage_list()
 
 } // namespace
 
-std::vector<std::string> solver_names() { return {"soft-step"}; }
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
 std::vector<std::string> narrowphase_names() { return {"sat"}; }
 std::vector<std::string> batching_names() { return {"coloring", "sequential"}; }

@@ -31,6 +31,9 @@ std::vector<std::string> broadphase_names();
 std::vector<std::string> narrowphase_names();
 std::vector<std::string> batching_names();
 
+/* The defaults with the substeps and iterations that this solver wants. InputError lists the names. */
+Settings settings_for(const std::string &solver);
+
 /* InputError if a number is out of range or a name unknown. */
 void validate(const Settings &settings);
 

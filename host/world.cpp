@@ -22,14 +22,19 @@ namespace {
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
 constexpr int most_repetitions = 64;
 
-/* Collects the kernels of a step instead of running them. */
+/* Collects the kernels of a step, and the buffers they touch, instead of running them. */
 class Recorder : public Launcher {
 public:
   void launch(const Launch &launch) override
   {
-    if (std::find(kernels.begin(), kernels.end(), launch.kernel) == kernels.end()) kernels.push_back(launch.kernel);
+    for (Buffer slot : launch.slots) touched[index_of(slot)] = true;
+    if (std::find(kernels.begin(), kernels.end(), launch.kernel) != kernels.end()) return;
+    kernels.push_back(launch.kernel);
+    for (const Argument &argument : row_of(launch.kernel).arguments)
+      if (argument.kind == Argument::Kind::buffer) touched[index_of(argument.buffer)] = true;
   }
   std::vector<Kernel> kernels;
+  std::array<bool, buffer_count> touched{};
 };
 
 } // namespace
@@ -58,8 +63,7 @@ struct World::Implementation {
 
   Sizes sizes() const
   {
-    return {plan.bodies, static_cast<uint32_t>(scene.materials.size()), plan.capacity_pairs, plan.capacity_cells, special.features,
-            settings.broadphase == "grid", settings.broadphase == "sap"};
+    return {plan.bodies, static_cast<uint32_t>(scene.materials.size()), plan.capacity_pairs, plan.capacity_cells, special.features};
   }
 
   void record_kernels()
@@ -69,6 +73,7 @@ struct World::Implementation {
     Recorder recorder;
     launch_step(recorder, all, settings);
     kernels = recorder.kernels;
+    touched = recorder.touched;
   }
 
   /* Backends once made are kept: a buffer may live on one that runs no kernel any more. */
@@ -105,7 +110,7 @@ struct World::Implementation {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
       const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
-      memory.resize(buffer_at(i), bytes_of(buffer_at(i), now), cached);
+      memory.resize(buffer_at(i), touched[i] ? bytes_of(buffer_at(i), now) : 0, cached);
     }
   }
 
@@ -187,15 +192,16 @@ struct World::Implementation {
     ++statistics.overflow;
     const uint32_t before = plan.capacity_pairs;
     plan.capacity_pairs = needed + needed / 4;
+    record_kernels(); /* longer scans and sorts take other kernels */
     try {
       allocate();
     } catch (const std::bad_alloc &) {
       plan.capacity_pairs = before;
+      record_kernels();
       allocate();
       throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
     }
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
-    record_kernels(); /* longer scans and sorts take other kernels */
     place(wanted);
     guess_counts();
   }
@@ -220,6 +226,7 @@ struct World::Implementation {
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<Kernel> kernels;
+  std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;

@@ -45,8 +45,6 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
 {
   const Settings defaults;
   step_ = "1/60";
-  substeps_ = std::to_string(defaults.substeps);
-  iterations_ = std::to_string(defaults.iterations);
   solver_ = defaults.solver;
   broadphase_ = defaults.broadphase;
   narrowphase_ = defaults.narrowphase;
@@ -59,8 +57,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
   option("--steps", steps_, "how many steps", "N");
   option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
-  option("--substeps", substeps_, "substeps of a step", "N");
-  option("--iterations", iterations_, "solver passes of a substep", "N");
+  option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
+  option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
   option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
@@ -71,12 +69,11 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
 
 Settings SceneOptions::settings() const
 {
-  Settings settings;
+  Settings settings = settings_for(solver_);
   if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
   else settings.step = static_cast<float>(real_number("--dt", step_));
-  settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
-  settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
-  settings.solver = solver_;
+  if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
+  if (!iterations_.empty()) settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = broadphase_;
   settings.narrowphase = narrowphase_;
   settings.batching = batching_;
@@ -106,8 +103,8 @@ std::string SceneOptions::typed_again() const
     if (value != standard) text += fmt::format(" {} {}", name, value);
   };
   add("--dt", step_, "1/60");
-  add("--substeps", substeps_, std::to_string(defaults.substeps));
-  add("--iterations", iterations_, std::to_string(defaults.iterations));
+  add("--substeps", substeps_, "");
+  add("--iterations", iterations_, "");
   add("--solver", solver_, defaults.solver);
   add("--broadphase", broadphase_, defaults.broadphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);

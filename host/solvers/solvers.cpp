@@ -1,0 +1,44 @@
+/* solvers.cpp - see solvers.h. */
+#include "host/solvers/solvers.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/scene.h"
+
+namespace tandem {
+
+const std::vector<Solver> &solvers()
+{
+  static const std::vector<Solver> list = {
+      {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
+  };
+  return list;
+}
+
+const Solver &solver_named(const std::string &name)
+{
+  const auto found = std::find_if(solvers().begin(), solvers().end(), [&](const Solver &solver) { return solver.name == name; });
+  if (found == solvers().end()) throw InputError(fmt::format("solver '{}' is unknown; use {}", name, fmt::join(solver_names(), ", ")));
+  return *found;
+}
+
+std::vector<std::string> solver_names()
+{
+  std::vector<std::string> names;
+  for (const Solver &solver : solvers()) names.emplace_back(solver.name);
+  return names;
+}
+
+Settings settings_for(const std::string &solver)
+{
+  Settings settings;
+  settings.solver = solver;
+  settings.substeps = solver_named(solver).substeps;
+  settings.iterations = solver_named(solver).iterations;
+  return settings;
+}
+
+} // namespace tandem

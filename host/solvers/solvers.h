@@ -1,0 +1,28 @@
+/* solvers.h - the list of solvers: a name, what it is, its own substeps and iterations, and the launches it makes.
+ *
+ * A solver runs between prepare_contacts, which makes the constraints, and check_bodies, and leaves solver_velocity,
+ * solver_delta and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
+ * constraint_friction_impulse, for the next step's warm start. Each is one small file here over row kernels of shared/solve/. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/step_launches.h"
+
+namespace tandem {
+
+struct Solver {
+  const char *name, *what;
+  uint32_t substeps, iterations; /* where the user names none */
+  void (*launch)(StepLaunches &step);
+};
+
+/* Default first. */
+const std::vector<Solver> &solvers();
+/* InputError lists the names. */
+const Solver &solver_named(const std::string &name);
+
+void launch_soft_step(StepLaunches &step);
+
+} // namespace tandem

@@ -1,0 +1,37 @@
+/* step_launches.cpp - see step_launches.h. */
+#include "host/step_launches.h"
+
+#include "host/primitives.h"
+
+namespace tandem {
+
+void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  run_range(kernel, COUNT_ZERO, row_of(kernel).items, values, slots);
+}
+
+void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
+}
+
+void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values)
+{
+  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)
+    run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
+  if (plan_.colors > COLOR_LIMIT) run(tail, values);
+}
+
+void StepLaunches::scan_pairs(Buffer starts)
+{
+  exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, COUNT_BODIES, plan_.bodies);
+  run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {}, {starts});
+}
+
+void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+{
+  sort_pairs(launcher_, keys, values, Buffer::sort_key_other, Buffer::sort_value_other, Buffer::sort_histogram, Buffer::scan_sums, length,
+             capacity, first_bit, last_bit);
+}
+
+} // namespace tandem

@@ -1,0 +1,36 @@
+/* step_launches.h - the words a step is written in: launch a kernel, once a colour, scan, sort.
+ *
+ * host/step.cpp writes the pipeline with them, host/solvers/ each a solver. */
+#pragma once
+
+#include <vector>
+
+#include "host/step.h"
+
+namespace tandem {
+
+class StepLaunches {
+public:
+  StepLaunches(Launcher &launcher, const StepPlan &plan, const Settings &settings) : launcher_(launcher), plan_(plan), settings_(settings) {}
+
+  const StepPlan &plan() const { return plan_; }
+  const Settings &settings() const { return settings_; }
+  Launcher &launcher() { return launcher_; }
+  bool has(uint32_t feature) const { return (plan_.features & feature) != 0; }
+
+  /* A kernel over the items of its row. */
+  void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* A kernel over [counts[first], counts[last]). */
+  void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* One launch a colour of constraints, and `tail` over those without a colour of their own. */
+  void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
+  void scan_pairs(Buffer starts);
+  void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
+
+private:
+  Launcher &launcher_;
+  const StepPlan &plan_;
+  const Settings &settings_;
+};
+
+} // namespace tandem
