@@ -1,6 +1,7 @@
 /* cases.cpp - see cases.h. */
 #include "tools/report/cases.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -45,43 +46,39 @@ template <class Row> std::string names_in(const Row &rows)
   return names;
 }
 
-Settings made(const std::string &solver, uint32_t substeps, uint32_t iterations, float step = base_step)
+uint32_t &knob_of(Settings &settings, bool substeps) { return substeps ? settings.substeps : settings.iterations; }
+
+/* A solver's own amount of work, as it asks for, times `factor` on its knob. */
+Settings with_work(const std::string &solver, double factor, float step = base_step)
 {
-  Settings settings;
-  settings.solver = solver;
-  settings.substeps = substeps;
-  settings.iterations = iterations;
+  Settings settings = settings_for(solver);
   settings.step = step;
+  uint32_t &knob = knob_of(settings, settings.substeps > 1);
+  knob = std::clamp<uint32_t>(static_cast<uint32_t>(std::lround(knob * factor)), 1, 1000);
   return settings;
 }
 
-/* One pass a substep; the work goes into substeps. */
-std::vector<Settings> substep_grid(const std::string &solver)
+/* Some of its own work moved to the other knob: several passes a substep, or several substeps of fewer passes. */
+Settings with_other_knob(const std::string &solver, uint32_t count)
 {
-  std::vector<Settings> grid;
-  for (const uint32_t substeps : {1u, 2u, 4u, 8u, 16u, 32u}) grid.push_back(made(solver, substeps, 1));
-  for (const float factor : {2.0f, 0.5f, 0.25f}) grid.push_back(made(solver, 4, 1, base_step * factor));
-  for (const uint32_t iterations : {2u, 4u}) grid.push_back(made(solver, 4, iterations));
-  return grid;
+  Settings settings = settings_for(solver);
+  const bool by_substeps = settings.substeps > 1;
+  uint32_t &own = knob_of(settings, by_substeps), &other = knob_of(settings, !by_substeps);
+  other = count;
+  if (!by_substeps) own = std::max(own / count, 1u);
+  return settings;
 }
 
-/* One substep a step; the work goes into iterations. */
-std::vector<Settings> iteration_grid(const std::string &solver)
+/* Small factors may give the same settings. */
+std::vector<Settings> without_repetition(const std::vector<Settings> &all)
 {
   std::vector<Settings> grid;
-  for (const uint32_t iterations : {1u, 2u, 4u, 8u, 16u, 32u, 64u}) grid.push_back(made(solver, 1, iterations));
-  for (const float factor : {2.0f, 0.5f, 0.25f}) grid.push_back(made(solver, 1, 8, base_step * factor));
-  for (const uint32_t iterations : {1u, 4u}) grid.push_back(made(solver, 4, iterations));
+  const auto same = [](const Settings &a, const Settings &b) {
+    return a.substeps == b.substeps && a.iterations == b.iterations && a.step == b.step;
+  };
+  for (const Settings &settings : all)
+    if (std::none_of(grid.begin(), grid.end(), [&](const Settings &known) { return same(known, settings); })) grid.push_back(settings);
   return grid;
-}
-
-bool solves_by_substeps(const std::string &solver) { return solver == "soft-step" || solver == "xpbd"; }
-
-std::vector<Settings> quick_grid(const std::string &solver)
-{
-  if (solver == "direct") return {made(solver, 1, 1), made(solver, 4, 1)};
-  if (solves_by_substeps(solver)) return {made(solver, 1, 1), made(solver, 4, 1), made(solver, 16, 1)};
-  return {made(solver, 1, 4), made(solver, 1, 16), made(solver, 4, 4)};
 }
 
 } // namespace
@@ -108,11 +105,12 @@ const ReportCase &report_case_named(const std::string &name)
 
 std::vector<Settings> settings_grid(const std::string &solver, bool quick)
 {
-  if (quick) return quick_grid(solver);
-  if (solver == "direct")
-    return {made(solver, 1, 1), made(solver, 2, 1), made(solver, 4, 1), made(solver, 1, 1, 2 * base_step), made(solver, 1, 1, base_step / 2),
-            made(solver, 1, 1, base_step / 4)};
-  return solves_by_substeps(solver) ? substep_grid(solver) : iteration_grid(solver);
+  if (quick) return without_repetition({with_work(solver, 0.25), with_work(solver, 1), with_work(solver, 4), with_other_knob(solver, 4)});
+  std::vector<Settings> grid;
+  for (const double factor : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) grid.push_back(with_work(solver, factor));
+  for (const uint32_t count : {2u, 4u}) grid.push_back(with_other_knob(solver, count));
+  for (const float factor : {2.0f, 0.5f, 0.25f}) grid.push_back(with_work(solver, 1, base_step * factor));
+  return without_repetition(grid);
 }
 
 std::string step_text(const Settings &settings) { return fmt::format("1/{}", std::lround(1.0 / settings.step)); }
@@ -121,7 +119,7 @@ std::string short_text(const Settings &settings)
 {
   const auto counted = [](uint32_t count, const char *what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); };
   std::string text = counted(settings.substeps, "substep");
-  if (settings.iterations != 1 || !solves_by_substeps(settings.solver)) text += ", " + counted(settings.iterations, "iteration");
+  if (settings.iterations > 1) text = (settings.substeps == 1 ? "" : text + " of ") + counted(settings.iterations, "iteration");
   if (settings.step != base_step) text += ", dt " + step_text(settings) + " s";
   return text;
 }

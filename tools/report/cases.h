@@ -40,13 +40,14 @@ struct ReportCase {
 std::span<const ReportCase> report_cases();
 const ReportCase &report_case_named(const std::string &name); /* InputError lists them */
 
-/* Each solver has its own knob: substeps for those that solve once a substep, iterations for those that iterate within a step. */
+/* Around the substeps and iterations that the solver asks for: an eighth to eight times on its own knob (substeps if it wants several, else
+ * iterations), some of the work on the other, and other time steps. Quick: a quarter, its own, four times, and the other knob. */
 std::vector<Settings> settings_grid(const std::string &solver, bool quick);
 
 /* The time step all others are multiples or fractions of by a power of two: their times then agree to the bit. */
 inline constexpr float base_step = 1.0f / 60.0f;
 
-/* "8 substeps", "20 iterations, dt 1/120": what differs from one step of 1/60 s with one pass. */
+/* "8 substeps", "4 substeps of 2 iterations", "20 iterations, dt 1/120 s": what differs from one pass in 1/60 s. */
 std::string short_text(const Settings &settings);
 /* "1/60", "1/120", ...: as --dt takes it. */
 std::string step_text(const Settings &settings);
