@@ -155,7 +155,8 @@ TEST_CASE("built-in scenes start without overlap, and touch nothing but what the
   for (const char *spec :
        {"box-grid:nx=4,ny=5,nz=4", "falling-boxes:n=400", "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
         "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
-        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77"}) {
+        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77", "free-flight", "incline",
+        "incline:slope=3,half_extent=2", "bounce", "mass-ratio"}) {
     INFO(spec);
     CHECK(deepest_overlap(load_scene(spec)) < 1e-5);
   }
