@@ -44,6 +44,7 @@ public:
   {
     Memory &memory = world.memory();
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
+    if (memory.bytes(Buffer::constraint_friction_impulse) == 0) return; /* a solver without impulses */
     count = counts[COUNT_CONSTRAINTS];
     stride_ = counts[CAPACITY_PAIRS];
     a_ = memory.read<uint32_t>(Buffer::constraint_a, count);

@@ -28,7 +28,7 @@ struct ChartPoint {
 
 struct ChartSeries {
   std::string name;
-  std::vector<ChartPoint> points; /* in the order in which the line joins them */
+  std::vector<ChartPoint> points = {}; /* in the order in which the line joins them */
   bool markers = true;
   bool dashed = false;
 };

@@ -157,7 +157,8 @@ TEST_CASE("built-in scenes start without overlap, and touch nothing but what the
         "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
         "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77", "card-house:storeys=5",
         "card-house:lean=0.8,thickness=0.1", "arch", "arch:courses=9,overhang=0.05", "tower", "dominoes", "wall", "wall:rows=3,length=4", "tops:n=3",
-        "tops:lean=0"}) {
+        "tops:lean=0", "free-flight", "incline",
+        "incline:slope=3,half_extent=2", "bounce", "mass-ratio"}) {
     INFO(spec);
     CHECK(deepest_overlap(load_scene(spec)) < 1e-5);
   }
