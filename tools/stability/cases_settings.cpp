@@ -19,22 +19,24 @@ Scene column_and_ball()
   return scene;
 }
 
-void watch_ball_and_column(Trial &trial, double depth)
+/* `lifted`: how much energy pushing out of the overlap at the start may give. */
+void watch_ball_and_column(Trial &trial, double depth, double lifted = 0.05)
 {
   trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth, penetration())));
   trial.checks.push_back(check("farthest sideways", "m", 0.05, sideways(trial.scene)));
-  trial.checks.push_back(check("gain of energy", "J/kg", 0.05, energy_gain()));
+  trial.checks.push_back(check("gain of energy", "J/kg", lifted, energy_gain()));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", 0.05, speed())));
 }
 
 Case stiffness_case(double hertz)
 {
-  return {fmt::format("stiffness-{}", hertz), "settings", fmt::format("contacts of {} Hz: a column of five cubes, and a ball that falls beside it", hertz),
-          "nothing leaves sideways by 5 cm, energy never grows, contacts at most 2 cm deep at the end, at rest then (5 s)",
+  return {fmt::format("stiffness-{}", hertz), "settings", fmt::format("contacts of {} Hz: a column of five cubes that starts 2 cm in one another, and a ball that falls beside it", hertz),
+          "nothing leaves sideways by 5 cm, energy grows by no more than pushing the cubes apart takes (0.6 J/kg), contacts at most 2 cm deep at the end, at rest then (5 s)",
           [hertz](Length length) {
             Trial trial = trial_of(column_and_ball(), steps_for(length, 300, 300));
+            for (size_t i = 1; i <= 5; ++i) trial.scene.bodies[i].position[1] -= 0.02f * float(i);
             trial.settings.contact_hertz = float(hertz);
-            watch_ball_and_column(trial, 0.02);
+            watch_ball_and_column(trial, 0.02, 0.6);
             return trial;
           }};
 }
