@@ -67,6 +67,7 @@ uint32_t body_features(const Scene &scene)
     const Material &material = scene.materials[body.material];
     if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
     if (material.restitution > 0) features |= FEATURE_RESTITUTION;
+    if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
   }

@@ -29,6 +29,7 @@ public:
     find_contacts();
     color_contacts();
     run(Kernel::prepare_contacts);
+    if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     solver_named(settings().solver).launch(*this);
     commit();
   }
@@ -112,6 +113,10 @@ private:
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
+    if (has(FEATURE_ROLLING)) {
+      run(Kernel::clear_cached_rolling);
+      run(Kernel::cache_rolling);
+    }
   }
 
   static unsigned bits_of(uint32_t values) { return std::bit_width(values); }

@@ -12,6 +12,7 @@
 #include "host/body_buffers.h"
 #include "host/debug.h"
 #include "host/hash.h"
+#include "host/host_stages.h"
 #include "host/layout.h"
 #include "host/parameters.h"
 #include "host/specialise.h"
@@ -48,6 +49,7 @@ struct World::Implementation {
       : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
+    scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
     plan.bodies = static_cast<uint32_t>(scene.bodies.size());
@@ -98,11 +100,24 @@ struct World::Implementation {
     return text;
   }
 
+  /* Stages of the host run there whatever is said of them; a name that means nothing is refused all the same. */
+  Backend &backend_for(const Placement &placement, Kernel kernel)
+  {
+    Backend &named = backend_named(backend_text(placement, kernel), placement.allow_inexact);
+    if (row_of(kernel).form != Form::host) return named;
+    std::unique_ptr<Backend> &host = backends[host_stages_name];
+    if (!host) {
+      host = make_host_stages();
+      host->set_profiling(profiling);
+    }
+    return *host;
+  }
+
   /* All that can fail comes before the first change of what is placed. */
   void place(const Placement &placement)
   {
     std::map<Backend *, std::vector<Kernel>> own;
-    for (Kernel kernel : kernels) own[&backend_named(backend_text(placement, kernel), placement.allow_inexact)].push_back(kernel);
+    for (Kernel kernel : kernels) own[&backend_for(placement, kernel)].push_back(kernel);
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
@@ -114,7 +129,7 @@ struct World::Implementation {
   {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
-      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
+      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_rolling_impulse);
       memory.resize(buffer_at(i), touched[i] ? bytes_of(buffer_at(i), now) : 0, cached);
     }
   }
@@ -230,6 +245,7 @@ struct World::Implementation {
   Settings settings;
   Placement wanted;
   Specialisation special;
+  uint32_t scene_features = 0; /* what the scene needs, also where all is run */
   std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;
   PlacedLauncher launcher;
@@ -306,8 +322,10 @@ uint64_t World::state_hash()
   Memory &memory = implementation_->memory;
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::cached_start, implementation_->plan.bodies + 1);
   uint64_t hash = hash_bytes(starts.data(), starts.size() * sizeof(uint32_t), body_hash());
-  return hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
+  hash = hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
                       starts.back(), hash);
+  const bool rolls = implementation_->scene_features & FEATURE_ROLLING;
+  return rolls ? hash_buffers(memory, {Buffer::cached_rolling_impulse}, starts.back(), hash) : hash;
 }
 
 void World::finish()

@@ -49,6 +49,10 @@ struct Statistics {
   double kinetic_energy = 0; /* J, linear and angular */
   uint32_t nonfinite = 0;    /* bodies quarantined so far */
   uint32_t overflow = 0;     /* steps that ran again with larger buffers */
+  /* Of the last step, with the solver `direct` only: */
+  uint32_t direct_islands = 0; /* islands it solved */
+  uint32_t direct_left = 0;    /* touching pairs in islands too large for it, left to the iterative rows */
+  uint32_t direct_stalled = 0; /* solves, over the passes of the step, that did not reach their tolerance */
 };
 
 /* Time of one kernel or stage over the steps since the last call. */

@@ -41,6 +41,9 @@ enum {
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
+  COUNT_DIRECT_ISLANDS, /* islands that the solver `direct` solved in the last pass of the step */
+  COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */
+  COUNT_DIRECT_STALLED, /* islands, over the passes of the step, whose solve did not reach its tolerance */
   COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
   COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
   COUNT_BATCH_CELLS,   /* cells of a class for two-stage batching, a power of two; set by the host */

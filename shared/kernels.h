@@ -23,6 +23,9 @@
 #include "shared/batching/order.h"
 #include "shared/batching/single_group.h"
 #include "shared/solve/tail.h"
+#include "shared/solve/pgs_tail.h"
+#include "shared/solve/nncg_tail.h"
+#include "shared/solve/rolling_tail.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
 

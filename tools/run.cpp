@@ -108,6 +108,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"max_penetration", statistics.max_penetration},
           {"mean_penetration", statistics.mean_penetration},
           {"kinetic_energy", statistics.kinetic_energy},
+          {"direct", {{"islands", statistics.direct_islands}, {"left", statistics.direct_left}, {"stalled", statistics.direct_stalled}}},
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
           {"memory_bytes", world.memory().total_bytes()},
@@ -138,6 +139,9 @@ std::string facts_table(const Outcome &outcome, World &world)
   Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"colours", fmt::format("{}", statistics.colors)});
+  if (world.settings().solver == "direct")
+    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones", statistics.direct_islands,
+                                      statistics.direct_stalled, statistics.direct_left)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});

@@ -203,8 +203,35 @@ TEST_CASE("command: contact problems", "[command]")
 
 TEST_CASE("command: what comes later says so", "[command]")
 {
-  for (const char *later : {"report --out d", "stability", "replay f", "bench solve", "bench broadphase"})
+  for (const char *later : {"replay f", "bench solve", "bench broadphase"})
     check_refused(later, "later version");
+}
+
+TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes", "[command]")
+{
+  const Scratch scratch;
+  const std::string out = " --out " + scratch.file("report");
+  const Json json = json_of("stability --only flight,gravity-0 --solvers soft-step --on serial" + out);
+  REQUIRE(json["cases"].size() == 2);
+  for (const Json &each : json["cases"]) check_keys(each, {"name", "solver", "passed", "figure", "bound", "unit"});
+  CHECK(json["cases"][1]["name"] == "flight");
+  CHECK(json["cases"][1]["passed"] == true);
+  for (const char *name : {"index.html", "stability.json", "figures.csv"}) CHECK(files::file_size(scratch.file("report/") + name) > 100);
+  CHECK(Json::parse(contents(scratch.file("report/stability.json"))) == json);
+  check_refused("stability --only castle" + out, "castle");
+  check_refused("stability --solvers magic" + out, "magic");
+  check_refused("stability --on gpu" + out, "gpu");
+  check_refused("stability --only flight", "--out");
+  check_refused("stability --only flight --out /dev/null/folder", "/dev/null/folder");
+  check_refused("stability --only flight --between serial", "two");
+}
+
+TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")
+{
+  const Json json = json_of("stability --only heavy-on-light-10000 --solvers soft-step --between serial,tbb,cl:pocl");
+  CHECK(json["equal"] == true);
+  REQUIRE(json["cases"].size() == 1);
+  CHECK(json["cases"][0]["body_hash"].size() == 3);
 }
 
 TEST_CASE("command: help and version", "[command]")
