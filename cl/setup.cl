@@ -3,10 +3,10 @@
 #include "shared/setup/contact.h"
 
 __kernel void prepare_contacts(__global const Parameters *parameters, __global const row *material,
-                               __global const uint *body_traits, __global const row *body_mass,
-                               __global const row *body_position, __global const row *solver_velocity,
-                               __global const row *solver_inertia, __global const uint *pair_a,
-                               __global const uint *pair_b, __global const uint *pair_cached,
+                               __global const uint *body_traits, __global const row *body_shape,
+                               __global const row *body_mass, __global const row *body_position,
+                               __global const row *solver_velocity, __global const row *solver_inertia,
+                               __global const uint *pair_a, __global const uint *pair_b, __global const uint *pair_cached,
                                __global const row *manifold_normal, __global const row *manifold_points,
                                __global const uint *manifold_count, __global const uint *manifold_feature,
                                __global const uint *cached_feature, __global const row *cached_normal_impulse,
@@ -16,13 +16,13 @@ __kernel void prepare_contacts(__global const Parameters *parameters, __global c
                                __global row *constraint_normal, __global row *constraint_points,
                                __global row *constraint_center, __global row *constraint_normal_impulse,
                                __global row *constraint_friction_impulse, __global row *constraint_bounce,
-                               RANGE)
+                               __global float *constraint_slop, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  prepare_contacts_item(parameters, material, body_traits, body_mass, body_position, solver_velocity,
+  prepare_contacts_item(parameters, material, body_traits, body_shape, body_mass, body_position, solver_velocity,
                         solver_inertia, pair_a, pair_b, pair_cached, manifold_normal, manifold_points,
                         manifold_count, manifold_feature, cached_feature, cached_normal_impulse,
                         cached_friction_impulse, sort_value, counts, constraint_pair, constraint_a,
                         constraint_b, constraint_normal, constraint_points, constraint_center,
-                        constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, i);
+                        constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, constraint_slop, i);
 }

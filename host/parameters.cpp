@@ -44,6 +44,7 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t 
   p.static_impulse_scale = against_fixed.impulse_scale;
   p.push_speed = settings.push_speed;
   p.slop = settings.slop;
+  p.slop_share = settings.slop_share;
   p.speculative_distance = 4 * settings.slop;
   p.bounds_margin = 0.5f * p.speculative_distance;
   p.restitution_speed = settings.restitution_speed;

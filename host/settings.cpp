@@ -72,6 +72,7 @@ void validate(const Settings &settings)
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);
   check_number("push speed", settings.push_speed, "m/s", true);
   check_number("slop", settings.slop, "m", true);
+  check_number("slop share", settings.slop_share, "(no unit)", true);
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
 }
 

@@ -10,7 +10,7 @@ namespace tandem {
 /* Every choice that changes the result. Names are those of the command's options. */
 struct Settings {
   float step = 1.0f / 60.0f; /* s, > 0 */
-  uint32_t substeps = 4;     /* 1 .. 1000 */
+  uint32_t substeps = 5;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* brute-force, sap, grid */
@@ -22,6 +22,7 @@ struct Settings {
   float contact_damping_ratio = 10.0f; /* overdamped, so that pushing apart adds no bounce */
   float push_speed = 3.0f;             /* m/s, penetration is never removed faster */
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */
+  float slop_share = 0.05f;            /* of the smallest half extent of a pair: the slop is never more than that */
   float restitution_speed = 1.0f;      /* m/s, slower impacts do not bounce */
 };
 

@@ -19,5 +19,7 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/order.h"
 #include "shared/solve/tail.h"
+#include "shared/problem/residual.h"
+#include "shared/problem/sweep.h"
 
 #endif

@@ -4,23 +4,25 @@
 namespace tandem {
 namespace {
 
-constexpr uint32_t biased = 1, relaxing = 0;
+/* PASS_ of shared/solve/contact.h */
+constexpr uint32_t pass_biased = 0, pass_relaxing = 1, pass_last = 2;
 
-void launch_substep(StepLaunches &step)
+void solve(StepLaunches &step, uint32_t pass) { step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {pass}); }
+
+void launch_substep(StepLaunches &step, uint32_t substep)
 {
   step.run(Kernel::integrate_velocities);
-  step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
-    step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {biased});
+  if (substep == 0) step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) solve(step, pass_biased);
   step.run(Kernel::integrate_positions);
-  step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {relaxing});
+  solve(step, substep + 1 < step.settings().substeps ? pass_relaxing : pass_last);
 }
 
 } // namespace
 
 void launch_soft_step(StepLaunches &step)
 {
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, substep);
   if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
 }
 

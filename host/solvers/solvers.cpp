@@ -13,7 +13,7 @@ namespace tandem {
 const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
-      {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
+      {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 5, 1, launch_soft_step},
   };
   return list;
 }
