@@ -4,6 +4,7 @@
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"
+#include "shared/integrate/cache_rolling.h"
 
 __kernel void begin_step(__global uint *counts, RANGE)
 {
@@ -86,4 +87,17 @@ __kernel void cache_impulses(__global const uint *constraint_pair, __global cons
   FOR_EACH_IN_RANGE(i)
   cache_impulses_item(constraint_pair, constraint_normal, constraint_normal_impulse,
                       constraint_friction_impulse, cached_normal_impulse, cached_friction_impulse, i);
+}
+
+__kernel void clear_cached_rolling(__global row *cached_rolling_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  clear_cached_rolling_item(cached_rolling_impulse, i);
+}
+
+__kernel void cache_rolling(__global const uint *constraint_pair, __global const row *constraint_rolling,
+                            __global row *cached_rolling_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  cache_rolling_item(constraint_pair, constraint_rolling, cached_rolling_impulse, i);
 }

@@ -1,6 +1,7 @@
 /* setup.cl - entries: contact constraints. */
 #include "cl/entry.h"
 #include "shared/setup/contact.h"
+#include "shared/setup/rolling.h"
 
 __kernel void prepare_contacts(__global const Parameters *parameters, __global const row *material,
                                __global const uint *body_traits, __global const row *body_shape,
@@ -25,4 +26,15 @@ __kernel void prepare_contacts(__global const Parameters *parameters, __global c
                         cached_friction_impulse, sort_value, counts, constraint_pair, constraint_a,
                         constraint_b, constraint_normal, constraint_points, constraint_center,
                         constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, constraint_slop, i);
+}
+
+__kernel void prepare_rolling(__global const row *material, __global const row *material_rolling,
+                              __global const uint *body_traits, __global const uint *pair_cached,
+                              __global const row *cached_rolling_impulse, __global const uint *constraint_pair,
+                              __global const uint *constraint_a, __global const uint *constraint_b,
+                              __global const uint *counts, __global row *constraint_rolling, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  prepare_rolling_item(material, material_rolling, body_traits, pair_cached, cached_rolling_impulse,
+                       constraint_pair, constraint_a, constraint_b, counts, constraint_rolling, i);
 }

@@ -25,6 +25,7 @@ constexpr uint32_t COUNT_GIVEN = items_given;
 #define FORM_ITEM Form::item
 #define FORM_LANES Form::lanes
 #define FORM_GROUP Form::group
+#define FORM_HOST Form::host
 constexpr std::array<KernelRow, kernel_count> kernel_rows = {{
 #define KERNEL(name, stage, form, items, feature, arguments) \
   {#name, Stage::stage, FORM_##form, COUNT_##items, FEATURE_##feature, arguments_of_##name},

@@ -26,6 +26,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::SORT_HISTOGRAM: return histogram_words(static_cast<uint32_t>(sortable));
   case Capacity::SCAN_SUMS:
     return std::max(scan_sum_words(static_cast<uint32_t>(sortable) + 1), scan_sum_words(histogram_words(static_cast<uint32_t>(sortable))));
+  case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
   }
   return 0;
 }

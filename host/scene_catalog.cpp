@@ -3,8 +3,10 @@
 
 #include "host/random.h"
 #include "host/scene_catalog_closed_forms.h"
+#include "host/scene_catalog_structures.h"
 #include "host/scene_gltf.h"
 #include "host/scene_json.h"
+#include "host/scene_talks.h"
 
 #include <algorithm>
 #include <charconv>
@@ -313,6 +315,8 @@ const std::vector<BuiltInScene> &catalog()
 {
   static const std::vector<BuiltInScene> rows = [] {
     std::vector<BuiltInScene> all = simple_scenes();
+    for (BuiltInScene &scene : structure_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : talk_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));
     return all;
   }();

@@ -15,7 +15,8 @@ struct Settings {
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* brute-force, sap, grid */
   std::string narrowphase = "sat";
-  std::string batching = "coloring";    /* coloring, sequential */
+  std::string batching = "coloring";    /* coloring, sequential, single-group, iterative, two-stage */
+  bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool specialise = true; /* false: every feature built and run, same bits */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a quarter of the substep rate */

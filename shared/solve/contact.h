@@ -13,9 +13,7 @@
 #define TANDEM_SHARED_SOLVE_CONTACT_H
 
 #include "shared/setup/contact.h"
-
-/* Passes over the constraints of a substep: with bias; without, gathering the next substep's warm start; the last without. */
-enum { PASS_BIASED, PASS_RELAXING, PASS_LAST };
+#include "shared/solve/pass.h"
 
 typedef struct {
   natural a, b;
