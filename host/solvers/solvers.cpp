@@ -14,6 +14,7 @@ const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
+      {"jacobi", "all contacts at once on bodies split by mass (Tonge and others 2012)", 4, 8, launch_jacobi},
   };
   return list;
 }
