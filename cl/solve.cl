@@ -86,15 +86,23 @@ __kernel void apply_restitution_tail(__global const uint *constraint_a, __global
                               solver_velocity, i);
 }
 
+__kernel void split_supports(__global const uint *constraint_a, __global const uint *constraint_b,
+                             __global const uint *body_traits, __global uint *split_supports, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_supports_item(constraint_a, constraint_b, body_traits, split_supports, i);
+}
+
 __kernel void split_masses(__global const uint *constraint_a, __global const uint *constraint_b,
                            __global const row *constraint_normal, __global const row *constraint_points,
                            __global const row *constraint_center, __global const row *solver_velocity,
                            __global const row *solver_inertia, __global const uint *incidence_start,
-                           __global const uint *counts, __global row *split_mass, RANGE)
+                           __global const uint *split_supports, __global const uint *counts,
+                           __global row *split_mass, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   split_masses_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
-                    solver_velocity, solver_inertia, incidence_start, counts, split_mass, i);
+                    solver_velocity, solver_inertia, incidence_start, split_supports, counts, split_mass, i);
 }
 
 __kernel void split_warm_start(__global const uint *constraint_a, __global const uint *constraint_b,
@@ -119,13 +127,14 @@ __kernel void split_solve(__global const Parameters *parameters, __global const 
                           __global const row *solver_inertia, __global const row *solver_delta,
                           __global const uint *counts, __global row *constraint_normal_impulse,
                           __global row *constraint_friction_impulse, __global row *constraint_bounce,
-                          __global row *split_impulse, uint biased, RANGE)
+                          __global row *split_pushed, __global row *split_rubbed, __global row *split_impulse,
+                          uint biased, uint momentum, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   split_solve_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
                    constraint_center, split_mass, solver_velocity, solver_inertia, solver_delta, counts,
-                   constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, split_impulse,
-                   biased, i);
+                   constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, split_pushed,
+                   split_rubbed, split_impulse, biased, momentum, i);
 }
 
 __kernel void split_restitution(__global const uint *constraint_a, __global const uint *constraint_b,

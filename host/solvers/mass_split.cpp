@@ -14,6 +14,8 @@ void MassSplit::prepare()
 {
   if (!launched_) return;
   list_incidences(step_.launcher(), step_.plan(), first_color_);
+  step_.run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::split_supports});
+  run_rows(Kernel::split_supports);
   run_rows(Kernel::split_masses);
 }
 
@@ -28,7 +30,7 @@ void MassSplit::solve(uint32_t biased, uint32_t iterations)
 {
   if (!launched_) return;
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
-    run_rows(Kernel::split_solve, {biased});
+    run_rows(Kernel::split_solve, {biased, iteration + 1 < iterations ? iteration : 0});
     join_parts();
   }
 }

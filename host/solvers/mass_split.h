@@ -14,7 +14,7 @@
 namespace tandem {
 
 /* Passes over the tail for one over the colours. */
-constexpr uint32_t tail_iterations = 2;
+constexpr uint32_t tail_iterations = 4;
 
 class MassSplit {
 public:
