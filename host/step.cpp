@@ -28,6 +28,7 @@ public:
     find_contacts();
     color_contacts();
     run(Kernel::prepare_contacts);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
     solver_named(settings().solver).launch(*this);
     commit();
   }

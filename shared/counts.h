@@ -5,7 +5,7 @@
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
-/* Colours of the constraint graph; contacts past the last go to the tail, solved in order. */
+/* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). */
 #define COLOR_LIMIT 63u
 #define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
 #define COLOR_NONE 254u     /* touching, not coloured yet */

@@ -18,7 +18,7 @@ void launch_substep(StepLaunches &step, MassSplit &tail)
   step.run(Kernel::integrate_velocities);
   step.for_each_color(Kernel::warm_start);
   tail.warm_start();
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) solve(step, tail, biased);
+  for (uint32_t turn = 0; turn < step.settings().iterations * tail.turns(); ++turn) solve(step, tail, biased);
   step.run(Kernel::integrate_positions);
   solve(step, tail, relaxing);
 }

@@ -26,16 +26,6 @@ SHARED uint bid_of(uint pair)
 
 SHARED uint is_moving(GLOBAL const uint *body_traits, uint body) { return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC; }
 
-/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
-SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
-                           GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
-{
-  if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
-  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
-  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
-}
-
 /* The lowest colour not in the two masks; COLOR_TAIL if all are taken. */
 SHARED uint lowest_free_color(uint low_used, uint high_used)
 {
@@ -55,6 +45,25 @@ SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, ui
   return lowest_free_color(low, high);
 }
 
+/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. A contact whose bodies
+ * have all colours in use between them goes to the tail at once: a body of ten thousand contacts lets one win a round. */
+SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                           GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_bid, uint round,
+                           uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
+  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  if (free_color(body_colors, a, moving_a, b, moving_b) == COLOR_TAIL) {
+    pair_color[i] = COLOR_TAIL;
+    ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
+    ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
+    return;
+  }
+  if (moving_a) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
+  if (moving_b) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
+}
+
 /* Only the winner of a body reads or writes the body's colours in this round. */
 SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
                               GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
@@ -72,6 +81,15 @@ SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (moving_b) take_color(body_colors, b, color);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
+}
+
+/* A body of the tail alone shall not count as free: it takes the tail's bit, by itself so that no colouring reads it meanwhile. */
+SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *body_traits,
+                           GLOBAL uint *body_colors, uint i)
+{
+  uint a = constraint_a[i], b = constraint_b[i];
+  if (is_moving(body_traits, a)) occupy_color(body_colors, a, COLOR_TAIL);
+  if (is_moving(body_traits, b)) occupy_color(body_colors, b, COLOR_TAIL);
 }
 
 /* The oracle: one item colours all contacts greedily in pair order (inventory E3). */

@@ -60,17 +60,24 @@ TEST_CASE("jacobi: a stack of ten stands still", "[physics]")
 TEST_CASE("jacobi: a falling block of boxes stays bounded", "[physics]")
 {
   World world(load_scene("box-grid:nx=4,ny=8,nz=4"), jacobi());
-  double energy = 0;
-  for (int i = 0; i < 200; ++i) {
-    world.step();
-    energy = std::max(energy, world.statistics().kinetic_energy);
+  const auto highest = [&] {
+    float height = 0;
+    for (const BodyState &state : world.bodies()) height = std::max(height, state.position[1]);
+    return height;
+  };
+  const float start = highest();
+  double deepest = 0;
+  for (int i = 0; i < 30; ++i) {
+    run(world, 20);
+    deepest = std::max(deepest, world.statistics().max_penetration);
+    CHECK(highest() < start + 0.1f); /* a box that tips lifts its centre a little */
   }
   const Statistics statistics = world.statistics();
-  INFO("penetration " << statistics.max_penetration << ", mean " << statistics.mean_penetration << ", energy at most " << energy);
+  INFO("penetration " << deepest << ", mean " << statistics.mean_penetration << ", energy at last " << statistics.kinetic_energy);
   CHECK(all_finite(world.bodies()));
-  CHECK(statistics.max_penetration < 0.02);
-  CHECK(statistics.mean_penetration < 0.002);
-  CHECK(statistics.kinetic_energy < 0.2 * energy);
+  CHECK(deepest < 0.02);
+  CHECK(statistics.mean_penetration < 0.001);
+  CHECK(statistics.kinetic_energy < 0.1);
 }
 
 TEST_CASE("jacobi: free fall is exact", "[physics]")
@@ -134,7 +141,7 @@ TEST_CASE("jacobi: more iterations leave less of the error", "[physics]")
 {
   const Scene scene = load_scene("box-stack:n=6");
   double last = 10;
-  for (uint32_t iterations : {1u, 4u, 16u, 64u, 256u}) {
+  for (uint32_t iterations : {1u, 4u, 16u, 64u}) {
     World world(scene, jacobi(iterations));
     world.step();
     const double error = fastest(world);
@@ -142,5 +149,5 @@ TEST_CASE("jacobi: more iterations leave less of the error", "[physics]")
     CHECK(error < last);
     last = error;
   }
-  CHECK(last < 1e-3);
+  CHECK(last < 1e-6);
 }
