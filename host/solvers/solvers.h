@@ -26,6 +26,7 @@ const Solver &solver_named(const std::string &name);
 void launch_soft_step(StepLaunches &step);
 void launch_pgs(StepLaunches &step);
 void launch_nncg(StepLaunches &step);
+void launch_jacobi(StepLaunches &step);
 void launch_direct(StepLaunches &step);
 
 /* What several solvers launch: one sweep of pgs, friction after all normals; the torques of rolling friction, nothing in a
