@@ -19,5 +19,6 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/order.h"
 #include "shared/solve/tail.h"
+#include "shared/solve/xpbd_tail.h"
 
 #endif

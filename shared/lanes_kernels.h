@@ -6,6 +6,7 @@
 #include "shared/broadphase/bounds.h"
 #include "shared/setup/contact.h"
 #include "shared/solve/contact.h"
+#include "shared/solve/xpbd.h"
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"

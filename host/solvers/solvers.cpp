@@ -14,6 +14,7 @@ const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
+      {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 20, 1, launch_xpbd},
   };
   return list;
 }

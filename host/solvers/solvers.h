@@ -24,5 +24,6 @@ const std::vector<Solver> &solvers();
 const Solver &solver_named(const std::string &name);
 
 void launch_soft_step(StepLaunches &step);
+void launch_xpbd(StepLaunches &step);
 
 } // namespace tandem
