@@ -2,6 +2,7 @@
 #include "cl/entry.h"
 #include "shared/batching/match.h"
 #include "shared/batching/coloring.h"
+#include "shared/batching/incidence.h"
 #include "shared/batching/order.h"
 
 __kernel void match_pairs(__global const uint *pair_a, __global const uint *pair_b,
@@ -50,4 +51,19 @@ __kernel void color_starts(__global const uint *sort_key, __global uint *counts,
 {
   FOR_EACH_IN_RANGE(i)
   color_starts_item(sort_key, counts, i);
+}
+
+__kernel void incidence_keys(__global const uint *constraint_a, __global const uint *constraint_b,
+                             __global const uint *body_traits, __global const uint *counts,
+                             __global uint *incidence_body, __global uint *incidence, uint first_color, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  incidence_keys_item(constraint_a, constraint_b, body_traits, counts, incidence_body, incidence, first_color, i);
+}
+
+__kernel void incidence_starts(__global const uint *incidence_body, __global const uint *counts,
+                               __global uint *incidence_start, uint length, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  incidence_starts_item(incidence_body, counts, incidence_start, length, i);
 }

@@ -1,6 +1,7 @@
 /* solve.cl - entries: the contact solver. */
 #include "cl/entry.h"
 #include "shared/solve/contact.h"
+#include "shared/solve/mass_split_sum.h"
 #include "shared/solve/tail.h"
 #include "shared/solve/xpbd.h"
 #include "shared/solve/xpbd_tail.h"
@@ -133,4 +134,84 @@ __kernel void apply_restitution_tail(__global const uint *constraint_a, __global
   apply_restitution_tail_item(constraint_a, constraint_b, constraint_normal, constraint_points,
                               constraint_bounce, solver_inertia, solver_delta, counts, constraint_normal_impulse,
                               solver_velocity, i);
+}
+
+__kernel void split_masses(__global const uint *constraint_a, __global const uint *constraint_b,
+                           __global const row *constraint_normal, __global const row *constraint_points,
+                           __global const row *constraint_center, __global const row *solver_velocity,
+                           __global const row *solver_inertia, __global const uint *incidence_start,
+                           __global const uint *counts, __global row *split_mass, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_masses_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                    solver_velocity, solver_inertia, incidence_start, counts, split_mass, i);
+}
+
+__kernel void split_warm_start(__global const uint *constraint_a, __global const uint *constraint_b,
+                               __global const row *constraint_normal, __global const row *constraint_points,
+                               __global const row *constraint_center,
+                               __global const row *constraint_normal_impulse,
+                               __global const row *constraint_friction_impulse,
+                               __global const row *solver_velocity, __global const row *solver_inertia,
+                               __global const row *solver_delta, __global const uint *counts,
+                               __global row *split_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_warm_start_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                        constraint_normal_impulse, constraint_friction_impulse, solver_velocity, solver_inertia,
+                        solver_delta, counts, split_impulse, i);
+}
+
+__kernel void split_solve(__global const Parameters *parameters, __global const uint *constraint_a,
+                          __global const uint *constraint_b, __global const row *constraint_normal,
+                          __global const row *constraint_points, __global const row *constraint_center,
+                          __global const row *split_mass, __global const row *solver_velocity,
+                          __global const row *solver_inertia, __global const row *solver_delta,
+                          __global const uint *counts, __global row *constraint_normal_impulse,
+                          __global row *constraint_friction_impulse, __global row *constraint_bounce,
+                          __global row *split_impulse, uint biased, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_solve_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
+                   constraint_center, split_mass, solver_velocity, solver_inertia, solver_delta, counts,
+                   constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, split_impulse,
+                   biased, i);
+}
+
+__kernel void split_restitution(__global const uint *constraint_a, __global const uint *constraint_b,
+                                __global const row *constraint_normal, __global const row *constraint_points,
+                                __global const row *constraint_bounce, __global const row *split_mass,
+                                __global const row *solver_velocity, __global const row *solver_inertia,
+                                __global const row *solver_delta, __global const uint *counts,
+                                __global row *constraint_normal_impulse, __global row *split_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_restitution_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_bounce,
+                         split_mass, solver_velocity, solver_inertia, solver_delta, counts,
+                         constraint_normal_impulse, split_impulse, i);
+}
+
+__kernel void split_sum(__global const uint *incidence_body, __global const uint *incidence_start,
+                        __global const uint *incidence, __global const row *split_impulse,
+                        __global const uint *counts, __global row *split_partial, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_sum_item(incidence_body, incidence_start, incidence, split_impulse, counts, split_partial, i);
+}
+
+__kernel void split_join(__global const uint *incidence_body, __global const uint *incidence_start,
+                         __global const uint *counts, __global row *split_partial, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_join_item(incidence_body, incidence_start, counts, split_partial, i);
+}
+
+__kernel void split_apply(__global const uint *incidence_start, __global const uint *incidence,
+                          __global const row *split_impulse, __global const row *split_partial,
+                          __global const row *solver_inertia, __global const uint *counts,
+                          __global row *solver_velocity, uint trees, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  split_apply_item(incidence_start, incidence, split_impulse, split_partial, solver_inertia, counts,
+                   solver_velocity, trees, i);
 }

@@ -42,6 +42,8 @@ enum {
   CAPACITY_CELLS,
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
+  COUNT_INCIDENCES,    /* twice the constraints: each has two bodies */
+  COUNT_TAIL_INCIDENCES, /* twice the constraints of the tail */
   COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
   COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2

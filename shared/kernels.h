@@ -17,7 +17,9 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/sweep.h"
 #include "shared/batching/coloring.h"
+#include "shared/batching/incidence.h"
 #include "shared/batching/order.h"
+#include "shared/solve/mass_split_sum.h"
 #include "shared/solve/tail.h"
 #include "shared/solve/xpbd_tail.h"
 

@@ -15,6 +15,7 @@ const std::vector<Solver> &solvers()
   static const std::vector<Solver> list = {
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
       {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 20, 1, launch_xpbd},
+      {"jacobi", "all contacts at once on bodies split by mass (Tonge and others 2012)", 4, 8, launch_jacobi},
   };
   return list;
 }

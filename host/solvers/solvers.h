@@ -25,5 +25,6 @@ const Solver &solver_named(const std::string &name);
 
 void launch_soft_step(StepLaunches &step);
 void launch_xpbd(StepLaunches &step);
+void launch_jacobi(StepLaunches &step);
 
 } // namespace tandem
