@@ -114,6 +114,7 @@ private:
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
+    if (const auto keep = solver_named(settings().solver).commit) keep(*this);
   }
 
   static unsigned bits_of(uint32_t values) { return std::bit_width(values); }

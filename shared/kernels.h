@@ -20,6 +20,8 @@
 #include "shared/batching/incidence.h"
 #include "shared/batching/order.h"
 #include "shared/solve/mass_split_sum.h"
+#include "shared/batching/body_coloring.h"
+#include "shared/solve/avbd_bodies.h"
 #include "shared/solve/tail.h"
 #include "shared/solve/xpbd_tail.h"
 

@@ -7,6 +7,7 @@
 #include "shared/setup/contact.h"
 #include "shared/solve/contact.h"
 #include "shared/solve/xpbd.h"
+#include "shared/solve/avbd.h"
 #include "shared/solve/mass_split.h"
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/velocities.h"
