@@ -45,9 +45,9 @@ enum {
   COUNT_INCIDENCES,    /* twice the constraints: each has two bodies */
   COUNT_TAIL_INCIDENCES, /* twice the constraints of the tail */
   COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
-  COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
-  BODY_COLOR_START = COLOR_START + 63 + 2, /* the same for the colours of bodies, as ranges of the bodies sorted by colour */
-  COUNT_TOTAL = BODY_COLOR_START + 63 + 2
+  BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
+  COUNT_TOTAL = COLOR_START + 63 + 2
 };
 
 enum {

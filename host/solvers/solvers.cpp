@@ -14,7 +14,7 @@ const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
-      {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 20, 1, launch_xpbd},
+      {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 8, 1, launch_xpbd, commit_xpbd},
       {"avbd", "bodies one by one against penalties with multipliers (Giles, Diaz and Yuksel 2025)", 1, 10, launch_avbd, commit_avbd},
       {"jacobi", "all contacts at once on bodies split by mass (Tonge and others 2012)", 4, 8, launch_jacobi},
   };

@@ -26,6 +26,7 @@ const Solver &solver_named(const std::string &name);
 
 void launch_soft_step(StepLaunches &step);
 void launch_xpbd(StepLaunches &step);
+void commit_xpbd(StepLaunches &step);
 void launch_avbd(StepLaunches &step);
 void commit_avbd(StepLaunches &step);
 void launch_jacobi(StepLaunches &step);

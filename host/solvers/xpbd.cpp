@@ -17,8 +17,11 @@ void launch_substep(StepLaunches &step)
 
 void launch_xpbd(StepLaunches &step)
 {
+  step.run(Kernel::xpbd_prepare);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
   if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
 }
+
+void commit_xpbd(StepLaunches &step) { step.run(Kernel::xpbd_cache); }
 
 } // namespace tandem

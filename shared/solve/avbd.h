@@ -12,7 +12,9 @@
  * All is in velocities: c = h J w + s over h (m/s), kappa = h^2 times the paper's stiffness (kg), p = h times its force (N s),
  * so that kappa compares with the effective mass m of its row and needs no unit of its own. The change of position is h w by
  * construction. Of a penetration s < 0 a share of 1 - alpha is corrected in a step, as in the paper; points ahead of touching
- * keep their whole distance. Normal rows stand at the points, friction (a circular cone of two tangents, and a twist) at the
+ * keep their whole distance. A penalty far above the mass it moves locks two bodies to each other's velocity of the moment: in
+ * an impact they would not share their momentum within the iterations of a step. So one grows freely to a few masses only and
+ * then by a factor, which takes a lasting load of 1,000 masses some steps and leaves impacts alone. Normal rows stand at the points, friction (a circular cone of two tangents, and a twist) at the
  * centre of the manifold. A clamped row is as stiff as the force it still bears over its violation.
  */
 #ifndef TANDEM_SHARED_SOLVE_AVBD_H
@@ -22,8 +24,10 @@
 
 #define AVBD_ALPHA R(0.95)         /* share of a penetration that is left in place */
 #define AVBD_GAMMA R(0.99)         /* what multipliers and penalties keep from one step to the next */
-#define AVBD_BETA R(10.0)          /* s/m, growth of a penalty in units of the effective mass */
+#define AVBD_BETA R(30.0)          /* s/m, growth of a penalty in units of the effective mass */
 #define AVBD_FIRST_PENALTY R(1.0)  /* of a new point, in units of the effective mass */
+#define AVBD_FREE_PENALTY R(3.0)   /* up to here a penalty grows as it will, */
+#define AVBD_GROWTH R(1.1)         /* from there on at most so much in an iteration */
 #define AVBD_LAST_PENALTY R(1e4)
 
 /* Impulses and violations of one constraint at the present velocities. */
@@ -142,7 +146,8 @@ SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
 
 SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
 {
-  real grown = minimum(penalty + AVBD_BETA * mass * magnitude(violation), AVBD_LAST_PENALTY * mass);
+  real limit = minimum(maximum(AVBD_GROWTH * penalty, AVBD_FREE_PENALTY * mass), AVBD_LAST_PENALTY * mass);
+  real grown = minimum(penalty + AVBD_BETA * mass * magnitude(violation), limit);
   return choose(holds, grown, penalty);
 }
 

@@ -71,12 +71,14 @@ SHARED void solve_block(block_system *s)
   }
 }
 
-SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *constraint_penalty, contact c, contact_forces f, uint constraint)
+SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *constraint_normal_impulse,
+                        GLOBAL const row *constraint_penalty, contact c, contact_forces f, uint constraint)
 {
   vec4 penalty = load_row(constraint_penalty, constraint * 2u), friction_penalty = load_row(constraint_penalty, constraint * 2u + 1u);
+  vec4 multipliers = load_row(constraint_normal_impulse, constraint);
   real held = R(0.0);
   for (uint k = 0; k < 4u; ++k) {
-    if (f.impulse[k] > R(0.0))
+    if (f.impulse[k] > R(0.0) || component(multipliers, k) > R(0.0)) /* one that just let go may press again: it stays stiff */
       add_row(s, frame, c.normal, frame.side > R(0.0) ? f.turn_b[k] : f.turn_a[k], component(penalty, k), f.impulse[k]);
     held = held + f.impulse[k];
   }
@@ -107,7 +109,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *bod
     uint entry = incidence[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
     contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-    add_contact(&s, frame, constraint_penalty, c,
+    add_contact(&s, frame, constraint_normal_impulse, constraint_penalty, c,
                 forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse, constraint_friction_impulse,
                           constraint_penalty, solver_delta, stride, c, i), i);
   }

@@ -12,7 +12,9 @@
  * last bit without ever taking a difference of positions, which costs digits far from the origin. A correction lambda of
  * the paper is h times an impulse, and impulses (N s) are what is stored. Contacts are rigid (alpha = 0), and the paper's
  * multipliers start at 0 in each substep: there is no warm start. Where the paper leaves static friction out as soon as it
- * would leave the cone, it is projected on the cone, so that the velocity pass has only the remainder to do.
+ * would leave the cone, it is projected on the cone, so that the velocity pass has only the remainder to do. And where the
+ * paper undoes the sliding of one substep, what slipped earlier is remembered as long as friction holds, also from step to
+ * step, or the little that each iteration leaves adds up: a box creeps, a pyramid spreads.
  * Constraints of one colour share no moving body.
  */
 #ifndef TANDEM_SHARED_SOLVE_XPBD_H
@@ -20,25 +22,63 @@
 
 #include "shared/solve/contact.h"
 
-/* Friction at the centre, after the points: the multipliers start at 0, so the pressure must be known first. */
-SHARED contact xpbd_friction(GLOBAL const Parameters *parameters, GLOBAL const row *constraint_center, uint stride, contact c, arm_shift shift,
-                             vec4 normal_impulses, vec4 old, GLOBAL row *constraint_friction_impulse, item_index i)
+/* What has slipped at the centre since friction last held it: a vector (m) and a twist about the normal (rad), as speeds that
+ * would undo it within a substep. */
+typedef struct { vec3 slide; real twist; } slipped;
+
+SHARED slipped slip_since(vec4 before, contact c, drift moved, vec3 arm_a, vec3 arm_b, real rate)
 {
-  mask rough = c.friction > R(0.0);
-  if (!HAS_FEATURE(parameters, FEATURE_FRICTION) || !any_of(rough)) return c;
-  real pressure = (normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w);
-  solved sliding = solve_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i), old, pressure);
-  store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
-  return with_motion_if(rough, c, sliding.c);
+  vec3 turned_by = subtract(outer(moved.rotation_b, arm_b), outer(moved.rotation_a, arm_a));
+  slipped s = {scale(add(add(xyz(before), moved.translation), turned_by), rate),
+               (before.w + inner(c.normal, subtract(moved.rotation_b, moved.rotation_a))) * rate};
+  return s;
+}
+
+/* Twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the pressure must be known
+ * first. slip: what is to be undone beside the present speed. */
+SHARED solved xpbd_friction(contact c, arm_shift shift, vec4 center_a, vec4 center_b, slipped slip, vec4 normal_impulses, vec4 old)
+{
+  real limit = c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
+  real twist_limit = limit * old.w;
+  real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)) + slip.twist;
+  real twist = clamped(old.z - center_b.w * spin, -twist_limit, twist_limit);
+  c = apply_turn(c, c.normal, c.normal, twist - old.z);
+
+  tangents t = tangents_of(c.normal);
+  vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
+  vec3 slide = add(subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a)), slip.slide);
+  real first = old.x - center_a.w * inner(slide, t.first), second = old.y - center_a.w * inner(slide, t.second);
+  real squared = first * first + second * second;
+  mask slips = squared > limit * limit;
+  real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
+  first = first * shrink;
+  second = second * shrink;
+  vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
+  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), make_vec4(first, second, twist, old.w)};
+  return s;
 }
 
 SHARED vec4 impulses_of(support s) { return make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]); }
 
+/* Slip that the same pair still had to undo in the last step. */
+SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached, GLOBAL const uint *cached_color,
+                              GLOBAL const row *cached_slip, GLOBAL const row *constraint_normal, GLOBAL row *constraint_slip, item_index i)
+{
+  natural cached = load_natural(pair_cached, load_natural(constraint_pair, i));
+  mask is_cached = cached != (natural)INDEX_NONE;
+  natural from = choose(is_cached, cached, (natural)0u);
+  mask touched = is_cached & (load_natural(cached_color, from) != (natural)COLOR_INACTIVE);
+  vec4 slip = load_row(cached_slip, from);
+  vec3 normal = xyz(load_row(constraint_normal, i)), along = add_scaled(xyz(slip), normal, -inner(xyz(slip), normal));
+  vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_row(constraint_slip, i, choose4(touched, extend(along, slip.w), none));
+}
+
 /* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
 SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                 GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
                                 GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint first_iteration, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
@@ -68,7 +108,15 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
                                                        maximum(highest.w, pressed.w)));
   }
-  c = xpbd_friction(parameters, constraint_center, stride, c, shift, pressed, friction, constraint_friction_impulse, i);
+  mask rough = c.friction > R(0.0);
+  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
+    slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b),
+                              parameters->inverse_substep);
+    solved held = xpbd_friction(c, shift, center_a, center_b, slip, pressed, friction);
+    c = with_motion_if(rough, c, held.c);
+    store_row_if(rough, constraint_friction_impulse, i, held.impulse);
+  }
   store_contact_motion(solver_velocity, c);
 }
 
@@ -96,9 +144,37 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
   }
   c = press_together(c, &s, wished);
   store_row_if(pressing, constraint_normal_impulse, i, impulses_of(s));
-  c = xpbd_friction(parameters, constraint_center, stride, c, shift, impulses_of(s), load_row(constraint_friction_impulse, i),
-                    constraint_friction_impulse, i);
+  mask rough = pressing & (c.friction > R(0.0));
+  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+    slipped none = {make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0)};
+    solved held = xpbd_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i), none, impulses_of(s),
+                                load_row(constraint_friction_impulse, i));
+    c = with_motion_if(rough, c, held.c);
+    store_row_if(rough, constraint_friction_impulse, i, held.impulse);
+  }
   store_contact_motion(solver_velocity, with_motion_if(pressing, before, c));
+}
+
+/* Friction at its limit holds nothing: what slipped then is forgotten. Contacts that no longer press hold nothing either. */
+#define XPBD_HOLDS R(0.999)
+
+SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_center, GLOBAL const row *constraint_slip,
+                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                            GLOBAL const uint *counts, GLOBAL row *cached_slip, item_index i)
+{
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  drift moved = load_drift(solver_delta, c);
+  arm_shift shift = shift_of_arms(c, moved.translation);
+  slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(load_row(constraint_center, i)), shift.a),
+                            add(xyz(load_row(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));
+  vec4 pressed = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
+  real limit = XPBD_HOLDS * c.friction * ((pressed.x + pressed.y) + (pressed.z + pressed.w));
+  mask slides = friction.x * friction.x + friction.y * friction.y >= limit * limit;
+  mask twists = magnitude(friction.z) >= limit * friction.w;
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  store_row(cached_slip, load_natural(constraint_pair, i), extend(choose3(slides, none, slip.slide), choose(twists, (real)R(0.0), slip.twist)));
 }
 
 #endif
