@@ -24,11 +24,12 @@ typedef struct {
 
 SHARED real over_or_zero(real x, real divisor) { return choose(divisor > R(0.0), x / choose(divisor > R(0.0), divisor, (real)R(1.0)), (real)R(0.0)); }
 
-SHARED block_system begin_block(block_frame frame, motion m, motion target)
+/* zero: a 0 from memory, for llvmpipe takes 0 + x for x, also for -0. */
+SHARED block_system begin_block(block_frame frame, motion m, motion target, real zero)
 {
   block_system s;
   vec3 linear = subtract(m.linear, target.linear), angular = rotate_back(frame.axes, subtract(m.angular, target.angular));
-  for (uint k = 0; k < 21u; ++k) s.matrix[k] = R(0.0);
+  for (uint k = 0; k < 21u; ++k) s.matrix[k] = zero;
   for (uint k = 0; k < 6u; ++k) s.matrix[k * (k + 3u) / 2u] = R(1.0);
   s.vector[0] = -over_or_zero(linear.x, frame.root_mass);
   s.vector[1] = -over_or_zero(linear.y, frame.root_mass);
@@ -39,16 +40,30 @@ SHARED block_system begin_block(block_frame frame, motion m, motion target)
   return s;
 }
 
+/* Coordinates `first` to 5 of a row. */
+SHARED void add_row_from(block_system *s, uint first, const real *j, real stiffness, real impulse)
+{
+  for (uint r = first; r < 6u; ++r) {
+    real stiff = stiffness * j[r];
+    for (uint k = first; k <= r; ++k) s->matrix[r * (r + 1u) / 2u + k] = s->matrix[r * (r + 1u) / 2u + k] + stiff * j[k];
+    s->vector[r] = s->vector[r] + impulse * j[r];
+  }
+}
+
 SHARED void add_row(block_system *s, block_frame frame, vec3 direction, vec3 turn, real stiffness, real impulse)
 {
   vec3 push = scale(direction, frame.side * frame.root_mass);
   vec3 twist = scale(multiply(rotate_back(frame.axes, turn), frame.root_moments), frame.side);
   real j[6] = {push.x, push.y, push.z, twist.x, twist.y, twist.z};
-  for (uint r = 0; r < 6u; ++r) {
-    real stiff = stiffness * j[r];
-    for (uint k = 0; k <= r; ++k) s->matrix[r * (r + 1u) / 2u + k] = s->matrix[r * (r + 1u) / 2u + k] + stiff * j[k];
-    s->vector[r] = s->vector[r] + impulse * j[r];
-  }
+  add_row_from(s, 0u, j, stiffness, impulse);
+}
+
+/* A row that only turns. */
+SHARED void add_turning_row(block_system *s, block_frame frame, vec3 turn, real stiffness, real impulse)
+{
+  vec3 twist = scale(multiply(rotate_back(frame.axes, turn), frame.root_moments), frame.side);
+  real j[6] = {twist.x, twist.x, twist.x, twist.x, twist.y, twist.z};
+  add_row_from(s, 3u, j, stiffness, impulse);
 }
 
 /* L D L^T in place, and the solution in place of the right-hand side. Rounding cannot take a pivot below the 1 it has. */
@@ -83,11 +98,11 @@ SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *co
     held = held + f.impulse[k];
   }
   if (c.friction == R(0.0) || held == R(0.0)) return;
-  vec3 arm = frame.side > R(0.0) ? f.arm_b : f.arm_a, still = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 arm = frame.side > R(0.0) ? f.arm_b : f.arm_a;
   real stiffness = friction_penalty.x * f.slide_share;
   add_row(s, frame, f.along.first, outer(arm, f.along.first), stiffness, f.first);
   add_row(s, frame, f.along.second, outer(arm, f.along.second), stiffness, f.second);
-  add_row(s, frame, still, c.normal, friction_penalty.y * f.twist_share, f.twist);
+  add_turning_row(s, frame, c.normal, friction_penalty.y * f.twist_share, f.twist);
 }
 
 SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *constraint_a,
@@ -104,7 +119,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *bod
   block_frame frame = {rotation_of(quat_from(load_row(solver_orientation, body))),
                        make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
                        square_root(m.inverse_mass), R(1.0)};
-  block_system s = begin_block(frame, m, load_motion(avbd_target, body));
+  block_system s = begin_block(frame, m, load_motion(avbd_target, body), load_row(solver_velocity, body * 2u + 1u).w);
   for (uint k = incidence_start[body]; k < incidence_start[body + 1u]; ++k) {
     uint entry = incidence[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);

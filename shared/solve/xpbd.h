@@ -35,28 +35,35 @@ SHARED slipped slip_since(vec4 before, contact c, drift moved, vec3 arm_a, vec3 
 }
 
 /* Twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the pressure must be known
- * first. slip: what is to be undone beside the present speed. */
-SHARED solved xpbd_friction(contact c, arm_shift shift, vec4 center_a, vec4 center_b, slipped slip, vec4 normal_impulses, vec4 old)
+ * first. spin, slide: what friction would undo. */
+SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
 {
-  real limit = c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
   real twist_limit = limit * old.w;
-  real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)) + slip.twist;
-  real twist = clamped(old.z - center_b.w * spin, -twist_limit, twist_limit);
-  c = apply_turn(c, c.normal, c.normal, twist - old.z);
+  real twist = clamped(old.z - mass * spin, -twist_limit, twist_limit);
+  solved s = {apply_turn(c, c.normal, c.normal, twist - old.z), make_vec4(old.x, old.y, twist, old.w)};
+  return s;
+}
 
+SHARED solved xpbd_slide(contact c, vec3 slide, vec3 arm_a, vec3 arm_b, real mass, real limit, vec4 old)
+{
   tangents t = tangents_of(c.normal);
-  vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
-  vec3 slide = add(subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a)), slip.slide);
-  real first = old.x - center_a.w * inner(slide, t.first), second = old.y - center_a.w * inner(slide, t.second);
+  real first = old.x - mass * inner(slide, t.first), second = old.y - mass * inner(slide, t.second);
   real squared = first * first + second * second;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
-  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), make_vec4(first, second, twist, old.w)};
+  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), make_vec4(first, second, old.z, old.w)};
   return s;
 }
+
+SHARED real limit_of(contact c, vec4 normal_impulses)
+{
+  return c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
+}
+SHARED real spin_between(contact c) { return inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)); }
+SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b) { return subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a)); }
 
 SHARED vec4 impulses_of(support s) { return make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]); }
 
@@ -111,9 +118,11 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
-    slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b),
-                              parameters->inverse_substep);
-    solved held = xpbd_friction(c, shift, center_a, center_b, slip, pressed, friction);
+    vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
+    real limit = limit_of(c, pressed);
+    slipped slip = slip_since(load_row(constraint_slip, i), c, moved, arm_a, arm_b, parameters->inverse_substep);
+    solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
+    held = xpbd_slide(held.c, add(slide_between(held.c, arm_a, arm_b), slip.slide), arm_a, arm_b, center_a.w, limit, held.impulse);
     c = with_motion_if(rough, c, held.c);
     store_row_if(rough, constraint_friction_impulse, i, held.impulse);
   }
@@ -146,9 +155,11 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
   store_row_if(pressing, constraint_normal_impulse, i, impulses_of(s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
-    slipped none = {make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0)};
-    solved held = xpbd_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i), none, impulses_of(s),
-                                load_row(constraint_friction_impulse, i));
+    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
+    vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
+    real limit = limit_of(c, impulses_of(s));
+    solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_row(constraint_friction_impulse, i));
+    held = xpbd_slide(held.c, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
     c = with_motion_if(rough, c, held.c);
     store_row_if(rough, constraint_friction_impulse, i, held.impulse);
   }
