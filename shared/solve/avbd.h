@@ -26,8 +26,8 @@
 #define AVBD_GAMMA R(0.99)         /* what multipliers and penalties keep from one step to the next */
 #define AVBD_BETA R(30.0)          /* s/m, growth of a penalty in units of the effective mass */
 #define AVBD_FIRST_PENALTY R(1.0)  /* of a new point, in units of the effective mass */
-#define AVBD_FREE_PENALTY R(3.0)   /* up to here a penalty grows as it will, */
-#define AVBD_GROWTH R(1.1)         /* from there on at most so much in an iteration */
+#define AVBD_FREE_PENALTY R(2.0)   /* up to here a penalty grows as it will, */
+#define AVBD_GROWTH R(1.04)        /* from there on at most so much in an iteration */
 #define AVBD_LAST_PENALTY R(1e4)
 
 /* Impulses and violations of one constraint at the present velocities. */
