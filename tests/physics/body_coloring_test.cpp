@@ -63,7 +63,7 @@ std::vector<uint32_t> greedy(const Coloring &coloring)
   return colors;
 }
 
-/* A ball in a shell of boxes would be rare; a slab under many boxes is a body of many neighbours. */
+/* A body of many neighbours. */
 Scene laden_slab(int side)
 {
   Scene scene = empty_scene();
@@ -79,7 +79,7 @@ Scene laden_slab(int side)
 
 TEST_CASE("bodies of one colour share no constraint, and colours are those of a greedy pass", "[physics]")
 {
-  const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("falling-boxes:n=100,height=0"), laden_slab(12)};
+  const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("pyramid:rows=12"), laden_slab(12)};
   for (const Scene &scene : scenes) {
     World world(scene, settings_for("avbd"));
     for (int i = 0; i < 3; ++i) {
