@@ -3,6 +3,12 @@
 #include "shared/solve/contact.h"
 #include "shared/solve/mass_split_sum.h"
 #include "shared/solve/tail.h"
+#include "shared/solve/pgs.h"
+#include "shared/solve/pgs_tail.h"
+#include "shared/solve/nncg.h"
+#include "shared/solve/nncg_tail.h"
+#include "shared/solve/rolling.h"
+#include "shared/solve/rolling_tail.h"
 
 __kernel void warm_start(__global const uint *constraint_a, __global const uint *constraint_b,
                          __global const row *constraint_normal, __global const row *constraint_points,
@@ -35,29 +41,32 @@ __kernel void warm_start_tail(__global const uint *constraint_a, __global const 
 __kernel void solve_contacts(__global const Parameters *parameters, __global const uint *constraint_a,
                              __global const uint *constraint_b, __global const row *constraint_normal,
                              __global const row *constraint_points, __global const row *constraint_center,
-                             __global const row *solver_inertia, __global const row *solver_delta,
-                             __global const uint *counts, __global row *constraint_normal_impulse,
-                             __global row *constraint_friction_impulse, __global row *constraint_bounce,
-                             __global row *solver_velocity, uint biased, RANGE)
+                             __global const float *constraint_slop, __global const row *solver_inertia,
+                             __global const row *solver_delta, __global const uint *counts,
+                             __global row *constraint_normal_impulse, __global row *constraint_friction_impulse,
+                             __global row *constraint_bounce,
+                             __global row *solver_velocity, __global row *solver_push, uint pass, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
-                      constraint_center, solver_inertia, solver_delta, counts, constraint_normal_impulse,
-                      constraint_friction_impulse, constraint_bounce, solver_velocity, biased, i);
+                      constraint_center, constraint_slop, solver_inertia, solver_delta, counts,
+                      constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity,
+                      solver_push, pass, i);
 }
 
 __kernel void solve_tail(__global const Parameters *parameters, __global const uint *constraint_a,
                          __global const uint *constraint_b, __global const row *constraint_normal,
                          __global const row *constraint_points, __global const row *constraint_center,
-                         __global const row *solver_inertia, __global const row *solver_delta,
-                         __global const uint *counts, __global row *constraint_normal_impulse,
-                         __global row *constraint_friction_impulse, __global row *constraint_bounce,
-                         __global row *solver_velocity, uint biased, RANGE)
+                         __global const float *constraint_slop, __global const row *solver_inertia,
+                         __global const row *solver_delta, __global const uint *counts,
+                         __global row *constraint_normal_impulse, __global row *constraint_friction_impulse,
+                         __global row *constraint_bounce,
+                         __global row *solver_velocity, __global row *solver_push, uint pass, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   solve_tail_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
-                  constraint_center, solver_inertia, solver_delta, counts, constraint_normal_impulse,
-                  constraint_friction_impulse, constraint_bounce, solver_velocity, biased, i);
+                  constraint_center, constraint_slop, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                  constraint_friction_impulse, constraint_bounce, solver_velocity, solver_push, pass, i);
 }
 
 __kernel void apply_restitution(__global const uint *constraint_a, __global const uint *constraint_b,
@@ -123,7 +132,8 @@ __kernel void split_warm_start(__global const uint *constraint_a, __global const
 __kernel void split_solve(__global const Parameters *parameters, __global const uint *constraint_a,
                           __global const uint *constraint_b, __global const row *constraint_normal,
                           __global const row *constraint_points, __global const row *constraint_center,
-                          __global const row *split_mass, __global const row *solver_velocity,
+                          __global const memory_real *constraint_slop, __global const row *split_mass,
+                          __global const row *solver_velocity,
                           __global const row *solver_inertia, __global const row *solver_delta,
                           __global const uint *counts, __global row *constraint_normal_impulse,
                           __global row *constraint_friction_impulse, __global row *constraint_bounce,
@@ -132,7 +142,7 @@ __kernel void split_solve(__global const Parameters *parameters, __global const 
 {
   FOR_EACH_IN_RANGE(i)
   split_solve_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
-                   constraint_center, split_mass, solver_velocity, solver_inertia, solver_delta, counts,
+                   constraint_center, constraint_slop, split_mass, solver_velocity, solver_inertia, solver_delta, counts,
                    constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, split_pushed,
                    split_rubbed, split_impulse, biased, momentum, i);
 }
@@ -173,4 +183,164 @@ __kernel void split_apply(__global const uint *incidence_start, __global const u
   FOR_EACH_IN_RANGE(i)
   split_apply_item(incidence_start, incidence, split_impulse, split_partial, solver_inertia, counts,
                    solver_velocity, trees, i);
+}
+
+__kernel void pgs_normals(__global const Parameters *parameters, __global const uint *constraint_a,
+                          __global const uint *constraint_b, __global const row *constraint_normal,
+                          __global const row *constraint_points, __global const memory_real *constraint_slop,
+                          __global const row *solver_inertia, __global const row *solver_delta,
+                          __global const uint *counts, __global row *constraint_normal_impulse,
+                          __global row *constraint_bounce, __global row *solver_velocity, uint biased, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_normals_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
+                   constraint_slop, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                   constraint_bounce, solver_velocity, biased, i);
+}
+
+__kernel void pgs_normals_tail(__global const Parameters *parameters, __global const uint *constraint_a,
+                               __global const uint *constraint_b, __global const row *constraint_normal,
+                               __global const row *constraint_points,
+                               __global const memory_real *constraint_slop, __global const row *solver_inertia,
+                               __global const row *solver_delta, __global const uint *counts,
+                               __global row *constraint_normal_impulse, __global row *constraint_bounce,
+                               __global row *solver_velocity, uint biased, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_normals_tail_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
+                        constraint_slop, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                        constraint_bounce, solver_velocity, biased, i);
+}
+
+__kernel void pgs_friction(__global const uint *constraint_a, __global const uint *constraint_b,
+                           __global const row *constraint_normal, __global const row *constraint_center,
+                           __global const row *constraint_normal_impulse, __global const row *solver_inertia,
+                           __global const row *solver_delta, __global const uint *counts,
+                           __global row *constraint_friction_impulse, __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_friction_item(constraint_a, constraint_b, constraint_normal, constraint_center,
+                    constraint_normal_impulse, solver_inertia, solver_delta, counts,
+                    constraint_friction_impulse, solver_velocity, i);
+}
+
+__kernel void pgs_friction_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                                __global const row *constraint_normal, __global const row *constraint_center,
+                                __global const row *constraint_normal_impulse,
+                                __global const row *solver_inertia, __global const row *solver_delta,
+                                __global const uint *counts, __global row *constraint_friction_impulse,
+                                __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_friction_tail_item(constraint_a, constraint_b, constraint_normal, constraint_center,
+                         constraint_normal_impulse, solver_inertia, solver_delta, counts,
+                         constraint_friction_impulse, solver_velocity, i);
+}
+
+__kernel void pgs_masses(__global const uint *constraint_a, __global const uint *constraint_b,
+                         __global const row *constraint_normal, __global const row *solver_velocity,
+                         __global const row *solver_inertia, __global const row *solver_delta,
+                         __global const uint *counts, __global row *constraint_points,
+                         __global row *constraint_center, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pgs_masses_item(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, solver_delta,
+                  counts, constraint_points, constraint_center, i);
+}
+
+__kernel void nncg_begin(__global const row *constraint_normal_impulse,
+                         __global const row *constraint_friction_impulse, __global const uint *counts,
+                         __global row *nncg_impulse, __global row *nncg_direction, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  nncg_begin_item(constraint_normal_impulse, constraint_friction_impulse, counts, nncg_impulse, nncg_direction,
+                  i);
+}
+
+__kernel void nncg_change(__global const row *constraint_points, __global const row *constraint_center,
+                          __global const row *constraint_normal_impulse,
+                          __global const row *constraint_friction_impulse, __global const row *nncg_impulse,
+                          __global const uint *counts, __global memory_real *nncg_square, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  nncg_change_item(constraint_points, constraint_center, constraint_normal_impulse,
+                   constraint_friction_impulse, nncg_impulse, counts, nncg_square, i);
+}
+
+__kernel void nncg_beta(__global const memory_real *nncg_sum, __global memory_real *nncg_state, uint begins,
+                        RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  nncg_beta_item(nncg_sum, nncg_state, begins, i);
+}
+
+__kernel void nncg_advance(__global const uint *constraint_a, __global const uint *constraint_b,
+                           __global const row *constraint_normal, __global const row *constraint_points,
+                           __global const row *constraint_center, __global const row *solver_inertia,
+                           __global const row *solver_delta, __global const memory_real *nncg_state,
+                           __global const uint *counts, __global row *constraint_normal_impulse,
+                           __global row *constraint_friction_impulse, __global row *nncg_impulse,
+                           __global row *nncg_direction, __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  nncg_advance_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                    solver_inertia, solver_delta, nncg_state, counts, constraint_normal_impulse,
+                    constraint_friction_impulse, nncg_impulse, nncg_direction, solver_velocity, i);
+}
+
+__kernel void nncg_advance_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                                __global const row *constraint_normal, __global const row *constraint_points,
+                                __global const row *constraint_center, __global const row *solver_inertia,
+                                __global const row *solver_delta, __global const memory_real *nncg_state,
+                                __global const uint *counts, __global row *constraint_normal_impulse,
+                                __global row *constraint_friction_impulse, __global row *nncg_impulse,
+                                __global row *nncg_direction, __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  nncg_advance_tail_item(constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                         solver_inertia, solver_delta, nncg_state, counts, constraint_normal_impulse,
+                         constraint_friction_impulse, nncg_impulse, nncg_direction, solver_velocity, i);
+}
+
+__kernel void warm_start_rolling(__global const uint *constraint_a, __global const uint *constraint_b,
+                                 __global const row *constraint_normal, __global const row *constraint_rolling,
+                                 __global const row *solver_inertia, __global const uint *counts,
+                                 __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  warm_start_rolling_item(constraint_a, constraint_b, constraint_normal, constraint_rolling, solver_inertia,
+                          counts, solver_velocity, i);
+}
+
+__kernel void warm_start_rolling_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                                      __global const row *constraint_normal,
+                                      __global const row *constraint_rolling,
+                                      __global const row *solver_inertia, __global const uint *counts,
+                                      __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  warm_start_rolling_tail_item(constraint_a, constraint_b, constraint_normal, constraint_rolling,
+                               solver_inertia, counts, solver_velocity, i);
+}
+
+__kernel void solve_rolling(__global const uint *constraint_a, __global const uint *constraint_b,
+                            __global const row *constraint_normal,
+                            __global const row *constraint_normal_impulse, __global const row *solver_inertia,
+                            __global const uint *counts, __global row *constraint_rolling,
+                            __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  solve_rolling_item(constraint_a, constraint_b, constraint_normal, constraint_normal_impulse, solver_inertia,
+                     counts, constraint_rolling, solver_velocity, i);
+}
+
+__kernel void solve_rolling_tail(__global const uint *constraint_a, __global const uint *constraint_b,
+                                 __global const row *constraint_normal,
+                                 __global const row *constraint_normal_impulse,
+                                 __global const row *solver_inertia, __global const uint *counts,
+                                 __global row *constraint_rolling, __global row *solver_velocity, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  solve_rolling_tail_item(constraint_a, constraint_b, constraint_normal, constraint_normal_impulse,
+                          solver_inertia, counts, constraint_rolling, solver_velocity, i);
 }

@@ -2,6 +2,7 @@
 #include "host/solvers/mass_split.h"
 
 #include "host/incidence.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
@@ -26,11 +27,11 @@ void MassSplit::warm_start()
   join_parts();
 }
 
-void MassSplit::solve(uint32_t biased, uint32_t iterations)
+void MassSplit::solve(uint32_t pass, uint32_t iterations)
 {
   if (!launched_) return;
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
-    run_rows(Kernel::split_solve, {biased, iteration + 1 < iterations ? iteration : 0});
+    run_rows(Kernel::split_solve, {pass == PASS_BIASED ? 1u : 0u, iteration + 1 < iterations ? iteration : 0});
     join_parts();
   }
 }

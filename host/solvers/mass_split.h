@@ -28,7 +28,8 @@ public:
   /* Lists and masses; before any other pass. */
   void prepare();
   void warm_start();
-  void solve(uint32_t biased, uint32_t iterations);
+  /* pass: of shared/solve/pass.h. */
+  void solve(uint32_t pass, uint32_t iterations);
   /* In rounds: a bouncing part is stopped by the others of its body. */
   void apply_restitution();
 

@@ -76,31 +76,20 @@ SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   store_row(split_mass, stride + i, make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
 }
 
-/* What a row does to its bodies: an impulse on b, its opposite on a, and the angular impulse on each. */
-typedef struct { vec3 push, turn_a, turn_b; } wrench;
-
-SHARED wrench add_push(wrench w, vec3 push, vec3 arm_a, vec3 arm_b)
-{
-  w.push = add(w.push, push);
-  w.turn_a = add(w.turn_a, outer(arm_a, push));
-  w.turn_b = add(w.turn_b, outer(arm_b, push));
-  return w;
-}
-
 SHARED wrench choose_wrench(mask m, wrench a, wrench b)
 {
-  wrench w = {choose3(m, a.push, b.push), choose3(m, a.turn_a, b.turn_a), choose3(m, a.turn_b, b.turn_b)};
+  wrench w = {choose3(m, a.impulse, b.impulse), choose3(m, a.turn_a, b.turn_a), choose3(m, a.turn_b, b.turn_b)};
   return w;
 }
 
 SHARED void store_wrench(GLOBAL row *split_impulse, uint stride, item_index i, wrench w)
 {
-  store_row(split_impulse, i, extend(w.push, R(0.0)));
+  store_row(split_impulse, i, extend(w.impulse, R(0.0)));
   store_row(split_impulse, stride + i, extend(negate(w.turn_a), R(0.0)));
   store_row(split_impulse, stride * 2u + i, extend(w.turn_b, R(0.0)));
 }
 
-/* Friction about the centre: sliding along the tangents and twist about the normal. */
+/* What friction does about the centre: sliding along the tangents and twist about the normal. */
 SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real first, real second, real twist)
 {
   tangents t = tangents_of(normal);
@@ -117,13 +106,10 @@ SHARED void split_warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const 
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
+  support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
-  wrench w = friction_wrench(c.normal, center_a, center_b, friction.x, friction.y, friction.z);
-  for (uint k = 0; k < 4u; ++k)
-    w = add_push(w, scale(c.normal, component(impulses, (natural)k)), add(xyz(load_row(constraint_points, stride * k + i)), shift.a),
-                 add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b));
+  wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_wrench(split_impulse, stride, i, w);
 }
 
@@ -147,13 +133,13 @@ SHARED wrench wrench_of_points(contact c, const support *s, vec4 old, vec4 impul
     w.turn_a = add_scaled(w.turn_a, s->turn_a[k], change);
     w.turn_b = add_scaled(w.turn_b, s->turn_b[k], change);
   }
-  w.push = scale(c.normal, sum);
+  w.impulse = scale(c.normal, sum);
   return w;
 }
 
 SHARED wrench add_wrench(wrench a, wrench b)
 {
-  wrench w = {add(a.push, b.push), add(a.turn_a, b.turn_a), add(a.turn_b, b.turn_b)};
+  wrench w = {add(a.impulse, b.impulse), add(a.turn_a, b.turn_a), add(a.turn_b, b.turn_b)};
   return w;
 }
 
@@ -176,7 +162,7 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
  * method asks for. */
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                             GLOBAL const row *split_mass, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                             GLOBAL const memory_real *constraint_slop, GLOBAL const row *split_mass, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
                              GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                              GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL row *split_pushed,
                              GLOBAL row *split_rubbed, GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
@@ -205,7 +191,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   }
 
   softness soft = softness_of(parameters, c);
-  real leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
+  real slop = load_real(constraint_slop, i), leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
   support s = load_split_support(constraint_points, stride, c, shift, impulses, masses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
@@ -213,7 +199,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
     real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
     soft.impulse_scale = leak * (s.mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
-    wished[k] = normal_impulse(parameters, soft, separation, speed, s.mass[k], s.impulse[k], biased);
+    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
   }
   c = press_together(c, &s, wished);
   vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]), next = pressed;
