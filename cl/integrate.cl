@@ -4,6 +4,7 @@
 #include "shared/integrate/prepare.h"
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"
+#include "shared/integrate/cache_rolling.h"
 
 __kernel void begin_step(__global uint *counts, RANGE)
 {
@@ -14,19 +15,19 @@ __kernel void begin_step(__global uint *counts, RANGE)
 __kernel void prepare_bodies(__global const row *body_mass, __global const row *body_position,
                              __global const row *body_orientation, __global const row *body_velocity,
                              __global uint *counts, __global row *solver_velocity, __global row *solver_delta,
-                             __global row *solver_inertia, __global row *solver_orientation,
-                             __global uint *body_colors, __global uint *body_bid, RANGE)
+                             __global row *solver_push, __global row *solver_inertia,
+                             __global row *solver_orientation, __global uint *body_colors, __global uint *body_bid, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   prepare_bodies_item(body_mass, body_position, body_orientation, body_velocity, counts, solver_velocity,
-                      solver_delta, solver_inertia, solver_orientation, body_colors, body_bid, i);
+                      solver_delta, solver_push, solver_inertia, solver_orientation, body_colors, body_bid, i);
 }
 
 __kernel void integrate_velocities(__global const Parameters *parameters, __global const row *body_mass,
-                                   __global row *solver_velocity, RANGE)
+                                   __global row *solver_velocity, __global row *solver_push, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  integrate_velocities_item(parameters, body_mass, solver_velocity, i);
+  integrate_velocities_item(parameters, body_mass, solver_velocity, solver_push, i);
 }
 
 __kernel void integrate_positions(__global const Parameters *parameters, __global const row *body_mass,
@@ -86,4 +87,17 @@ __kernel void cache_impulses(__global const uint *constraint_pair, __global cons
   FOR_EACH_IN_RANGE(i)
   cache_impulses_item(constraint_pair, constraint_normal, constraint_normal_impulse,
                       constraint_friction_impulse, cached_normal_impulse, cached_friction_impulse, i);
+}
+
+__kernel void clear_cached_rolling(__global row *cached_rolling_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  clear_cached_rolling_item(cached_rolling_impulse, i);
+}
+
+__kernel void cache_rolling(__global const uint *constraint_pair, __global const row *constraint_rolling,
+                            __global row *cached_rolling_impulse, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  cache_rolling_item(constraint_pair, constraint_rolling, cached_rolling_impulse, i);
 }

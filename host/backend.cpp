@@ -1,6 +1,8 @@
 /* backend.cpp - from the text of --on to a backend. */
 #include "host/backend.h"
 
+#include <stdexcept>
+
 #include <fmt/format.h>
 
 #include "host/opencl/device.h"
@@ -67,6 +69,11 @@ std::unique_ptr<Backend> make_cpu_backend(const std::string &text, const std::st
 }
 
 } // namespace
+
+void Backend::run_host_stage(const Launch &launch, Memory &)
+{
+  throw std::logic_error(fmt::format("kernel {} runs on the host alone, not on {}", row_of(launch.kernel).name, name()));
+}
 
 std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexact)
 {

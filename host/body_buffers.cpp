@@ -69,12 +69,14 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
 
 void upload_materials(Memory &memory, const Scene &scene)
 {
-  std::vector<row> rows;
+  std::vector<row> rows, rolling;
   for (const Material &material : scene.materials) {
     const float rules = static_cast<float>(static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine));
     rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
+    rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
   }
   upload_all(memory, Buffer::material, rows);
+  upload_all(memory, Buffer::material_rolling, rolling);
 }
 
 void upload_body(Memory &memory, uint32_t index, const BodyState &state)
@@ -141,6 +143,9 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   statistics.pairs = pairs;
   statistics.manifolds = counts[COUNT_CONSTRAINTS];
   statistics.colors = counts[COUNT_COLORS];
+  statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
+  statistics.direct_left = counts[COUNT_DIRECT_LEFT];
+  statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
   const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs);
   double sum = 0;
   for (uint32_t plane = 0; plane < 4; ++plane) {

@@ -154,7 +154,8 @@ std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, si
   const KernelRow &row = row_of(launch.kernel);
   const auto iteration = iteration_that_wrote(world, launch, buffer, static_cast<uint32_t>(item));
   const std::string which = iteration ? fmt::format("{} == {} && ", iteration_name(launch.kernel), *iteration) : "";
-  return fmt::format("{}_{} if {}tandem::current_step == {}", row.name, row.form == Form::group ? "group" : "item", which, step);
+  const char *const ending = row.form == Form::host ? "" : row.form == Form::group ? "_group" : "_item";
+  return fmt::format("{}{} if {}tandem::current_step == {}", row.name, ending, which, step);
 }
 
 } // namespace tandem

@@ -203,6 +203,8 @@ Comparison Lockstep::run()
     step_reference(*worlds[0]);
     for (size_t index = 1; index < worlds.size() && !departure_; ++index) step_and_compare(index, *worlds[index]);
     result_.steps = current_ + 1;
+    for (const auto &world : worlds)
+      if (!result_.batch_fault) result_.batch_fault = world->batch_fault();
     if (departure_) result_.first_difference = explain();
     else compare_states(worlds);
     if (request_.after_step) request_.after_step(result_.steps);

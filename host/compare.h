@@ -65,6 +65,7 @@ struct Comparison {
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;
   std::optional<Difference> first_difference;
+  std::optional<BatchFault> batch_fault; /* the first on any backend; only with Settings::check */
 };
 
 /* InputError on fewer than two backends, and as World's constructor. */

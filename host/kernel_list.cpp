@@ -25,6 +25,7 @@ constexpr uint32_t COUNT_GIVEN = items_given;
 #define FORM_ITEM Form::item
 #define FORM_LANES Form::lanes
 #define FORM_GROUP Form::group
+#define FORM_HOST Form::host
 constexpr std::array<KernelRow, kernel_count> kernel_rows = {{
 #define KERNEL(name, stage, form, items, feature, arguments) \
   {#name, Stage::stage, FORM_##form, COUNT_##items, FEATURE_##feature, arguments_of_##name},
@@ -47,7 +48,7 @@ const BufferRow &row_of(Buffer buffer) { return buffer_rows[index_of(buffer)]; }
 const char *name_of(Stage stage)
 {
   static const char *const names[stage_count] = {"parallel", "broadphase", "narrowphase", "batching",
-                                                 "setup",    "solve",      "integrate"};
+                                                 "setup",    "solve",      "integrate",   "problem"};
   return names[static_cast<size_t>(stage)];
 }
 

@@ -35,14 +35,14 @@ constexpr size_t buffer_count = 0
 #undef BUFFER
     ;
 
-enum class Form : uint8_t { item, lanes, group };
+enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
-enum class Stage : uint8_t { parallel, broadphase, narrowphase, batching, setup, solve, integrate };
-constexpr size_t stage_count = 7;
+enum class Stage : uint8_t { parallel, broadphase, narrowphase, batching, setup, solve, integrate, problem };
+constexpr size_t stage_count = 8;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
-  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS
+  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS, REDUCE_PARTIAL
 };
 
 enum class Element : uint8_t { row, real, uint, ulong, Parameters };

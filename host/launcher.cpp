@@ -9,6 +9,11 @@ void PlacedLauncher::launch(const Launch &launch)
 {
   Backend &backend = choice_(launch.kernel);
   const KernelRow &row = row_of(launch.kernel);
+  if (row.form == Form::host) {
+    backend.run_host_stage(launch, memory_);
+    if (observer_) observer_(launch);
+    return;
+  }
   bound_.clear();
   size_t slot = 0, value = 0;
   for (const Argument &argument : row.arguments) {

@@ -27,6 +27,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
   case Capacity::SCAN_SUMS:
     return std::max(scan_sum_words(most_sorted + 1), scan_sum_words(histogram_words(most_sorted)));
+  case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
   }
   return 0;
 }

@@ -152,14 +152,34 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
     if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
 }
 
+/* Once the host has looked at a buffer its floats are valid beside the doubles. */
+Memory::Copy &Memory::most_precise(Entry &entry)
+{
+  copy_in(entry, host_storage());
+  const auto wide = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid && copy.storage->keeps_doubles(); });
+  if (wide != entry.copies.end()) return *wide;
+  return *std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+}
+
 std::vector<double> Memory::read_reals(Buffer buffer, size_t count, size_t first)
 {
   std::vector<double> values(count);
-  Entry &entry = entries_[index_of(buffer)];
-  copy_in(entry, host_storage());
-  const auto valid = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
-  if (count > 0) valid->storage->read_reals(valid->handle, first, values.data(), count);
+  Copy &copy = most_precise(entries_[index_of(buffer)]);
+  if (count > 0) copy.storage->read_reals(copy.handle, first, values.data(), count);
   return values;
+}
+
+void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t first)
+{
+  if (count == 0) return;
+  Entry &entry = entries_[index_of(buffer)];
+  Copy &wide = most_precise(entry);
+  if (!wide.storage->keeps_doubles()) {
+    const std::vector<float> rounded(from, from + count);
+    return upload(buffer, rounded.data(), count * sizeof(float), first * sizeof(float));
+  }
+  wide.storage->write_reals(wide.handle, first, from, count);
+  for (Copy &other : entry.copies) other.valid = &other == &wide;
 }
 
 } // namespace tandem

@@ -26,6 +26,9 @@ public:
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
   /* Reals of a buffer of rows or reals, as precise as this storage keeps them. */
   virtual void read_reals(void *handle, size_t first, double *to, size_t count);
+  /* True where reals are doubles; write_reals is for these alone. */
+  virtual bool keeps_doubles() const { return false; }
+  virtual void write_reals(void *, size_t, const double *, size_t) {}
   /* True for a device that works in the host's own memory: moves cost no copy. */
   virtual bool shares_host_memory() const { return false; }
   virtual void wait() {} /* until no work given so far reads or writes any buffer */
@@ -60,6 +63,8 @@ public:
   }
   /* Scalars of a buffer of rows or reals, in double where a backend has left them in double. */
   std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
+  /* Written as doubles where the buffer is in double now, rounded to floats elsewhere. */
+  void write_reals(Buffer buffer, const double *from, size_t count, size_t first = 0);
 
 private:
   struct Copy {
@@ -73,6 +78,7 @@ private:
     std::vector<Copy> copies;
   };
   Copy &copy_in(Entry &entry, Storage &storage);
+  Copy &most_precise(Entry &entry);
   void make_valid(Entry &entry, Copy &copy);
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/specialise.h"
+
 namespace tandem {
 namespace {
 
@@ -19,6 +21,14 @@ SoftContact soft_contact(double hertz, double damping_ratio, double h)
   const double omega = 2 * M_PI * hertz;
   const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
   return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3)};
+}
+
+/* Cells of two-stage batching are four bodies wide: more than the largest where sizes are much alike, so that cells of one
+ * class share no body, and few enough contacts that a work-group has its fill and no more. */
+float inverse_batch_cell(const Scene &scene)
+{
+  const float edge = 8 * median_radius(scene);
+  return edge > 0 ? 1 / edge : 1.0f;
 }
 
 } // namespace
@@ -44,10 +54,12 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t 
   p.static_impulse_scale = against_fixed.impulse_scale;
   p.push_speed = settings.push_speed;
   p.slop = settings.slop;
+  p.slop_share = settings.slop_share;
   p.speculative_distance = 4 * settings.slop;
   p.bounds_margin = 0.5f * p.speculative_distance;
   p.restitution_speed = settings.restitution_speed;
   p.cell_size = 0;
+  p.inverse_batch_cell = inverse_batch_cell(scene);
   p.features = features;
   return p;
 }

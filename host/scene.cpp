@@ -68,6 +68,8 @@ void check_material(const Material &material, const Checker &check)
 {
   check.at_least_zero("static_friction", material.static_friction);
   check.at_least_zero("dynamic_friction", material.dynamic_friction);
+  check.at_least_zero("rolling_friction", material.rolling_friction);
+  check.at_least_zero("spinning_friction", material.spinning_friction);
   if (!(material.restitution >= 0 && material.restitution <= 1))
     check.fail(fmt::format("restitution is {}; a number from 0 to 1 is needed", material.restitution));
   if (material.friction_combine > Combine::geometric_mean || material.restitution_combine > Combine::geometric_mean)

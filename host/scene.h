@@ -46,8 +46,10 @@ struct Material {
   float static_friction = 0.6f;  /* >= 0 */
   float dynamic_friction = 0.6f; /* >= 0 */
   float restitution = 0.0f;      /* 0 .. 1 */
-  Combine friction_combine = Combine::geometric_mean;
+  Combine friction_combine = Combine::geometric_mean; /* of all four kinds of friction */
   Combine restitution_combine = Combine::maximum;
+  float rolling_friction = 0.0f;  /* m, >= 0: the torque against rolling is at most this times the normal force */
+  float spinning_friction = 0.0f; /* m, >= 0: the same about the normal */
 };
 
 enum class Motion : uint32_t {

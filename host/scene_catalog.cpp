@@ -2,8 +2,11 @@
 #include "host/scene_catalog.h"
 
 #include "host/random.h"
+#include "host/scene_catalog_closed_forms.h"
+#include "host/scene_catalog_structures.h"
 #include "host/scene_gltf.h"
 #include "host/scene_json.h"
+#include "host/scene_talks.h"
 
 #include <algorithm>
 #include <charconv>
@@ -255,10 +258,10 @@ const SceneParameter seed{"seed", integer, 1, 0, 4294967295.0, "start of the ran
 const SceneParameter half_extent{"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"};
 const double most = double(most_bodies - 5);
 
-const std::vector<BuiltInScene> &catalog()
+std::vector<BuiltInScene> simple_scenes()
 {
   /* 360 columns are as many as the ground of half extent 400 holds. */
-  static const std::vector<BuiltInScene> rows{
+  return {
       {"box-grid",
        "nx * ny * nz boxes of half extent 1 in shifted layers on a static box; the scene of the published comparisons",
        {{"nx", integer, 20, 1, 360, "boxes along x"},
@@ -306,6 +309,17 @@ const std::vector<BuiltInScene> &catalog()
        mixed_bodies,
        mixed},
   };
+}
+
+const std::vector<BuiltInScene> &catalog()
+{
+  static const std::vector<BuiltInScene> rows = [] {
+    std::vector<BuiltInScene> all = simple_scenes();
+    for (BuiltInScene &scene : structure_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : talk_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));
+    return all;
+  }();
   return rows;
 }
 

@@ -24,6 +24,8 @@ template <typename Field> void each_field(const Material *, Field &&field)
   field("static_friction", &Material::static_friction);
   field("dynamic_friction", &Material::dynamic_friction);
   field("restitution", &Material::restitution);
+  field("rolling_friction", &Material::rolling_friction);
+  field("spinning_friction", &Material::spinning_friction);
   field("friction_combine", &Material::friction_combine);
   field("restitution_combine", &Material::restitution_combine);
 }

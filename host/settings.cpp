@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "host/backend_list.h"
+#include "host/batching/batcher.h"
 #include "host/kernel_list.h"
 #include "host/scene.h"
 
@@ -54,7 +55,13 @@ std::string stage_list()
 
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
 std::vector<std::string> narrowphase_names() { return {"sat"}; }
-std::vector<std::string> batching_names() { return {"coloring", "sequential"}; }
+std::vector<std::string> batching_names()
+{
+  std::vector<std::string> names;
+  for (const Batcher &batcher : batchers()) names.emplace_back(batcher.name);
+  return names;
+}
+
 
 void validate(const Settings &settings)
 {
@@ -72,6 +79,7 @@ void validate(const Settings &settings)
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);
   check_number("push speed", settings.push_speed, "m/s", true);
   check_number("slop", settings.slop, "m", true);
+  check_number("slop share", settings.slop_share, "(no unit)", true);
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
 }
 

@@ -67,21 +67,12 @@ uint32_t body_features(const Scene &scene)
     const Material &material = scene.materials[body.material];
     if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
     if (material.restitution > 0) features |= FEATURE_RESTITUTION;
+    if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
   }
   if (!scene.bodies.empty() && filters(scene)) features |= FEATURE_FILTER;
   return features;
-}
-
-float median_radius(const Scene &scene)
-{
-  std::vector<float> radii;
-  for (const Body &body : scene.bodies)
-    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene.shapes[body.shape]));
-  if (radii.empty()) return 0;
-  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  return radii[radii.size() / 2];
 }
 
 std::vector<uint32_t> large_bodies(const Scene &scene)
@@ -101,6 +92,16 @@ std::vector<uint32_t> large_bodies(const Scene &scene)
 }
 
 } // namespace
+
+float median_radius(const Scene &scene)
+{
+  std::vector<float> radii;
+  for (const Body &body : scene.bodies)
+    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene.shapes[body.shape]));
+  if (radii.empty()) return 0;
+  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  return radii[radii.size() / 2];
+}
 
 float bounding_radius(const Shape &shape)
 {

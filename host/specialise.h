@@ -25,6 +25,9 @@ Specialisation specialise(const Scene &scene);
 /* All that the shapes of a scene could need, for comparing builds: every feature set. */
 uint32_t all_features();
 
+/* The median of bounding_radius over the bodies of finite size; 0 for none. */
+float median_radius(const Scene &scene);
+
 /* Radius of the sphere about the centre that holds the shape; 0 for a half-space. */
 float bounding_radius(const Shape &shape);
 

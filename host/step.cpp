@@ -9,6 +9,7 @@
 
 #include <bit>
 
+#include "host/batching/batcher.h"
 #include "host/primitives.h"
 #include "host/solvers/solvers.h"
 #include "host/step_launches.h"
@@ -28,6 +29,8 @@ public:
     find_contacts();
     color_contacts();
     run(Kernel::prepare_contacts);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
+    if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     solver_named(settings().solver).launch(*this);
     commit();
   }
@@ -94,16 +97,13 @@ private:
 
   void color_contacts()
   {
-    run(Kernel::match_pairs);
-    if (settings().batching == "sequential") run(Kernel::color_in_order);
-    else
-      for (uint32_t round = 0; round < plan().rounds; ++round) {
-        run(Kernel::color_bid, {round});
-        run(Kernel::color_assign, {round});
-      }
+    const Batcher &batcher = batcher_named(settings().batching);
+    run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
+    batcher.launch(*this);
     run(Kernel::color_keys);
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
     run(Kernel::color_starts);
+    if (settings().check) launch_check(*this);
   }
 
   void commit()
@@ -114,6 +114,10 @@ private:
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
+    if (has(FEATURE_ROLLING)) {
+      run(Kernel::clear_cached_rolling);
+      run(Kernel::cache_rolling);
+    }
     if (const auto keep = solver_named(settings().solver).commit) keep(*this);
   }
 

@@ -7,14 +7,19 @@
 
 #include <fmt/format.h>
 
+#include "host/batch_fault.h"
+#include "host/batching/batcher.h"
 #include "host/body_buffers.h"
 #include "host/debug.h"
 #include "host/hash.h"
+#include "host/host_stages.h"
 #include "host/layout.h"
 #include "host/parameters.h"
 #include "host/specialise.h"
 #include "host/step.h"
 #include "minicl/floating_point.h"
+#include "shared/batching/limits.h"
+#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -44,6 +49,7 @@ struct World::Implementation {
       : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
+    scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
     plan.bodies = static_cast<uint32_t>(scene.bodies.size());
@@ -71,6 +77,7 @@ struct World::Implementation {
   {
     StepPlan all = plan;
     all.colors = std::max(plan.colors, COLOR_LIMIT);
+    all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
     Recorder recorder;
     launch_step(recorder, all, settings);
     kernels = recorder.kernels;
@@ -94,11 +101,24 @@ struct World::Implementation {
     return text;
   }
 
+  /* Stages of the host run there whatever is said of them; a name that means nothing is refused all the same. */
+  Backend &backend_for(const Placement &placement, Kernel kernel)
+  {
+    Backend &named = backend_named(backend_text(placement, kernel), placement.allow_inexact);
+    if (row_of(kernel).form != Form::host) return named;
+    std::unique_ptr<Backend> &host = backends[host_stages_name];
+    if (!host) {
+      host = make_host_stages();
+      host->set_profiling(profiling);
+    }
+    return *host;
+  }
+
   /* All that can fail comes before the first change of what is placed. */
   void place(const Placement &placement)
   {
     std::map<Backend *, std::vector<Kernel>> own;
-    for (Kernel kernel : kernels) own[&backend_named(backend_text(placement, kernel), placement.allow_inexact)].push_back(kernel);
+    for (Kernel kernel : kernels) own[&backend_for(placement, kernel)].push_back(kernel);
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
@@ -110,7 +130,7 @@ struct World::Implementation {
   {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
-      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_friction_impulse);
+      const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_rolling_impulse);
       memory.resize(buffer_at(i), touched[i] ? bytes_of(buffer_at(i), now) : 0, cached);
     }
   }
@@ -129,6 +149,8 @@ struct World::Implementation {
     counts[CAPACITY_PAIRS] = plan.capacity_pairs;
     counts[CAPACITY_CELLS] = plan.capacity_cells;
     counts[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    counts[COUNT_BATCH_CELLS] = batch_cells_for(plan.bodies);
+    counts[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
     memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
     index_of_body.resize(plan.bodies);
     for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
@@ -150,6 +172,7 @@ struct World::Implementation {
     known[COUNT_ZERO] = 0;
     known[COUNT_ONE] = 1;
     known[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
+    known[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
     known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
     for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
   }
@@ -170,6 +193,7 @@ struct World::Implementation {
   /* Some rounds and a colour of slack keep a growing scene from repeating every step. */
   void accept()
   {
+    if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
     ++statistics.steps;
     plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
     plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
@@ -231,12 +255,13 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
-  static constexpr uint32_t most_rounds = 4096;
+  static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
   Settings settings;
   Placement wanted;
   Specialisation special;
+  uint32_t scene_features = 0; /* what the scene needs, also where all is run */
   std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;
   PlacedLauncher launcher;
@@ -247,6 +272,7 @@ struct World::Implementation {
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;
+  std::optional<BatchFault> fault;
   Statistics statistics;
 };
 
@@ -265,6 +291,7 @@ void World::place(const Placement &placement) { implementation_->place(placement
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
+const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
 uint32_t World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->kernels; }
 Memory &World::memory() { return implementation_->memory; }
@@ -311,8 +338,10 @@ uint64_t World::state_hash()
   Memory &memory = implementation_->memory;
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::cached_start, implementation_->plan.bodies + 1);
   uint64_t hash = hash_bytes(starts.data(), starts.size() * sizeof(uint32_t), body_hash());
-  return hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
+  hash = hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
                       starts.back(), hash);
+  const bool rolls = implementation_->scene_features & FEATURE_ROLLING;
+  return rolls ? hash_buffers(memory, {Buffer::cached_rolling_impulse}, starts.back(), hash) : hash;
 }
 
 void World::finish()

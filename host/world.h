@@ -9,8 +9,10 @@
  */
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +49,10 @@ struct Statistics {
   double kinetic_energy = 0; /* J, linear and angular */
   uint32_t nonfinite = 0;    /* bodies quarantined so far */
   uint32_t overflow = 0;     /* steps that ran again with larger buffers */
+  /* Of the last step, with the solver `direct` only: */
+  uint32_t direct_islands = 0; /* islands it solved */
+  uint32_t direct_left = 0;    /* touching pairs in islands too large for it, left to the iterative rows */
+  uint32_t direct_stalled = 0; /* solves, over the passes of the step, that did not reach their tolerance */
 };
 
 /* Time of one kernel or stage over the steps since the last call. */
@@ -56,6 +62,18 @@ struct KernelTime {
   double milliseconds; /* total */
   uint64_t launches;
 };
+
+/* A fault in the batches of a step, found because Settings::check asked: the batcher is wrong. */
+struct BatchFault {
+  uint64_t step;
+  /* True: two constraints of one colour share a moving body. False: a pair that touches stands in no batch or in
+   * several, or one that does not touch stands in one; then `color` and `body` say nothing. */
+  bool conflict;
+  uint32_t color, body;                 /* the lowest such colour; index into Scene::bodies */
+  std::array<uint32_t, 2> pair, other;  /* bodies of the first pair and of the one it conflicts with, as in Scene::bodies */
+  uint32_t constraints;                 /* how many are at fault in this step */
+};
+std::string describe(const BatchFault &fault); /* one line */
 
 /* A body taken out of the simulation because it stopped being finite. */
 struct Quarantine {
@@ -91,6 +109,7 @@ public:
   uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */
   uint64_t body_hash();  /* poses and velocities alone */
   const std::vector<Quarantine> &quarantined() const;
+  const std::optional<BatchFault> &batch_fault() const; /* the first so far; only with Settings::check */
 
   /* Waits for the devices, so that a clock read after it is honest. */
   void finish();

@@ -18,6 +18,7 @@ namespace tandem::minicl {
 #define FORM_ITEM(name) backward::run_items<&backward::name##_item>
 #define FORM_LANES(name) backward::run_items<&backward::name##_item>
 #define FORM_GROUP(name) backward::run_groups<&backward::name##_group>
+#define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
 const KernelTable backward_kernels = {1, {
 #include "shared/kernels.def"

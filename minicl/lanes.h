@@ -115,6 +115,13 @@ static inline void atomic_min_if(mask m, uint *to, uint at, natural value)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
 }
 
+static inline real load_real(const memory_real *from, item_index i)
+{
+  real r;
+  __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
+  return r;
+}
+static inline void store_real(memory_real *to, item_index i, real value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
 static inline natural load_natural(const uint *from, item_index i)
 {
   natural r;

@@ -22,6 +22,7 @@ namespace tandem::minicl {
 #define FORM_ITEM(name) nullptr
 #define FORM_LANES(name) lanes4::run_items<&lanes4::name##_item>
 #define FORM_GROUP(name) nullptr
+#define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
 const KernelTable lanes4_kernels = {4, {
 #include "shared/kernels.def"

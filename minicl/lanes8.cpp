@@ -22,6 +22,7 @@ namespace tandem::minicl {
 #define FORM_ITEM(name) nullptr
 #define FORM_LANES(name) lanes8::run_items<&lanes8::name##_item>
 #define FORM_GROUP(name) nullptr
+#define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
 const KernelTable lanes8_kernels = {8, {
 #include "shared/kernels.def"

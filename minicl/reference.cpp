@@ -25,6 +25,7 @@ const ParameterLayout reference_parameters = {offsetof(reference::Parameters, fe
 #define FORM_ITEM(name) reference::run_items<&reference::name##_item>
 #define FORM_LANES(name) reference::run_items<&reference::name##_item>
 #define FORM_GROUP(name) reference::run_groups<&reference::name##_group>
+#define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
 const KernelTable reference_kernels = {1, {
 #include "shared/kernels.def"

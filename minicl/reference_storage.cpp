@@ -81,6 +81,12 @@ public:
     std::copy_n(static_cast<const double *>(handle) + first, count, to);
   }
 
+  bool keeps_doubles() const override { return true; }
+  void write_reals(void *handle, size_t first, const double *from, size_t count) override
+  {
+    std::copy_n(from, count, static_cast<double *>(handle) + first);
+  }
+
 private:
   Layout layout_at(void *handle)
   {

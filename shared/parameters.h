@@ -29,8 +29,10 @@ typedef struct {
   PARAMETER_REAL speculative_distance; /* m, contacts are made this far ahead of touching */
   PARAMETER_REAL bounds_margin;     /* m, added to every bound */
   PARAMETER_REAL slop;              /* m, penetration left in place */
+  PARAMETER_REAL slop_share;        /* of the smallest half extent of a pair: no more than this is left in place */
   PARAMETER_REAL restitution_speed; /* m/s, slower impacts do not bounce */
   PARAMETER_REAL cell_size;         /* m, smallest cell of the uniform grid */
+  PARAMETER_REAL inverse_batch_cell; /* 1/m, cells of two-stage batching */
   uint features;                    /* FEATURE_ bits */
   uint reserved;
 } Parameters;

@@ -7,6 +7,7 @@
 
 #include "host/scene_catalog.h"
 #include "host/world.h"
+#include "tools/bench_batching.h"
 #include "tools/bench_primitives.h"
 #include "tools/command.h"
 #include "tools/measure.h"
@@ -55,6 +56,23 @@ Result bench_primitive(const BenchOptions &options, uint64_t count)
   return {count, sort ? "pairs" : "numbers", spread_of(times)};
 }
 
+/* Every batcher on one list of contacts; exit status 1 if the check finds a batch wrong. */
+int execute_batching(const BenchOptions &options)
+{
+  const uint64_t boxes = options.count.empty() ? 0 : whole_number("--n", options.count, 1, most_bodies);
+  options.json.check();
+  const std::vector<BatchScene> scenes = bench_batching(options.on, boxes, options.inexact);
+  Json json = {{"what", options.what}, {"backend", options.on}, {"scenes", Json::array()}};
+  bool right = true;
+  for (const BatchScene &scene : scenes) {
+    if (!options.json.takes_standard_output()) fmt::print("{}on {}: {}", &scene == &scenes.front() ? "" : "\n", options.on, batch_text(scene));
+    json["scenes"].push_back(batch_json(scene));
+    for (const BatchTable &table : scene.tables) right = right && table.right;
+  }
+  options.json.write(json);
+  return right ? 0 : 1;
+}
+
 void print_result(const BenchOptions &options, const Result &result)
 {
   const Spread &time = result.milliseconds;
@@ -84,10 +102,11 @@ Json result_json(const BenchOptions &options, const Result &result)
 int execute(const BenchOptions &options)
 {
   for (const char *later : {"broadphase", "narrowphase", "solve"})
-    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan or step", later));
+    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching or step", later));
+  if (options.what == "batching") return execute_batching(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
-    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan or step", options.what));
+    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching or step", options.what));
   const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
   const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
   options.json.check();
@@ -101,9 +120,9 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, step");
+  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, step");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, step (box-grid)")->required()->type_name("");
+  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--n", options->count, "how many: 1048576 keys, 1000 bodies unless given")->type_name("N");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");

@@ -190,7 +190,8 @@ int execute(const DiffOptions &options)
                bytes_text(comparison.bytes_compared));
   }
   options.json.write(comparison_json(comparison, request, scene, options.scene));
-  return comparison.equal ? 0 : 1;
+  if (comparison.batch_fault) fmt::print(stderr, "tandem: {}\n", describe(*comparison.batch_fault));
+  return comparison.equal && !comparison.batch_fault ? 0 : 1;
 }
 
 } // namespace

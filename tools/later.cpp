@@ -9,7 +9,7 @@ namespace tandem {
 std::vector<Command> later_commands(CLI::App &parser)
 {
   std::vector<Command> commands;
-  for (const char *name : {"report", "stability", "contact-problem", "replay"}) {
+  for (const char *name : {"replay"}) {
     CLI::App *command = parser.add_subcommand(name, "comes with a later version");
     command->allow_extras();
     commands.push_back({command, [name]() -> int {

@@ -32,7 +32,8 @@ std::string where_to_look(const CLI::App &parser)
 std::vector<Command> add_commands(CLI::App &parser)
 {
   std::vector<Command> commands = {devices_command(parser), scenes_command(parser), run_command(parser),
-                                   diff_command(parser),    plan_command(parser),   bench_command(parser)};
+                                   diff_command(parser),    plan_command(parser),   bench_command(parser),
+                                   report_command(parser), stability_command(parser), contact_problem_command(parser)};
   for (Command &command : later_commands(parser)) commands.push_back(std::move(command));
   return commands;
 }

@@ -108,6 +108,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"max_penetration", statistics.max_penetration},
           {"mean_penetration", statistics.mean_penetration},
           {"kinetic_energy", statistics.kinetic_energy},
+          {"direct", {{"islands", statistics.direct_islands}, {"left", statistics.direct_left}, {"stalled", statistics.direct_stalled}}},
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
           {"memory_bytes", world.memory().total_bytes()},
@@ -138,12 +139,17 @@ std::string facts_table(const Outcome &outcome, World &world)
   Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"colours", fmt::format("{}", statistics.colors)});
+  if (world.settings().solver == "direct")
+    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones", statistics.direct_islands,
+                                      statistics.direct_stalled, statistics.direct_left)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
   table.add({"memory", bytes_text(world.memory().total_bytes())});
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
+  if (world.settings().check)
+    table.add({"batches", world.batch_fault() ? "WRONG" : fmt::format("free of conflict in all {} steps", outcome.steps)});
   return table.text("  ");
 }
 
@@ -197,7 +203,8 @@ int execute(const RunOptions &options)
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
   print_warnings(outcome, world);
   options.json.write(outcome_json(outcome, world, placement));
-  return 0;
+  if (world.batch_fault()) fmt::print(stderr, "tandem: {}\n", describe(*world.batch_fault()));
+  return world.batch_fault() ? 1 : 0;
 }
 
 } // namespace

@@ -63,6 +63,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
   option("--batching", batching_, one_of("batching", batching_names()), "NAME");
+  parser.add_flag("--check", check_, "prove in every step that no batch touches a moving body twice and that every contact is in one; exit status 1 if not");
   parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
   parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
 }
@@ -77,6 +78,7 @@ Settings SceneOptions::settings() const
   settings.broadphase = broadphase_;
   settings.narrowphase = narrowphase_;
   settings.batching = batching_;
+  settings.check = check_;
   settings.specialise = !no_specialise_;
   validate(settings);
   return settings;
@@ -109,6 +111,7 @@ std::string SceneOptions::typed_again() const
   add("--broadphase", broadphase_, defaults.broadphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);
   add("--batching", batching_, defaults.batching);
+  if (check_) text += " --check";
   if (no_specialise_) text += " --no-specialise";
   return text;
 }

@@ -46,9 +46,11 @@ void launch_avbd(StepLaunches &step)
   const uint32_t colors = body_colors(step.plan());
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
     step.run(Kernel::integrate_velocities);
+    warm_start_rolling(step);
     step.run(Kernel::avbd_begin);
     for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);
     step.run(Kernel::integrate_positions);
+    solve_rolling(step);
   }
   if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
 }

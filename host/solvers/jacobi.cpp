@@ -4,13 +4,9 @@
  * scene would take. */
 #include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
-namespace {
-
-constexpr uint32_t biased = 1, relaxing = 0;
-
-} // namespace
 
 void launch_jacobi(StepLaunches &step)
 {
@@ -20,9 +16,12 @@ void launch_jacobi(StepLaunches &step)
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
     step.run(Kernel::integrate_velocities);
     contacts.warm_start();
-    contacts.solve(biased, iterations);
+    warm_start_rolling(step);
+    contacts.solve(PASS_BIASED, iterations);
+    solve_rolling(step);
     step.run(Kernel::integrate_positions);
-    contacts.solve(relaxing, iterations);
+    contacts.solve(PASS_LAST, iterations);
+    solve_rolling(step);
   }
   if (step.has(FEATURE_RESTITUTION)) contacts.apply_restitution();
 }

@@ -2,6 +2,7 @@
 #include "host/solvers/mass_split.h"
 
 #include "host/incidence.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
@@ -14,6 +15,8 @@ void MassSplit::prepare()
 {
   if (!launched_) return;
   list_incidences(step_.launcher(), step_.plan(), first_color_);
+  step_.run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::split_supports});
+  run_rows(Kernel::split_supports);
   run_rows(Kernel::split_masses);
 }
 
@@ -24,11 +27,11 @@ void MassSplit::warm_start()
   join_parts();
 }
 
-void MassSplit::solve(uint32_t biased, uint32_t iterations)
+void MassSplit::solve(uint32_t pass, uint32_t iterations)
 {
   if (!launched_) return;
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
-    run_rows(Kernel::split_solve, {biased});
+    run_rows(Kernel::split_solve, {pass == PASS_BIASED ? 1u : 0u, iteration + 1 < iterations ? iteration : 0});
     join_parts();
   }
 }

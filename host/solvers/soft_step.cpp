@@ -1,26 +1,28 @@
 /* soft_step.cpp - the default solver: small substeps, each solved softly, moved, and relaxed; see shared/solve/contact.h. */
 #include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
 
-constexpr uint32_t biased = 1, relaxing = 0;
-
-void solve(StepLaunches &step, MassSplit &tail, uint32_t bias)
+void solve(StepLaunches &step, MassSplit &tail, uint32_t pass)
 {
-  step.for_each_color(Kernel::solve_contacts, {bias});
-  tail.solve(bias, tail_iterations);
+  step.for_each_color(Kernel::solve_contacts, {pass});
+  tail.solve(pass, tail_iterations);
+  solve_rolling(step);
 }
 
-void launch_substep(StepLaunches &step, MassSplit &tail)
+/* Later substeps find the impulses of the colours in solver_push; the tail adds its own each time. */
+void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   step.run(Kernel::integrate_velocities);
-  step.for_each_color(Kernel::warm_start);
+  if (substep == 0) step.for_each_color(Kernel::warm_start);
   tail.warm_start();
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) solve(step, tail, biased);
+  warm_start_rolling(step);
+  for (uint32_t turn = 0; turn < step.settings().iterations * tail.turns(); ++turn) solve(step, tail, PASS_BIASED);
   step.run(Kernel::integrate_positions);
-  solve(step, tail, relaxing);
+  solve(step, tail, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
 }
 
 } // namespace
@@ -29,7 +31,7 @@ void launch_soft_step(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
   if (!step.has(FEATURE_RESTITUTION)) return;
   step.for_each_color(Kernel::apply_restitution);
   tail.apply_restitution();

@@ -25,10 +25,19 @@ const std::vector<Solver> &solvers();
 const Solver &solver_named(const std::string &name);
 
 void launch_soft_step(StepLaunches &step);
+void launch_pgs(StepLaunches &step);
+void launch_nncg(StepLaunches &step);
 void launch_xpbd(StepLaunches &step);
 void commit_xpbd(StepLaunches &step);
 void launch_avbd(StepLaunches &step);
 void commit_avbd(StepLaunches &step);
 void launch_jacobi(StepLaunches &step);
+void launch_direct(StepLaunches &step);
+
+/* What several solvers launch: one sweep of pgs, friction after all normals; the torques of rolling friction, nothing in a
+ * scene without. */
+void launch_pgs_sweep(StepLaunches &step, bool biased);
+void warm_start_rolling(StepLaunches &step);
+void solve_rolling(StepLaunches &step);
 
 } // namespace tandem

@@ -7,10 +7,12 @@ namespace {
 void launch_substep(StepLaunches &step)
 {
   step.run(Kernel::integrate_velocities);
+  warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
     step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_tail, {iteration == 0});
   step.run(Kernel::integrate_positions);
   step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_tail);
+  solve_rolling(step);
 }
 
 } // namespace

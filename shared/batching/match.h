@@ -1,7 +1,8 @@
 /* match.h - finds each pair in the cache of the last step: its impulses and its colour live on.
  *
  * Persistent pairs of the 2009 talk. A touching pair that had a colour keeps it: pairs that were free of
- * conflict among themselves still are, so only new contacts need colouring.
+ * conflict among themselves still are, so only new contacts need colouring. Batchers whose batches follow from the
+ * list of contacts alone (`keep` 0) take over the impulses and no colour.
  */
 #ifndef TANDEM_SHARED_BATCHING_MATCH_H
 #define TANDEM_SHARED_BATCHING_MATCH_H
@@ -24,11 +25,11 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color) { ATOM
 SHARED void match_pairs_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *manifold_count,
                              GLOBAL const uint *body_traits, GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
                              GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
-                             GLOBAL uint *body_colors, uint i)
+                             GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pair_a[i], b = pair_b[i];
   uint cached = find_cached(cached_start, cached_b, a, b);
-  uint color = cached == INDEX_NONE ? COLOR_NONE : cached_color[cached];
+  uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_color[cached];
   if (manifold_count[i] == 0u) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;

@@ -18,7 +18,14 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_ROUNDS] = 0u;
   counts[COUNT_COLORS] = 0u;
   counts[COUNT_STATUS] = 0u;
+  counts[COUNT_DIRECT_ISLANDS] = 0u;
+  counts[COUNT_DIRECT_LEFT] = 0u;
+  counts[COUNT_DIRECT_STALLED] = 0u;
   counts[COUNT_NONFINITE] = INDEX_NONE;
+  counts[COUNT_CONFLICTS] = 0u;
+  counts[COUNT_FIRST_CONFLICT] = INDEX_NONE;
+  counts[COUNT_MISBATCHED] = 0u;
+  counts[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
 }
 
 SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,

@@ -1,12 +1,14 @@
-/* velocities.h - gravity and damping over one substep: the forces of the pipeline. */
+/* velocities.h - gravity, damping and the warm start over one substep: the forces of the pipeline. */
 #ifndef TANDEM_SHARED_INTEGRATE_VELOCITIES_H
 #define TANDEM_SHARED_INTEGRATE_VELOCITIES_H
 
 #include "shared/records.h"
 
-SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL row *solver_velocity, item_index i)
+/* solver_push: what the constraints of the last substep pushed the body by, 0 in the first; taken here, and cleared. */
+SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL row *solver_velocity,
+                                      GLOBAL row *solver_push, item_index i)
 {
-  motion m = load_motion(solver_velocity, i);
+  motion m = load_motion(solver_velocity, i), push = load_motion(solver_push, i);
   real h = parameters->substep;
   mask moves = m.inverse_mass > R(0.0);
   real pull = choose(moves, load_row(body_mass, i * 2u).w * h, (real)R(0.0));
@@ -16,7 +18,12 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
     m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));
   }
+  m.linear = add(m.linear, push.linear);
+  m.angular = add(m.angular, push.angular);
   store_motion_if(moves, solver_velocity, i, m);
+  vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_row(solver_push, i * 2u, zero);
+  store_row(solver_push, i * 2u + 1u, zero);
 }
 
 #endif

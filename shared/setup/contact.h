@@ -127,26 +127,51 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
   return (b - a) * inner(make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), normal);
 }
 
-/* Mean distance of the points from their centre: the arm of the twisting friction. */
-SHARED real mean_radius(GLOBAL const row *manifold_points, natural pair, uint stride, natural points, vec3 center, real share)
+/* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist. Of a fast
+ * spinning box the manifold also holds corners that are far ahead; they take part only where no point is near. */
+typedef struct { vec3 center; real radius; } friction_patch;
+
+SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, uint stride, natural points, real near)
 {
-  real sum = R(0.0);
+  vec4 point[4];
+  real weight[4], sum = R(0.0);
+  for (uint k = 0; k < 4u; ++k) point[k] = load_row(manifold_points, stride * k + pair);
+  mask none = point[0].w > near;
+  for (uint k = 1; k < 4u; ++k) none = none & ((points <= (natural)k) | (point[k].w > near));
+  for (uint k = 0; k < 4u; ++k) {
+    weight[k] = choose((points > (natural)k) & (none | (point[k].w <= near)), (real)R(1.0), (real)R(0.0));
+    sum = sum + weight[k];
+  }
+  real share = R(1.0) / sum; /* a constraint has at least one point */
+  vec3 center = choose3(weight[0] > R(0.0), xyz(point[0]), make_vec3(R(0.0), R(0.0), R(0.0)));
+  for (uint k = 1; k < 4u; ++k) center = choose3(weight[k] > R(0.0), add(center, xyz(point[k])), center);
+  friction_patch patch = {scale(center, share), R(0.0)};
   for (uint k = 0; k < 4u; ++k)
-    sum = sum + choose(points > (natural)k, length_of(subtract(xyz(load_row(manifold_points, stride * k + pair)), center)), (real)R(0.0));
-  return sum * share;
+    patch.radius = patch.radius + choose(weight[k] > R(0.0), length_of(subtract(xyz(point[k]), patch.center)), (real)R(0.0));
+  patch.radius = patch.radius * share;
+  return patch;
+}
+
+/* Penetration left in place so that contacts persist; small bodies would vanish in it. */
+SHARED real slop_between(GLOBAL const Parameters *parameters, GLOBAL const row *body_shape, body_pair bodies)
+{
+  vec4 a = load_row(body_shape, bodies.a), b = load_row(body_shape, bodies.b);
+  real size_a = minimum(a.x, minimum(a.y, a.z)), size_b = minimum(b.x, minimum(b.y, b.z));
+  real size = choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b); /* a half-space has none */
+  return minimum(parameters->slop, parameters->slop_share * size);
 }
 
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
-                                  GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *solver_velocity,
-                                  GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                                  GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
+                                  GLOBAL const row *body_shape, GLOBAL const row *body_mass, GLOBAL const row *body_position,
+                                  GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a,
+                                  GLOBAL const uint *pair_b, GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
                                   GLOBAL const uint *manifold_count, GLOBAL const uint *manifold_feature,
                                   GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
                                   GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
                                   GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b,
                                   GLOBAL row *constraint_normal, GLOBAL row *constraint_points, GLOBAL row *constraint_center,
                                   GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                  GLOBAL row *constraint_bounce, item_index i)
+                                  GLOBAL row *constraint_bounce, GLOBAL memory_real *constraint_slop, item_index i)
 {
   natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
@@ -162,13 +187,11 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   natural old_feature = load_natural(cached_feature, from);
   vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
 
-  vec3 center = make_vec3(R(0.0), R(0.0), R(0.0)); /* a constraint has at least one point */
   real impulse[4], wished[4];
   for (uint k = 0; k < 4u; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     mask used = points > (natural)k;
     vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
-    center = k == 0u ? arm_a : choose3(used, add(center, arm_a), center); /* llvmpipe takes 0 + x for x, also for -0 */
     real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
     store_row(constraint_points, stride * k + i, extend(arm_a, choose(used, point.w, (real)R(0.0))));
     store_row(constraint_points, stride * (k + 4u) + i, extend(arm_b, mass));
@@ -177,8 +200,8 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                        (real)R(-1.0));
   }
 
-  real share = R(1.0) / to_real(points);
-  center = scale(center, share);
+  friction_patch patch = patch_of(manifold_points, pair, stride, points, parameters->speculative_distance);
+  vec3 center = patch.center;
   vec3 center_b = subtract(center, bodies.offset);
   vec3 slide = relative_velocity(bodies, center, center_b);
   slide = add_scaled(slide, normal, -inner(slide, normal));
@@ -195,7 +218,8 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
   store_row(constraint_friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
-                      mean_radius(manifold_points, pair, stride, points, center, share)));
+                      patch.radius));
+  store_real(constraint_slop, i, slop_between(parameters, body_shape, bodies));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));

@@ -13,6 +13,7 @@
 #define TANDEM_SHARED_SOLVE_CONTACT_H
 
 #include "shared/setup/contact.h"
+#include "shared/solve/pass.h"
 
 typedef struct {
   natural a, b;
@@ -101,6 +102,44 @@ SHARED arm_shift load_arm_shift(GLOBAL const row *solver_delta, contact c)
   return shift_of_arms(c, subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))));
 }
 
+/* The four points of a manifold as one: their turns, masses and impulses. */
+typedef struct {
+  vec3 turn_a[4], turn_b[4];
+  real mass[4], impulse[4];
+} support;
+
+/* Turns, masses and impulses of the points; separations as the step began stay with the caller. */
+SHARED support load_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses, item_index i)
+{
+  support s;
+  for (uint k = 0; k < 4u; ++k) {
+    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    s.turn_a[k] = outer(add(xyz(load_row(constraint_points, stride * k + i)), shift.a), c.normal);
+    s.turn_b[k] = outer(add(xyz(point_b), shift.b), c.normal);
+    s.mass[k] = point_b.w;
+    s.impulse[k] = component(impulses, (natural)k);
+  }
+  return s;
+}
+
+/* What a manifold's impulses amount to: one impulse, and its moments about the two bodies. */
+typedef struct { vec3 impulse, turn_a, turn_b; } wrench;
+
+/* friction: along the two tangents at the centre, and about the normal. */
+SHARED wrench wrench_of(contact c, support s, vec3 center_a, vec3 center_b, vec4 friction)
+{
+  tangents t = tangents_of(c.normal);
+  vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
+  wrench w = {slide, add(outer(center_a, slide), scale(c.normal, friction.z)), add(outer(center_b, slide), scale(c.normal, friction.z))};
+  for (uint k = 0; k < 4u; ++k) {
+    w.impulse = add_scaled(w.impulse, c.normal, s.impulse[k]);
+    w.turn_a = add_scaled(w.turn_a, s.turn_a[k], s.impulse[k]);
+    w.turn_b = add_scaled(w.turn_b, s.turn_b[k], s.impulse[k]);
+  }
+  return w;
+}
+
+/* The first substep of a step: the impulses of the last step. Later ones find theirs in solver_push. */
 SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                             GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
@@ -109,20 +148,24 @@ SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
+  support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
-  tangents t = tangents_of(c.normal);
-  vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
-  vec3 turn_a = add(outer(center_a, slide), scale(c.normal, friction.z));
-  vec3 turn_b = add(outer(center_b, slide), scale(c.normal, friction.z));
-  for (uint k = 0; k < 4u; ++k) {
-    vec3 push = scale(c.normal, component(impulses, (natural)k));
-    turn_a = add(turn_a, outer(add(xyz(load_row(constraint_points, stride * k + i)), shift.a), push));
-    turn_b = add(turn_b, outer(add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b), push));
-    slide = add(slide, push);
-  }
-  store_contact_motion(solver_velocity, apply_impulse(c, slide, turn_a, turn_b, R(1.0)));
+  wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
+  store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
+}
+
+/* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: what every body's
+ * constraints will push it by, in the order of the colours. A pass of its own would read every constraint once more. */
+SHARED void add_push(GLOBAL row *solver_push, contact c, wrench w)
+{
+  motion push_a = load_motion(solver_push, c.a), push_b = load_motion(solver_push, c.b);
+  push_a.linear = add_scaled(push_a.linear, w.impulse, -c.motion_a.inverse_mass);
+  push_a.angular = subtract(push_a.angular, symmetric_times(c.inertia_a, w.turn_a));
+  push_b.linear = add_scaled(push_b.linear, w.impulse, c.motion_b.inverse_mass);
+  push_b.angular = add(push_b.angular, symmetric_times(c.inertia_b, w.turn_b));
+  store_motion_if(c.motion_a.inverse_mass > R(0.0), solver_push, c.a, push_a);
+  store_motion_if(c.motion_b.inverse_mass > R(0.0), solver_push, c.b, push_b);
 }
 
 typedef struct { contact c; vec4 impulse; } solved;
@@ -164,36 +207,16 @@ SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
 /* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
  * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it would
  * limit comes later. Returns the new accumulated impulse. */
-SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real separation, real speed, real mass, real old, uint biased)
+SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop, real separation, real speed, real mass, real old, uint biased)
 {
   mask ahead = separation > R(0.0);
-  real push = maximum(soft.rate * minimum(separation + parameters->slop, R(0.0)), -parameters->push_speed);
+  real push = maximum(soft.rate * minimum(separation + slop, R(0.0)), -parameters->push_speed);
   mask rigid = ahead | (push == R(0.0));
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);
   real impulse_scale = biased != 0u ? choose(rigid, (real)R(0.0), soft.impulse_scale) : (real)R(0.0);
   real impulse = maximum(old - mass * mass_scale * (speed + bias) - impulse_scale * old, R(0.0));
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
-}
-
-/* The four points of a manifold as one: their turns, masses and impulses. */
-typedef struct {
-  vec3 turn_a[4], turn_b[4];
-  real mass[4], impulse[4];
-} support;
-
-/* Turns, masses and impulses of the points; separations as the step began stay with the caller. */
-SHARED support load_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses, item_index i)
-{
-  support s;
-  for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
-    s.turn_a[k] = outer(add(xyz(load_row(constraint_points, stride * k + i)), shift.a), c.normal);
-    s.turn_b[k] = outer(add(xyz(point_b), shift.b), c.normal);
-    s.mass[k] = point_b.w;
-    s.impulse[k] = component(impulses, (natural)k);
-  }
-  return s;
 }
 
 /* Gives all points their wished impulses at once, so that a box on four corners does not tilt towards the one that is
@@ -225,25 +248,29 @@ SHARED contact press_together(contact c, support *s, const real *wished)
 
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                 GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
+                                GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass,
+                                item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
+  uint biased = pass == PASS_BIASED ? 1u : 0u;
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i);
+  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
+  vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_arms(c, moved.translation);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    solved sliding = solve_friction(c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i),
-                              load_row(constraint_friction_impulse, i), pressure);
+    solved sliding = solve_friction(c, shift, center_a, center_b, friction, pressure);
     c = with_motion_if(rough, c, sliding.c);
-    store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
+    friction = choose4(rough, sliding.impulse, friction);
+    store_row(constraint_friction_impulse, i, friction);
   }
 
   softness soft = softness_of(parameters, c);
+  real slop = load_real(constraint_slop, i);
   real closed = inner(c.normal, moved.translation);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
   real wished[4];
@@ -251,7 +278,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
     real started = load_row(constraint_points, stride * k + i).w;
     real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
-    wished[k] = normal_impulse(parameters, soft, separation, speed, s.mass[k], s.impulse[k], biased);
+    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
   }
   c = press_together(c, &s, wished);
   vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
@@ -262,6 +289,8 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
                                                        maximum(highest.w, pressed.w)));
   }
   store_contact_motion(solver_velocity, c);
+  if (pass == PASS_RELAXING)
+    add_push(solver_push, c, wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
 }
 
 /* The points of a manifold are coupled; a few rounds bring all of them to their speeds. */

@@ -28,9 +28,13 @@
 /* Each body's partial sums have a place of their own: one of 32 entries needs less than two for each 32. */
 #define SPLIT_FIRST_SUM(start) ((start) >> 4u)
 
-SHARED real parts_of(GLOBAL const uint *incidence_start, natural body)
+/* A body's constraints with what cannot move carry all that rests on it: together they get as much of it as the others
+ * together. */
+SHARED real parts_of(GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports, natural body, mask supported)
 {
-  return to_real(load_natural(incidence_start, body + 1u) - load_natural(incidence_start, body));
+  natural all = load_natural(incidence_start, body + 1u) - load_natural(incidence_start, body), supports = load_natural(split_supports, body);
+  mask mixed = (supports > (natural)0u) & (supports < all);
+  return to_real(choose(mixed, choose(supported, supports, all - supports) * 2u, all));
 }
 
 SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
@@ -52,12 +56,13 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
 /* Effective masses between parts, and how many parts there are; once a step. */
 SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
                               GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, GLOBAL const row *solver_velocity,
-                              GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start, GLOBAL const uint *counts,
-                              GLOBAL row *split_mass, item_index i)
+                              GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports,
+                              GLOBAL const uint *counts, GLOBAL row *split_mass, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  real parts_a = parts_of(incidence_start, c.a), parts_b = parts_of(incidence_start, c.b);
+  mask supported = (c.motion_a.inverse_mass == R(0.0)) | (c.motion_b.inverse_mass == R(0.0));
+  real parts_a = parts_of(incidence_start, split_supports, c.a, supported), parts_b = parts_of(incidence_start, split_supports, c.b, supported);
   c = split_contact(c, parts_a, parts_b);
   body_pair parts = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
   real mass[4];
@@ -71,31 +76,20 @@ SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   store_row(split_mass, stride + i, make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
 }
 
-/* What a row does to its bodies: an impulse on b, its opposite on a, and the angular impulse on each. */
-typedef struct { vec3 push, turn_a, turn_b; } wrench;
-
-SHARED wrench add_push(wrench w, vec3 push, vec3 arm_a, vec3 arm_b)
-{
-  w.push = add(w.push, push);
-  w.turn_a = add(w.turn_a, outer(arm_a, push));
-  w.turn_b = add(w.turn_b, outer(arm_b, push));
-  return w;
-}
-
 SHARED wrench choose_wrench(mask m, wrench a, wrench b)
 {
-  wrench w = {choose3(m, a.push, b.push), choose3(m, a.turn_a, b.turn_a), choose3(m, a.turn_b, b.turn_b)};
+  wrench w = {choose3(m, a.impulse, b.impulse), choose3(m, a.turn_a, b.turn_a), choose3(m, a.turn_b, b.turn_b)};
   return w;
 }
 
 SHARED void store_wrench(GLOBAL row *split_impulse, uint stride, item_index i, wrench w)
 {
-  store_row(split_impulse, i, extend(w.push, R(0.0)));
+  store_row(split_impulse, i, extend(w.impulse, R(0.0)));
   store_row(split_impulse, stride + i, extend(negate(w.turn_a), R(0.0)));
   store_row(split_impulse, stride * 2u + i, extend(w.turn_b, R(0.0)));
 }
 
-/* Friction about the centre: sliding along the tangents and twist about the normal. */
+/* What friction does about the centre: sliding along the tangents and twist about the normal. */
 SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real first, real second, real twist)
 {
   tangents t = tangents_of(normal);
@@ -112,13 +106,10 @@ SHARED void split_warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const 
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
+  support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
   vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
-  wrench w = friction_wrench(c.normal, center_a, center_b, friction.x, friction.y, friction.z);
-  for (uint k = 0; k < 4u; ++k)
-    w = add_push(w, scale(c.normal, component(impulses, (natural)k)), add(xyz(load_row(constraint_points, stride * k + i)), shift.a),
-                 add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b));
+  wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_wrench(split_impulse, stride, i, w);
 }
 
@@ -131,34 +122,52 @@ SHARED support load_split_support(GLOBAL const row *constraint_points, uint stri
   return s;
 }
 
-/* What the points got since `old`. */
-SHARED wrench wrench_of_points(contact c, const support *s, vec4 old)
+/* What the points get beyond `old`. */
+SHARED wrench wrench_of_points(contact c, const support *s, vec4 old, vec4 impulses)
 {
-  real sum = s->impulse[0] - old.x;
+  real sum = impulses.x - old.x;
   wrench w = {c.normal, scale(s->turn_a[0], sum), scale(s->turn_b[0], sum)};
   for (uint k = 1; k < 4u; ++k) {
-    real change = s->impulse[k] - component(old, (natural)k);
+    real change = component(impulses, (natural)k) - component(old, (natural)k);
     sum = sum + change;
     w.turn_a = add_scaled(w.turn_a, s->turn_a[k], change);
     w.turn_b = add_scaled(w.turn_b, s->turn_b[k], change);
   }
-  w.push = scale(c.normal, sum);
+  w.impulse = scale(c.normal, sum);
   return w;
 }
 
 SHARED wrench add_wrench(wrench a, wrench b)
 {
-  wrench w = {add(a.push, b.push), add(a.turn_a, b.turn_a), add(a.turn_b, b.turn_b)};
+  wrench w = {add(a.impulse, b.impulse), add(a.turn_a, b.turn_a), add(a.turn_b, b.turn_b)};
   return w;
 }
 
+/* Nesterov's extrapolation: on past `now` by a share of the last change. */
+SHARED vec4 extrapolated(vec4 now, vec4 before, real share)
+{
+  return make_vec4(now.x + share * (now.x - before.x), now.y + share * (now.y - before.y), now.z + share * (now.z - before.z), now.w);
+}
+
+SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
+{
+  vec4 ahead = extrapolated(now, before, share);
+  return make_vec4(maximum(ahead.x, R(0.0)), maximum(ahead.y, R(0.0)), maximum(ahead.z, R(0.0)),
+                   maximum(now.w + share * (now.w - before.w), R(0.0)));
+}
+
+/* momentum: the number of the iteration, from 0, and 0 again for the last, which shall end within the cones. Iterations before
+ * go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to Accelerate
+ * Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above, which is what the
+ * method asks for. */
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                             GLOBAL const row *split_mass, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                             GLOBAL const memory_real *constraint_slop, GLOBAL const row *split_mass, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
                              GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL row *split_impulse, uint biased,
-                             item_index i)
+                             GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL row *split_pushed,
+                             GLOBAL row *split_rubbed, GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
 {
+  real share = (real)momentum / ((real)momentum + R(3.0));
   uint stride = counts[CAPACITY_PAIRS];
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
   contact c = split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i), other.z, other.w);
@@ -174,13 +183,15 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
     vec4 old = load_row(constraint_friction_impulse, i);
     solved sliding = solve_friction(c, shift, extend(center_a, other.x), extend(center_b, other.y), old, pressure);
     c = with_motion_if(rough, c, sliding.c);
-    store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
-    rubbed = friction_wrench(c.normal, add(center_a, shift.a), add(center_b, shift.b), sliding.impulse.x - old.x, sliding.impulse.y - old.y,
-                             sliding.impulse.z - old.z);
+    vec4 next = sliding.impulse;
+    if (momentum != 0u) next = extrapolated(next, load_row(split_rubbed, i), share);
+    store_row_if(rough, split_rubbed, i, sliding.impulse);
+    store_row_if(rough, constraint_friction_impulse, i, next);
+    rubbed = friction_wrench(c.normal, add(center_a, shift.a), add(center_b, shift.b), next.x - old.x, next.y - old.y, next.z - old.z);
   }
 
   softness soft = softness_of(parameters, c);
-  real leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
+  real slop = load_real(constraint_slop, i), leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
   support s = load_split_support(constraint_points, stride, c, shift, impulses, masses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
@@ -188,17 +199,19 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
     real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
     soft.impulse_scale = leak * (s.mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
-    wished[k] = normal_impulse(parameters, soft, separation, speed, s.mass[k], s.impulse[k], biased);
+    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
   }
   c = press_together(c, &s, wished);
-  vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
-  store_row(constraint_normal_impulse, i, pressed);
+  vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]), next = pressed;
+  if (momentum != 0u) next = extrapolated_push(pressed, load_row(split_pushed, i), share);
+  store_row(split_pushed, i, pressed);
+  store_row(constraint_normal_impulse, i, next);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     vec4 highest = load_row(constraint_bounce, stride + i);
     store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
                                                        maximum(highest.w, pressed.w)));
   }
-  wrench given = wrench_of_points(c, &s, impulses);
+  wrench given = wrench_of_points(c, &s, impulses, next);
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 
@@ -222,8 +235,9 @@ SHARED void split_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
     pressed[k] = choose(applies, wanted, s.impulse[k]);
   }
   c = press_together(c, &s, pressed);
-  store_row(constraint_normal_impulse, i, make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
-  store_wrench(split_impulse, stride, i, wrench_of_points(c, &s, impulses));
+  vec4 parted = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
+  store_row(constraint_normal_impulse, i, parted);
+  store_wrench(split_impulse, stride, i, wrench_of_points(c, &s, impulses, parted));
 }
 
 typedef struct { vec3 linear, angular; } impulse_sum;

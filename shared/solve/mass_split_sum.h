@@ -13,6 +13,15 @@
 
 #include "shared/solve/mass_split.h"
 
+/* Counts the constraints that each moving body has with what cannot move. */
+SHARED void split_supports_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *body_traits,
+                                GLOBAL uint *split_supports, uint i)
+{
+  uint a = constraint_a[i], b = constraint_b[i];
+  uint moving_a = motion_of(body_traits[a]) == (uint)MOTION_DYNAMIC, moving_b = motion_of(body_traits[b]) == (uint)MOTION_DYNAMIC;
+  if (moving_a != moving_b) ATOMIC_ADD(split_supports + (moving_a ? a : b), 1u);
+}
+
 /* A run of a long list that starts at an entry. */
 typedef struct { uint starts, place, length; } list_run;
 

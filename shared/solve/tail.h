@@ -1,7 +1,6 @@
-/* tail.h - the constraints past the last colour, solved in order by one item.
+/* tail.h - the constraints past the last colour, in order by one item: for solvers whose rows are not those of mass_split.h.
  *
- * A body touched by more than COLOR_LIMIT others leaves a few constraints without a colour of their own.
- * Slow, but right and the same everywhere; most scenes have none, and then these kernels are not launched.
+ * Right and the same everywhere, but as slow as the tail is long; a body of ten thousand contacts wants mass_split.h.
  */
 #ifndef TANDEM_SHARED_SOLVE_TAIL_H
 #define TANDEM_SHARED_SOLVE_TAIL_H
@@ -24,16 +23,15 @@ SHARED void warm_start_tail_item(GLOBAL const uint *constraint_a, GLOBAL const u
 
 SHARED void solve_tail_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                            GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
                             GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
-                            GLOBAL row *solver_velocity, uint biased, uint only)
+                            GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass, uint only)
 {
   (void)only;
   FOR_EACH_IN_TAIL(i)
-  solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, solver_inertia,
-                      solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse,
-                      constraint_bounce, solver_velocity,
-                      biased, i);
+  solve_contacts_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, constraint_slop,
+                      solver_inertia, solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse,
+                      constraint_bounce, solver_velocity, solver_push, pass, i);
 }
 
 SHARED void apply_restitution_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,

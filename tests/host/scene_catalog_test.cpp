@@ -155,12 +155,19 @@ TEST_CASE("built-in scenes start without overlap, and touch nothing but what the
   for (const char *spec :
        {"box-grid:nx=4,ny=5,nz=4", "falling-boxes:n=400", "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
         "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
-        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77"}) {
+        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77", "card-house:storeys=5",
+        "card-house:lean=0.8,thickness=0.1", "arch", "arch:courses=9,overhang=0.05", "tower", "dominoes", "wall", "wall:rows=3,length=4", "tops:n=3",
+        "tops:lean=0", "free-flight", "incline",
+        "incline:slope=3,half_extent=2", "bounce", "mass-ratio"}) {
     INFO(spec);
     CHECK(deepest_overlap(load_scene(spec)) < 1e-5);
   }
   CHECK(deepest_overlap(load_scene("box-stack:n=20")) > -1e-5); /* stacked boxes do touch */
   CHECK(deepest_overlap(load_scene("pyramid:rows=3")) > -1e-5);
+  for (const char *touching : {"card-house", "arch", "tower", "dominoes", "wall", "tops"}) {
+    INFO(touching);
+    CHECK(deepest_overlap(load_scene(touching)) > -1e-5);
+  }
 }
 
 TEST_CASE("a seed decides a scene, to the bit, on every machine")

@@ -41,6 +41,7 @@ bool same_bits(const Material &a, const Material &b)
 {
   return a.name == b.name && same_bits(a.static_friction, b.static_friction) &&
          same_bits(a.dynamic_friction, b.dynamic_friction) && same_bits(a.restitution, b.restitution) &&
+         same_bits(a.rolling_friction, b.rolling_friction) && same_bits(a.spinning_friction, b.spinning_friction) &&
          a.friction_combine == b.friction_combine && a.restitution_combine == b.restitution_combine;
 }
 
@@ -89,7 +90,7 @@ Scene scene_of_odd_numbers()
                   half_space_shape(),
                   {ShapeType::sphere, {1, 2, 3}}};
   scene.materials.resize(2);
-  scene.materials[1] = {"glue", 0x1p-149f, 1e30f, 0.3f, Combine::multiply, Combine::average};
+  scene.materials[1] = {"glue", 0x1p-149f, 1e30f, 0.3f, Combine::multiply, Combine::average, 0x1p-140f, 0.1f};
   for (int i = 0; i < 200; ++i) {
     Body body;
     body.name = i % 2 ? "b" + std::to_string(i) : "";

@@ -87,6 +87,8 @@ TEST_CASE("validation refuses what the solver could not bear")
       [](Scene &s) { s.materials[0].static_friction = -0.1f; },
       [](Scene &s) { s.materials[0].dynamic_friction = nan_value; },
       [](Scene &s) { s.materials[0].restitution = 1.5f; },
+      [](Scene &s) { s.materials[0].rolling_friction = -0.1f; },
+      [](Scene &s) { s.materials[0].spinning_friction = nan_value; },
       [](Scene &s) { s.materials[0].friction_combine = Combine(7); },
       [](Scene &s) { s.bodies[0].shape = 3; },
       [](Scene &s) { s.bodies[0].material = 1; },

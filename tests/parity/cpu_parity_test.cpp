@@ -20,9 +20,23 @@ TEST_CASE("parity on CPU: every broadphase and batching")
       Settings settings;
       settings.broadphase = broadphase;
       settings.batching = batching;
+      settings.check = true;
       require_parity("mixed:n=60", backends, 30, settings);
       require_parity("box-grid:nx=4,ny=4,nz=4", backends, 20, settings);
     }
+}
+
+TEST_CASE("parity on CPU: every batching, width and number of threads")
+{
+  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=1,lanes=1",
+                                             "tbb:threads=7"};
+  for (const std::string &batching : batching_names()) {
+    Settings settings;
+    settings.batching = batching;
+    settings.check = true;
+    require_parity("pyramid-2d:n=700", backends, 3, settings); /* more contacts than a tile has items */
+    require_parity("falling-boxes:n=60,height=0", backends, 40, settings);
+  }
 }
 
 TEST_CASE("parity on CPU: broadphases lead to one state")

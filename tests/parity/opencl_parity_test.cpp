@@ -34,6 +34,7 @@ TEST_CASE("parity on OpenCL: every broadphase and batching")
       Settings settings = all_features();
       settings.broadphase = broadphase;
       settings.batching = batching;
+      settings.check = true;
       require_parity("mixed:n=60", {"serial", "cl:pocl"}, 20, settings);
     }
 }

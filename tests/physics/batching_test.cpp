@@ -65,10 +65,11 @@ Scene laden_slab()
 
 TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer]")
 {
-  const std::string batching = GENERATE("coloring", "sequential");
+  const std::string batching = GENERATE(from_range(batching_names()));
   const std::string name = GENERATE("box-grid:nx=4,ny=4,nz=4", "mixed:n=150", "spheres:n=150");
   Settings settings;
   settings.batching = batching;
+  settings.check = true;
   World world(load_scene(name), settings);
   uint32_t constraints = 0;
   for (int i = 0; i < 8; ++i) {
@@ -79,17 +80,21 @@ TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer
   }
   CAPTURE(name, batching);
   CHECK(constraints > 100);
+  CHECK_FALSE(world.batch_fault());
 }
 
 TEST_CASE("a body that touches more than 63 others goes to the tail and still works", "[physics]")
 {
   Settings settings;
-  settings.batching = GENERATE("coloring", "sequential");
+  settings.batching = GENERATE(from_range(batching_names()));
+  settings.check = true;
+  CAPTURE(settings.batching);
   World world(laden_slab(), settings);
   const std::vector<BodyState> start = world.bodies();
   run(world, 120);
   const Coloring coloring = coloring_of(world);
   check_colors(coloring);
+  CHECK_FALSE(world.batch_fault());
   CHECK(coloring.a.size() >= 101);
   CHECK(coloring.starts[COLOR_TAIL + 1] - coloring.starts[COLOR_TAIL] >= 101 - COLOR_LIMIT);
   CHECK(world.statistics().colors == COLOR_LIMIT + 1);

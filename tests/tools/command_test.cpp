@@ -172,10 +172,66 @@ TEST_CASE("command: without any OpenCL platform", "[command]")
   CHECK(devices.out.find("No OpenCL device") != std::string::npos);
 }
 
+TEST_CASE("command: contact problems", "[command]")
+{
+  const std::string sliding = "contact-problem " TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat";
+  for (const char *solver : {"pgs", "nncg", "jacobi", "nsgs"}) {
+    const Json json = json_of(sliding + " --tolerance 1e-5 --solver " + solver);
+    check_keys(json, {"sweeps", "residual", "ms", "history", "fischer_burmeister", "cone_violation", "impulse"});
+    CHECK(json["backend"] == (std::string(solver) == "nsgs" ? "reference" : "tbb"));
+    CHECK(json["residual"] <= 1e-5);
+    CHECK(json["history"].size() == json["sweeps"]);
+    CHECK(json["impulse"][0][2].get<double>() == Approx(0.2).epsilon(1e-4));
+  }
+  const Json cut_short = json_of("contact-problem " TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat --tolerance 1e-6 --iterations 3", 1);
+  CHECK(cut_short["sweeps"] == 3);
+  CHECK(cut_short["converged"] == false);
+  check_refused("contact-problem", "FILE");
+  check_refused("contact-problem nowhere.dat", "nowhere.dat");
+  check_refused("contact-problem /", "contact problem");
+  check_refused(sliding + " --solver gauss", "pgs, nncg, jacobi, nsgs");
+  check_refused(sliding + " --solver nsgs --on serial", "reference");
+  check_refused(sliding + " --tolerance 0", "--tolerance");
+  check_refused(sliding + " --tolerance nan", "--tolerance");
+  check_refused(sliding + " --iterations 0", "--iterations");
+  check_refused(sliding + " --on abacus", "abacus");
+  check_refused(sliding + " --json /nowhere/f.json", "--json");
+  const Scratch scratch;
+  std::ofstream(scratch.file("truncated.dat")) << "3\n1\n0\n3\n3\n3 3\n1 0 0\n";
+  check_refused("contact-problem " + scratch.file("truncated.dat"), "truncated.dat: line 8: the file ends where W[0][1] should stand");
+}
+
 TEST_CASE("command: what comes later says so", "[command]")
 {
-  for (const char *later : {"report --out d", "stability", "contact-problem f --solver x", "replay f", "bench solve", "bench broadphase"})
+  for (const char *later : {"replay f", "bench solve", "bench broadphase"})
     check_refused(later, "later version");
+}
+
+TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes", "[command]")
+{
+  const Scratch scratch;
+  const std::string out = " --out " + scratch.file("report");
+  const Json json = json_of("stability --only flight,gravity-0 --solvers soft-step --on serial" + out);
+  REQUIRE(json["cases"].size() == 2);
+  for (const Json &each : json["cases"]) check_keys(each, {"name", "solver", "passed", "figure", "bound", "unit"});
+  CHECK(json["cases"][1]["name"] == "flight");
+  CHECK(json["cases"][1]["passed"] == true);
+  for (const char *name : {"index.html", "stability.json", "figures.csv"}) CHECK(files::file_size(scratch.file("report/") + name) > 100);
+  CHECK(Json::parse(contents(scratch.file("report/stability.json"))) == json);
+  check_refused("stability --only castle" + out, "castle");
+  check_refused("stability --solvers magic" + out, "magic");
+  check_refused("stability --on gpu" + out, "gpu");
+  check_refused("stability --only flight", "--out");
+  check_refused("stability --only flight --out /dev/null/folder", "/dev/null/folder");
+  check_refused("stability --only flight --between serial", "two");
+}
+
+TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")
+{
+  const Json json = json_of("stability --only heavy-on-light-10000 --solvers soft-step --between serial,tbb,cl:pocl");
+  CHECK(json["equal"] == true);
+  REQUIRE(json["cases"].size() == 1);
+  CHECK(json["cases"][0]["body_hash"].size() == 3);
 }
 
 TEST_CASE("command: help and version", "[command]")
@@ -302,6 +358,33 @@ TEST_CASE("command: lists and plan", "[command]")
   for (const Json &buffer : plan["buffers"])
     if (buffer["kept"] == true) kept += buffer["bytes"].get<int64_t>();
   CHECK(kept == plan["memory_bytes"].get<int64_t>());
+}
+
+TEST_CASE("command: --check proves the batches", "[command]")
+{
+  const Result fine = tandem("run box-stack:n=10,height=10 --batching sequential --check --steps 3 --on serial");
+  CHECK(fine.status == 0);
+  CHECK(fine.out.find("free of conflict in all 3 steps") != std::string::npos);
+  const Result wrong = tandem("diff box-stack:n=10,height=10 --batching sequential --check --between serial,tbb --steps 1 "
+                              "--plant color_in_order:pair_color:8");
+  CHECK(wrong.status == 1);
+  CHECK(wrong.error.find("tandem: batches wrong in step 0: colour ") != std::string::npos);
+  CHECK(wrong.error.find("pairs (4, 3) and (5, 4)") != std::string::npos);
+}
+
+TEST_CASE("command: bench batching", "[command]")
+{
+  const Json bench = json_of("bench batching --n 64 --on serial");
+  check_keys(bench, {"what", "backend", "scenes"});
+  const Json &scene = bench["scenes"][0];
+  check_keys(scene, {"scene", "bodies", "pairs", "contacts", "batchers"});
+  REQUIRE(scene["batchers"].size() == 6); /* colouring twice */
+  for (const Json &batcher : scene["batchers"]) {
+    uint32_t sum = batcher["tail"];
+    for (const Json &size : batcher["sizes"]) sum += size.get<uint32_t>();
+    CHECK(sum == scene["contacts"].get<uint32_t>());
+    CHECK(batcher["right"] == true);
+  }
 }
 
 TEST_CASE("command: bench", "[command]")

@@ -1,0 +1,46 @@
+/* island_solver.h - one dense contact problem with friction, solved to convergence in double.
+ *
+ *   w = W x + offset          W: Delassus operator, x: impulses, w: speeds of the rows
+ *
+ *   normal   x >= 0, w >= 0, x w = 0
+ *   tangent  |x_t| <= friction * (sum of the manifold's normals), opposed to w_t where it slips
+ *   twist    |x| <= friction * twist_radius * (the same sum), opposed to w where it slips
+ *
+ * Semismooth Newton on the natural map (Alart and Curnier, 1991; survey: Acary, Bremond and Huber, "On solving contact
+ * problems with Coulomb friction", 2018), and sweeps of nonsmooth Gauss-Seidel (Jean, 1999) where it stalls.
+ */
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tandem {
+
+/* Rows of one manifold: `normals` of them from `first`, then two tangents if `slides`, then a twist if `twists`. */
+struct ManifoldRows {
+  uint32_t first = 0, normals = 0;
+  bool slides = false, twists = false;
+  double friction = 0;     /* >= 0 */
+  double twist_radius = 0; /* m */
+};
+
+struct IslandProblem {
+  uint32_t rows = 0;
+  std::vector<double> matrix; /* W, rows x rows, symmetric, diagonal > 0 */
+  std::vector<double> offset; /* m/s, rad/s for twists */
+  std::vector<ManifoldRows> manifolds;
+  std::vector<double> impulse; /* N s: a guess on the way in, the solution on the way out */
+};
+
+struct IslandResult {
+  bool converged = false;
+  double residual = 0; /* m/s: largest speed by which a row misses its law (natural map over its step) */
+  uint32_t newton_steps = 0, sweeps = 0;
+};
+
+/* Rows yield by a millionth of their own response to what their impulse differs from the guess. Converged: the residual is at
+ * most 1e-9 of the largest speed of the problem. If neither method gets there, the impulses are the best seen, the guess
+ * among them. Always finite if the problem is. */
+IslandResult solve_island(IslandProblem &problem);
+
+} // namespace tandem

@@ -1,0 +1,301 @@
+/* stability_test.cpp - the cases of `tandem stability` can pass, and every figure can fail.
+ *
+ * A check that cannot fail is a defect: each figure is shown a motion that is wrong, planted by hand, and must leave
+ * its bound. The short cases run as they are, with the default solver; the long ones only in the command.
+ */
+#ifdef TANDEM_COMMAND
+#include "tests/catch.h"
+
+#include <limits>
+#include <set>
+
+#include "host/scene_catalog.h"
+#include "host/scene_catalog_structures.h"
+#include "tools/stability/cases.h"
+#include "tools/stability/picture.h"
+#include "tools/stability/results.h"
+
+using namespace tandem;
+using namespace tandem::stability;
+
+namespace {
+
+const Case &case_named(const std::string &name)
+{
+  for (const Case &each : all_cases())
+    if (each.name == name) return each;
+  throw std::runtime_error("no case " + name);
+}
+
+Outcome run(const std::string &name, Trial trial) { return run_trial(name, trial, solver_names().front(), Placement{"serial", {}, false}); }
+Outcome run(const std::string &name, Length length = Length::quick) { return run(name, case_named(name).build(length)); }
+
+/* The case, with a push to the named body before step `when`. */
+Outcome run_pushed(const std::string &name, uint32_t body, const std::function<void(BodyState &)> &push, uint64_t steps = 120, uint64_t when = 10,
+                   Length length = Length::quick)
+{
+  Trial trial = case_named(name).build(length);
+  trial.steps = steps;
+  trial.disturb = [=](World &world, uint64_t step) {
+    if (step != when) return;
+    BodyState state = world.bodies()[body];
+    push(state);
+    world.set_body_unchecked(body, state);
+  };
+  return run(name, std::move(trial));
+}
+
+bool failed(const Outcome &outcome, const std::string &what)
+{
+  for (const CheckResult &check : outcome.checks)
+    if (check.what == what) return !check.passed;
+  throw std::runtime_error("no figure '" + what + "'");
+}
+
+} // namespace
+
+TEST_CASE("stability: at least 30 cases, each with its name, sentence, criterion, figure and bound", "[stability]")
+{
+  std::set<std::string> names;
+  for (const Case &each : all_cases()) {
+    INFO(each.name);
+    CHECK(names.insert(each.name).second);
+    CHECK(each.what.size() > 10);
+    CHECK(each.criterion.size() > 10);
+    const Trial trial = each.build(Length::brief);
+    CHECK(trial.steps <= 20);
+    CHECK(trial.scene.bodies.size() < 700);
+    REQUIRE_FALSE(trial.checks.empty());
+    for (const Check &check : trial.checks) CHECK((check.bound >= 0 && !check.what.empty() && check.value));
+  }
+  CHECK(names.size() >= 30);
+}
+
+TEST_CASE("stability: a shortened case says so in its name", "[stability]")
+{
+  CHECK(reported_name(case_named("pyramid-80"), Length::full) == "pyramid-80");
+  CHECK(reported_name(case_named("pyramid-80"), Length::quick) == "pyramid-80-short");
+  CHECK(reported_name(case_named("flip"), Length::quick) == "flip");
+  for (const Case &each : all_cases()) {
+    const Trial full = each.build(Length::full), quick = each.build(Length::quick);
+    INFO(each.name);
+    CHECK(each.shorter == (quick.steps != full.steps || quick.scene.bodies.size() != full.scene.bodies.size()));
+  }
+}
+
+TEST_CASE("stability: short cases pass with the default solver", "[stability]")
+{
+  for (const char *name : {"heavy-on-light-100", "light-on-heavy-10000", "flip", "flight", "restitution", "rolling-ball", "sliding-stop", "incline",
+                           "bullet-thin-wall", "needle-thin-wall", "bullet-against-stack", "deep-overlap-weightless", "gravity-0", "stiffness-600000", "dt-1/30"}) {
+    const Outcome outcome = run(name);
+    for (const CheckResult &check : outcome.checks) {
+      INFO(name << ": " << check.what << " " << check.figure << " " << check.unit << ", bound " << check.bound << "; " << outcome.note);
+      CHECK(check.passed);
+    }
+    CHECK(outcome.passed);
+  }
+}
+
+TEST_CASE("stability: 'it stands' notices a box that is knocked out, tilted, or pressed into another", "[stability]")
+{
+  const auto pyramid = [](uint32_t body, const std::function<void(BodyState &)> &push) {
+    Trial trial = trial_of(load_scene("pyramid:rows=5"), 60);
+    add_standing(trial, {0.1, 0.25, 0.05, 0.1});
+    trial.disturb = [=](World &world, uint64_t step) {
+      if (step != 20) return;
+      BodyState state = world.bodies()[body];
+      push(state);
+      world.set_body(body, state);
+    };
+    return run("pyramid", std::move(trial));
+  };
+  CHECK(pyramid(8, [](BodyState &) {}).passed);
+  const Outcome knocked = pyramid(8, [](BodyState &state) { state.position[2] += 3; });
+  CHECK_FALSE(knocked.passed);
+  CHECK(failed(knocked, "farthest sideways"));
+  CHECK(failed(pyramid(15, [](BodyState &state) { state.orientation = turn_about({0, 0, 1}, 0.5); }), "largest tilt"));
+  CHECK(failed(pyramid(15, [](BodyState &state) { state.position[1] -= 0.2f; }), "deepest contact"));
+  Trial restless = trial_of(load_scene("pyramid:rows=2"), 30);
+  add_standing(restless, {});
+  restless.disturb = [](World &world, uint64_t step) {
+    BodyState state = world.bodies()[3];
+    state.linear_velocity = {0, 0, step % 2 ? 0.5f : -0.5f};
+    world.set_body(3, state);
+  };
+  CHECK(failed(run("restless", std::move(restless)), "fastest at the end"));
+}
+
+TEST_CASE("stability: figures of conservation and of closed forms notice what is planted", "[stability]")
+{
+  const auto faster = [](BodyState &state) {
+    for (float &v : state.linear_velocity) v *= 1.1f;
+    for (float &w : state.angular_velocity) w *= 1.1f;
+  };
+  const auto moved = [](BodyState &state) { state.position[0] += 0.05f; };
+  CHECK(failed(run_pushed("flip", 0, faster), "drift of angular momentum"));
+  CHECK(failed(run_pushed("flip", 0, faster), "drift of energy"));
+  CHECK(failed(run_pushed("flip", 0, [](BodyState &state) { state.angular_velocity = {0, 4, 0}; }, 300), "error of the time between flips"));
+  CHECK(failed(run_pushed("flight", 0, moved), "distance from the parabola"));
+  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30), "drift of momentum"));
+  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.angular_velocity[1] += 9; }, 30), "drift of angular momentum"));
+  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30), "gain of energy"));
+  CHECK(failed(run_pushed("restitution", 7, [](BodyState &state) { state.linear_velocity[1] -= 0.3f; }, 90), "largest error of the height"));
+  CHECK(failed(run_pushed("elastic", 1, faster, 60, 30), "drift of energy"));
+  CHECK(failed(run_pushed("sliding-stop", 3, faster, 300, 2), "largest error of the way to rest"));
+  CHECK(failed(run_pushed("rolling-ball", 1, faster, 300, 2), "error of the rolling speed"));
+  CHECK(failed(run_pushed("rolling-ball", 1, [](BodyState &state) { state.angular_velocity[2] += 1; }, 120, 119), "slip of the contact"));
+  CHECK(failed(run_pushed("incline", 5, faster, 120, 60), "largest error of the way down"));
+  CHECK(failed(run_pushed("top", 1, [](BodyState &state) { state.orientation = turn_about({1, 0, 0}, 2); }, 120), "change of the lean"));
+  CHECK(failed(run_pushed("top", 1, [](BodyState &state) { state.linear_velocity[1] += 5; }, 12), "gain of energy"));
+}
+
+TEST_CASE("stability: figures of passage, of falling and of scale notice what is planted", "[stability]")
+{
+  CHECK(failed(run_pushed("bullet-thin-wall", 1, [](BodyState &state) { state.position[0] = 0.5f; }, 20), "got beyond the wall by"));
+  CHECK(failed(run_pushed("bullet-against-stack", 6, [](BodyState &state) { state.position[0] = 1; }, 12), "bullet past the box it hit by"));
+  CHECK(failed(run_pushed("dominoes", 30, [](BodyState &state) { state.position[0] += 20; }, 240), "dominoes left upright"));
+  CHECK(failed(run_pushed("wall-hit", 3, [](BodyState &state) { state.position[1] = -2; }, 12), "farthest under the ground"));
+  CHECK(failed(run_pushed("far-1-km", 6, [](BodyState &state) { state.position[2] += 0.1f; }, 12), "difference from the origin"));
+  CHECK(failed(run_pushed("seams", 24, [](BodyState &state) { state.linear_velocity[0] = 4; }, 12, 2), "loss of speed"));
+  CHECK(failed(run_pushed("gravity-0", 5, [](BodyState &state) { state.linear_velocity[0] = 0.01f; }, 12, 2), "farthest from the start"));
+  CHECK(failed(run_pushed("boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief), "gain of energy"));
+  CHECK(failed(run_pushed("boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief), "fastest"));
+}
+
+/* One ramp of each coefficient a degree too steep, or all boxes stuck, must move the angle of slip. */
+TEST_CASE("stability: the friction cone's figure notices another coefficient", "[stability]")
+{
+  Trial trial = case_named("friction-cone").build(Length::quick);
+  for (Material &material : trial.scene.materials)
+    if (material.static_friction == 0.5f) material.static_friction = material.dynamic_friction = 0.55f;
+  const Outcome outcome = run("friction-cone", std::move(trial));
+  CHECK(failed(outcome, "largest error of the angle of slip"));
+  CHECK(outcome.headline.figure == Approx(std::atan(0.55) * 180 / pi - std::atan(0.5) * 180 / pi).margin(0.3));
+}
+
+TEST_CASE("stability: a lost body fails a case, unless the case poisoned it", "[stability]")
+{
+  const auto poison = [](BodyState &state) { state.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN(); };
+  const Outcome lost = run_pushed("heavy-on-light-10", 1, poison, 30);
+  CHECK_FALSE(lost.passed);
+  CHECK(lost.note.find("body 1 in step 10") != std::string::npos);
+  CHECK(lost.steps < 30);
+  Trial unharmed = case_named("poisoned").build(Length::brief);
+  CHECK(run("poisoned", case_named("poisoned").build(Length::brief)).passed);
+  unharmed.disturb = nullptr;
+  CHECK_FALSE(run("poisoned", std::move(unharmed)).passed); /* the quarantine it expects did not happen */
+}
+
+TEST_CASE("stability: a figure that is not a number passes no bound, then or later", "[stability]")
+{
+  Trial trial = trial_of(column_of({1}), 5);
+  trial.checks.push_back(check("number", "", 10, [](const Moment &moment) { return moment.step == 2 ? std::nan("") : 1.0; }));
+  CHECK_FALSE(run("nan", trial).passed);
+  trial.checks.front().value = [](const Moment &) { return 1.0; };
+  CHECK(run("number", trial).passed);
+  trial.checks.front().value = [](const Moment &moment) { return moment.step == 3 ? 11.0 : 1.0; };
+  CHECK_FALSE(run("peak", trial).passed);
+  trial.checks.front().over = Check::Over::last;
+  CHECK(run("peak past", trial).passed);
+}
+
+TEST_CASE("stability: what a solver or device throws is a failed outcome that says why", "[stability]")
+{
+  Trial trial = trial_of(column_of({1}), 5);
+  add_standing(trial, {});
+  trial.disturb = [](World &, uint64_t) { throw std::runtime_error("out of luck"); };
+  const Outcome outcome = run("thrown", std::move(trial));
+  CHECK_FALSE(outcome.passed);
+  CHECK(outcome.note == "out of luck");
+  CHECK(std::isnan(outcome.headline.figure));
+}
+
+TEST_CASE("stability: documented settings are tried only where the default ones fail, and are named", "[stability]")
+{
+  const auto with_bound = [](double bound, bool documented) {
+    Case made{"bounded", "test", "a cube", "at rest", {}};
+    made.build = [=](Length) {
+      Trial trial = trial_of(column_of({1}), 5);
+      trial.checks.push_back(check("one over the substeps", "", bound, [](const Moment &moment) { return 1.0 / moment.world.settings().substeps; }));
+      if (documented) {
+        trial.documented = trial.settings;
+        trial.documented->substeps = 50;
+      }
+      return trial;
+    };
+    return run_case(made, Length::quick, solver_names().front(), Placement{"serial", {}, false});
+  };
+  CHECK(with_bound(1, true).default_passed);
+  CHECK(with_bound(1, true).settings == "default");
+  CHECK_FALSE(with_bound(0.03, false).passed);
+  const Outcome helped = with_bound(0.03, true);
+  CHECK(helped.passed);
+  CHECK_FALSE(helped.default_passed);
+  CHECK(helped.settings == "substeps 50");
+  CHECK(helped.note.find("by default 0.25") != std::string::npos);
+  const Outcome beyond = with_bound(0.001, true);
+  CHECK_FALSE(beyond.passed);
+  CHECK(beyond.settings == "default");
+  CHECK(beyond.note.find("fails with substeps 50 too") != std::string::npos);
+}
+
+/* Theory against theory: the small-amplitude limit of steady precession, m g d / (I W), and the integral's known value. */
+TEST_CASE("stability: theory of the top and of the flip", "[stability]")
+{
+  const double half = 0.1, spin = 1000, lean = 0.3;
+  CHECK(steady_precession(half, spin, lean, 10) == Approx(10 * half * std::sqrt(3.0) / (2.0 / 3 * half * half * spin)).epsilon(2e-3));
+  CHECK(std::isnan(steady_precession(half, 1, lean, 10)));
+  const Vector moments(1, 2, 3);
+  CHECK(flip_interval(moments, {1e-3, 1, 0}) > 2 * flip_interval(moments, {0.2, 1, 0})); /* the slower the nearer to the unstable axis */
+}
+
+TEST_CASE("stability: the page and the JSON hold every case", "[stability]")
+{
+  Results results{"serial", {solver_names().front()}, Length::brief, {}};
+  for (const char *name : {"heavy-on-light-10", "boxes-in-one-place", "far-1000-km"}) {
+    results.add(case_named(name), case_named(name).build(Length::brief).scene, run_case(case_named(name), Length::brief, results.solvers.front(), {}));
+  }
+  const Json json = results_json(results);
+  REQUIRE(json["cases"].size() == 3);
+  for (const Json &each : json["cases"])
+    for (const char *key : {"name", "solver", "passed", "figure", "bound", "unit"}) CHECK(each.contains(key));
+  const std::string page = results_page(results, "tandem stability");
+  for (const char *said : {"heavy-on-light-10", "far-1000-km", "<polygon", "bound", "tandem stability"}) CHECK(page.find(said) != std::string::npos);
+  CHECK(page.find("nan") == std::string::npos);
+  CHECK(page.find("http") == page.find("http://www.w3.org")); /* opens offline: a name space at most */
+  CHECK(series_csv(results).find("heavy-on-light-10-brief") != std::string::npos);
+}
+
+TEST_CASE("stability: pictures show a box as a hexagon and a ball as a circle, and skip what is not finite", "[stability]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0});
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {2, 0.5f, 0});
+  std::vector<BodyState> states = states_of(scene.bodies);
+  const Window window = window_of(scene.shapes, scene.bodies, states);
+  const std::string svg = svg_of(scene.shapes, scene.bodies, states, window, "start");
+  const size_t polygon = svg.find("points=\"");
+  REQUIRE(polygon != std::string::npos);
+  const std::string points = svg.substr(polygon, svg.find('"', polygon + 8) - polygon);
+  CHECK(std::count(points.begin(), points.end(), ',') == 6);
+  CHECK(svg.find("<circle") != std::string::npos);
+  CHECK(svg.find("class=\"ground\"") != std::string::npos);
+  states[1].position[0] = std::numeric_limits<float>::quiet_NaN();
+  CHECK(svg_of(scene.shapes, scene.bodies, states, window, "end").find("<polygon") == std::string::npos);
+}
+
+/* Parity holds in every case, also where a solver fails it. The command compares OpenCL devices as well (--between). */
+TEST_CASE("stability: every case ends in the same bits on serial and tbb, with every solver", "[stability][parity]")
+{
+  for (const Case &each : all_cases())
+    for (const std::string &solver : solver_names()) {
+      INFO(each.name << " " << solver);
+      const Outcome serial = run_trial(each.name, each.build(Length::brief), solver, Placement{"serial", {}, false});
+      const Outcome lanes = run_trial(each.name, each.build(Length::brief), solver, Placement{"tbb", {}, false});
+      CHECK(serial.body_hash == lanes.body_hash);
+      CHECK(serial.note == lanes.note);
+      CHECK(serial.steps == lanes.steps);
+    }
+}
+#endif

@@ -1,0 +1,81 @@
+/* collect.h - runs everything that a report shows. What it finds is plain data; page.cpp and data.cpp write it down. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/rounding.h"
+#include "tools/report/experiment.h"
+#include "tools/report/pareto.h"
+
+namespace tandem {
+
+struct ReportRequest {
+  bool quick = false;
+  std::vector<const ReportCase *> cases;
+  std::vector<std::string> solvers;
+  std::vector<std::string> backends; /* all scenes run on the first; one chart compares all of them */
+  std::optional<Metric> metric;      /* instead of each scene's own */
+  std::string command;               /* as it was typed */
+};
+
+/* The setting to take for a wished error. */
+struct Pick {
+  double wished;
+  size_t run;
+};
+
+struct SceneReport {
+  const ReportCase *source = nullptr;
+  std::string specification;
+  Scene scene;
+  double duration = 0;
+  Metric metric{};
+  Truth truth;
+  std::vector<Run> runs;
+  std::vector<Pick> picks;
+
+  /* Errors below this say nothing: the truth itself is not known better. */
+  double uncertainty() const;
+};
+
+/* Residual over time of one solver on one contact problem. */
+struct ContactCurve {
+  std::string problem, solver;
+  struct Point {
+    double milliseconds, residual;
+    std::string note;
+  };
+  std::vector<Point> points;
+};
+
+struct RoundingReport {
+  std::string scene;
+  double far; /* m: the second table is of the scene moved so far along x */
+  RoundingTable near_table, far_table;
+};
+
+struct Report {
+  ReportRequest request;
+  std::vector<SceneReport> scenes;
+  std::string backend_scene; /* of `by_backend`; empty without one */
+  Metric backend_metric{};
+  std::vector<Run> by_backend;
+  std::vector<ContactCurve> contact_curves;
+  RoundingReport rounding;
+  std::string machine, date;
+};
+
+/* InputError for what a user got wrong. Shows a progress bar. */
+Report collect_report(const ReportRequest &request);
+
+/* Marks the runs on the Pareto front of cost against `metric`, and finds what to pick; wishes finer than `uncertainty` are left out. */
+std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double uncertainty);
+
+/* "For a position error of at most 1 mm take pgs with 1 substep, 8 iterations (0.12 ms for 1/60 s); for ..." */
+std::string pick_sentence(const std::vector<Run> &runs, const std::vector<Pick> &picks, Metric metric);
+
+/* The `tandem run` line that repeats a run's simulation and time. */
+std::string run_command_of(const SceneReport &scene, const Run &run);
+
+} // namespace tandem

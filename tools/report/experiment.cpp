@@ -1,0 +1,169 @@
+/* experiment.cpp - see experiment.h. */
+#include "tools/report/experiment.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "tools/measure.h"
+
+namespace tandem {
+namespace {
+
+using Array = std::array<double, 3>;
+
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+double timed_step(World &world)
+{
+  using Clock = std::chrono::steady_clock;
+  world.finish();
+  const Clock::time_point start = Clock::now();
+  world.step();
+  world.finish();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+double norm(const Array &v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+Array minus(const Array &a, const Array &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+bool only_gravity_acts(const Scene &scene)
+{
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
+}
+
+/* A quarter of the steps of a frame of 1/30 s at least: 1/30 s itself is a whole number of every step in the grids. */
+uint64_t steps_in_frame(const Settings &settings) { return static_cast<uint64_t>(std::llround(frame_time / double{settings.step})); }
+
+/* What is gathered over the frames of a run. */
+class Observation {
+public:
+  Observation(const Scene &scene, const Truth &truth) : scene_(scene), truth_(truth) {}
+
+  void frame(World &world, size_t k)
+  {
+    last_ = world.precise_bodies();
+    if (k < truth_.comparable_frames) trajectory_.add(scene_, last_, truth_.frames[k]);
+    const ContactResiduals residuals = contact_residuals(world);
+    natural_map_ += residuals.natural_map;
+    fischer_burmeister_ += residuals.fischer_burmeister;
+    cone_violation_ = std::max(cone_violation_, residuals.cone_violation);
+    ++frames_;
+  }
+
+  void write(Run &run, const Statistics &statistics) const
+  {
+    const auto set = [&](Metric metric, double value) { run.errors[static_cast<size_t>(metric)] = value; };
+    const double count = std::max<double>(static_cast<double>(frames_), 1);
+    const bool comparable = truth_.comparable_frames > 0;
+    set(Metric::position, comparable ? trajectory_.position_rms() : undefined);
+    set(Metric::rotation, comparable ? trajectory_.angle_rms() : undefined);
+    run.position_max = comparable ? trajectory_.position_max() : undefined;
+    run.rotation_max = comparable ? trajectory_.angle_max() : undefined;
+    set(Metric::max_penetration, statistics.max_penetration);
+    set(Metric::mean_penetration, statistics.mean_penetration);
+    set(Metric::natural_map, natural_map_ / count);
+    set(Metric::fischer_burmeister, fischer_burmeister_ / count);
+    set(Metric::cone_violation, cone_violation_);
+    const PreciseBodies &end = truth_.frames[frames_ - 1];
+    set(Metric::energy, std::abs(conserved_quantities(scene_, last_).energy() - conserved_quantities(scene_, end).energy()));
+    run.mean_height_error = std::abs(mean_height(scene_, last_) - mean_height(scene_, end));
+    write_drift(run);
+  }
+
+private:
+  /* Gravity turns momentum by M g t, which is known, and angular momentum about the origin by a torque that depends on the path; so
+   * the latter is taken about the common centre of mass. */
+  void write_drift(Run &run) const
+  {
+    run.momentum_drift = run.angular_momentum_drift = undefined;
+    if (!only_gravity_acts(scene_)) return;
+    const double time = static_cast<double>(frames_) * frame_time;
+    const auto [start_momentum, start_spin] = about_center(start_states());
+    const auto [momentum, spin] = about_center(last_);
+    double mass = 0;
+    for (const Body &body : scene_.bodies) mass += double{body.mass};
+    Array expected = start_momentum;
+    for (int k = 0; k < 3; ++k) expected[k] += mass * double{scene_.gravity[k]} * time;
+    run.momentum_drift = norm(minus(momentum, expected)) / std::max(norm(expected), 1e-30);
+    run.angular_momentum_drift = norm(minus(spin, start_spin)) / std::max(norm(start_spin), 1e-30);
+  }
+
+  PreciseBodies start_states() const
+  {
+    PreciseBodies states;
+    for (const Body &body : scene_.bodies) {
+      PreciseBodyState state{};
+      std::copy(body.position.begin(), body.position.end(), state.position.begin());
+      std::copy(body.orientation.begin(), body.orientation.end(), state.orientation.begin());
+      std::copy(body.linear_velocity.begin(), body.linear_velocity.end(), state.linear_velocity.begin());
+      std::copy(body.angular_velocity.begin(), body.angular_velocity.end(), state.angular_velocity.begin());
+      states.push_back(state);
+    }
+    return states;
+  }
+
+  /* Momentum, and angular momentum about the common centre of mass: bodies moved so that it is the origin. */
+  std::pair<Array, Array> about_center(PreciseBodies states) const
+  {
+    Array center{};
+    double mass = 0;
+    for (size_t i = 0; i < states.size(); ++i) {
+      mass += double{scene_.bodies[i].mass};
+      for (int k = 0; k < 3; ++k) center[k] += double{scene_.bodies[i].mass} * states[i].position[k];
+    }
+    for (PreciseBodyState &state : states)
+      for (int k = 0; k < 3; ++k) state.position[k] -= center[k] / mass;
+    const Conserved sum = conserved_quantities(scene_, states);
+    return {sum.momentum, sum.angular_momentum};
+  }
+
+  const Scene &scene_;
+  const Truth &truth_;
+  TrajectoryError trajectory_;
+  PreciseBodies last_;
+  size_t frames_ = 0;
+  double natural_map_ = 0, fischer_burmeister_ = 0, cone_violation_ = 0;
+};
+
+void simulate(Run &run, const Scene &scene, double duration, const Truth &truth)
+{
+  World world(scene, run.settings, Placement{run.backend, {}, false});
+  Observation observation(scene, truth);
+  const uint64_t in_frame = steps_in_frame(run.settings);
+  const size_t frames = std::min(frames_in(duration), truth.frames.size());
+  run.steps = in_frame * frames;
+  std::vector<double> milliseconds;
+  for (size_t k = 0; k < frames; ++k) {
+    for (uint64_t step = 0; step < in_frame; ++step) milliseconds.push_back(timed_step(world));
+    observation.frame(world, k);
+  }
+  milliseconds.erase(milliseconds.begin(), milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 4));
+  run.step_milliseconds = spread_of(milliseconds).median;
+  const Statistics statistics = world.statistics();
+  run.quarantined = statistics.nonfinite;
+  run.hash = world.body_hash();
+  observation.write(run, statistics);
+}
+
+} // namespace
+
+Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings, const std::string &backend)
+{
+  Run run;
+  run.solver = settings.solver;
+  run.backend = backend;
+  run.settings = settings;
+  run.errors.fill(undefined);
+  try {
+    simulate(run, scene, duration, truth);
+  } catch (const InputError &) {
+    throw;
+  } catch (const std::exception &error) {
+    run.failure = error.what();
+  }
+  return run;
+}
+
+} // namespace tandem

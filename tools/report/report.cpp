@@ -1,0 +1,146 @@
+/* report.cpp - `tandem report`: error against run time, for every solver, as a page that opens offline. */
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/backend_list.h"
+#include "tools/command.h"
+#include "tools/output.h"
+#include "tools/report/data.h"
+#include "tools/report/report_page.h"
+
+namespace tandem {
+namespace {
+
+struct ReportOptions {
+  bool quick = false;
+  std::string scenes, solvers, on = "tbb,serial", metric, out;
+  JsonOutput json;
+};
+
+std::string case_names()
+{
+  std::string names;
+  for (const ReportCase &report_case : report_cases()) names += (names.empty() ? "" : ", ") + std::string(report_case.name);
+  return names;
+}
+
+std::string metric_list()
+{
+  std::string names;
+  for (const MetricName &metric : metric_names()) names += (names.empty() ? "" : ", ") + std::string(metric.name);
+  return names;
+}
+
+void add_options(CLI::App &parser, ReportOptions &options)
+{
+  parser.add_option("--out", options.out, "folder for report.html, report.csv and report.json; made if it is not there")->type_name("DIR")->required();
+  parser.add_flag("--quick", options.quick, "small scenes and few settings: under two minutes on two cores");
+  parser.add_option("--scenes", options.scenes, "some of: " + case_names())->type_name("NAME,NAME,...");
+  parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))->type_name("NAME,NAME,...");
+  parser.add_option("--on", options.on, "the first runs all scenes; one chart compares all of them")->type_name("B,B,...")->capture_default_str();
+  parser.add_option("--metric", options.metric, "one error for all scenes instead of each scene's own: " + metric_list())->type_name("NAME");
+  parser.add_option("--json", options.json.path, "write report.json here too; - for standard output")->type_name("FILE");
+}
+
+std::vector<std::string> list_of(const std::string &option, const std::string &text)
+{
+  std::vector<std::string> names;
+  std::istringstream stream(text + ",");
+  for (std::string name; std::getline(stream, name, ',');) {
+    if (name.empty()) throw InputError(fmt::format("{} '{}': nothing between two commas, or at an end of the list", option, text));
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<std::string> solvers_of(const std::string &text)
+{
+  const std::vector<std::string> known = solver_names();
+  if (text.empty()) return known;
+  const std::vector<std::string> wanted = list_of("--solvers", text);
+  for (const std::string &solver : wanted)
+    if (std::find(known.begin(), known.end(), solver) == known.end())
+      throw InputError(fmt::format("--solvers: unknown solver '{}'; solvers: {}", solver, fmt::join(known, ", ")));
+  return wanted;
+}
+
+std::string typed(const ReportOptions &options)
+{
+  std::string command = "tandem report";
+  if (options.quick) command += " --quick";
+  const auto add = [&](const char *name, const std::string &value) {
+    if (!value.empty()) command += fmt::format(" {} {}", name, value);
+  };
+  add("--scenes", options.scenes);
+  add("--solvers", options.solvers);
+  add("--on", options.on);
+  add("--metric", options.metric);
+  add("--out", options.out);
+  return command;
+}
+
+ReportRequest request_of(const ReportOptions &options)
+{
+  ReportRequest request;
+  request.quick = options.quick;
+  request.solvers = solvers_of(options.solvers);
+  request.backends = split_backends(options.on);
+  if (!options.metric.empty()) request.metric = metric_named(options.metric);
+  if (options.scenes.empty())
+    for (const ReportCase &report_case : report_cases()) request.cases.push_back(&report_case);
+  else
+    for (const std::string &name : list_of("--scenes", options.scenes)) request.cases.push_back(&report_case_named(name));
+  request.command = typed(options);
+  return request;
+}
+
+/* Refused before minutes are spent on what could not be written. */
+std::string usable_folder(const std::string &folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error ? error.message() : "a file of this name is there"));
+  for (const char *name : {"report.html", "report.csv", "report.json"}) check_writable("--out", (std::filesystem::path(folder) / name).string());
+  return folder;
+}
+
+void write_report(const Report &report, const ReportOptions &options)
+{
+  const auto file = [&](const char *name) { return (std::filesystem::path(options.out) / name).string(); };
+  const Json json = report_json(report);
+  write_file("--out", file("report.html"), report_page(report));
+  write_file("--out", file("report.csv"), report_csv(report));
+  write_file("--out", file("report.json"), json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  options.json.write(json);
+  if (options.json.takes_standard_output()) return;
+  for (const SceneReport &scene : report.scenes)
+    fmt::print("{}: {}\n", scene.source->name, pick_sentence(scene.runs, scene.picks, scene.metric));
+  fmt::print("\n{} (charts and tables), report.csv and report.json beside it\n", file("report.html"));
+}
+
+int execute(const ReportOptions &options)
+{
+  const ReportRequest request = request_of(options);
+  options.json.check();
+  usable_folder(options.out);
+  write_report(collect_report(request), options);
+  return 0;
+}
+
+} // namespace
+
+Command report_command(CLI::App &parser)
+{
+  CLI::App *command = parser.add_subcommand("report", "error against run time for every solver, as a page of charts");
+  auto options = std::make_shared<ReportOptions>();
+  add_options(*command, *options);
+  return {command, [options] { return execute(*options); }};
+}
+
+} // namespace tandem

@@ -1,0 +1,240 @@
+/* report_page.cpp - see report_page.h. */
+#include "tools/report/report_page.h"
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/output.h"
+#include "tools/page.h"
+
+namespace tandem {
+namespace {
+
+std::string axis_text(Metric metric) { return fmt::format("{}, {}", name_of(metric).label, name_of(metric).unit); }
+
+std::string note_of(const Run &run)
+{
+  return fmt::format("{} on {}: {:.3g} ms per step", short_text(run.settings), run.backend, run.step_milliseconds);
+}
+
+/* Which of a solver's points its line joins: its own front; points aside would only make it zigzag. */
+ChartSeries series_of(const std::string &name, const std::vector<const Run *> &runs, Metric metric)
+{
+  std::vector<Tradeoff> points;
+  for (const Run *run : runs) points.push_back({run->cost(), run->error(metric)});
+  const std::vector<size_t> own = pareto_front(points);
+  ChartSeries series{name};
+  std::vector<bool> joined(runs.size());
+  for (const size_t i : own) {
+    joined[i] = true;
+    series.points.push_back({points[i].cost, points[i].error, note_of(*runs[i]), true, runs[i]->front});
+  }
+  for (size_t i = 0; i < runs.size(); ++i)
+    if (!joined[i]) series.points.push_back({points[i].cost, points[i].error, note_of(*runs[i]), false, false});
+  return series;
+}
+
+template <class Key> std::vector<ChartSeries> series_by(const std::vector<Run> &runs, Metric metric, Key key)
+{
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<const Run *>> groups;
+  for (const Run &run : runs) {
+    if (!groups.contains(key(run))) names.push_back(key(run));
+    groups[key(run)].push_back(&run);
+  }
+  std::vector<ChartSeries> series;
+  for (const std::string &name : names) series.push_back(series_of(name, groups[name], metric));
+  return series;
+}
+
+Chart scene_chart(const SceneReport &scene)
+{
+  Chart chart{scene.specification, {"ms for 1/60 s of simulated time", AxisScale::logarithmic}, {axis_text(scene.metric), AxisScale::logarithmic}};
+  chart.series = series_by(scene.runs, scene.metric, [](const Run &run) { return run.solver; });
+  if (scene.uncertainty() > 0) chart.levels.push_back({scene.uncertainty(), "the truth is known to this"});
+  return chart;
+}
+
+PageCell hash_cell(const Run &run, bool equal)
+{
+  PageCell cell(hash_text(run.hash));
+  cell.mark = equal ? "good" : "bad";
+  return cell;
+}
+
+std::vector<PageCell> run_cells(const Run &run)
+{
+  std::vector<PageCell> cells = {run.solver, {fmt::format("{}", run.settings.substeps), double(run.settings.substeps)},
+                                 {fmt::format("{}", run.settings.iterations), double(run.settings.iterations)},
+                                 {step_text(run.settings), double{run.settings.step}}, run.step_milliseconds, run.cost()};
+  for (const double error : run.errors) cells.emplace_back(error);
+  cells.emplace_back(run.front ? "front" : "");
+  if (!run.failure.empty()) cells.back() = PageCell("broke down: " + run.failure);
+  else if (run.quarantined > 0) cells.back() = PageCell(fmt::format("{} bodies not finite", run.quarantined));
+  return cells;
+}
+
+std::vector<std::string> run_header()
+{
+  std::vector<std::string> header = {"solver", "substeps", "iterations", "dt, s", "ms per step", "ms per 1/60 s"};
+  for (const MetricName &metric : metric_names()) header.push_back(fmt::format("{}, {}", metric.label, metric.unit));
+  header.push_back("note");
+  return header;
+}
+
+std::string truth_text(const SceneReport &scene)
+{
+  const Truth &truth = scene.truth;
+  std::string text = truth.closed_form ? "Truth: closed form for the positions; the rest is the reference in double" : "Truth: the reference in double";
+  text += fmt::format(" at {} steps for each 1/60 s. ", truth.refinements[2]);
+  if (truth.chaotic)
+    text += fmt::format("The scene is chaotic: starts {:.2g} m apart are {:g} times as far apart after {:.2f} s; past that trajectories say nothing "
+                        "and only the rest is compared, at {:g} s. ",
+                        truth.nudge, horizon_growth, truth.horizon, scene.duration);
+  else text += fmt::format("Starts {:.2g} m apart stay within {:g} times that for all of its {:g} s. ", truth.nudge, horizon_growth, scene.duration);
+  if (!truth.resolved)
+    text += fmt::format("Only up to {:.2f} s is the reference known to {:g} m; trajectories are compared up to there. ",
+                        static_cast<double>(truth.comparable_frames) * frame_time, resolved_bound);
+  const auto error = [&](int k) {
+    return fmt::format("{:.2g} m and {:.2g} rad at {}", truth.refinement_errors[k].position_rms(), truth.refinement_errors[k].angle_rms(),
+                       truth.refinements[k]);
+  };
+  text += fmt::format("The reference is away from it by {}, {}", error(0), error(1));
+  if (truth.closed_form) text += ", " + error(2);
+  text += truth.order ? fmt::format("; order of convergence {:.2f}.", *truth.order) : "; its runs agree to rounding.";
+  return text;
+}
+
+void add_scene(Page &page, const SceneReport &scene)
+{
+  page.section(scene.source->name);
+  page.paragraph(std::string(scene.source->what) + ".");
+  page.paragraph(pick_sentence(scene.runs, scene.picks, scene.metric), "pick");
+  page.chart(scene_chart(scene));
+  page.paragraph(truth_text(scene));
+  PageTable table{fmt::format("{}, {:g} s, on {}", scene.specification, scene.duration, scene.runs.empty() ? "" : scene.runs.front().backend),
+                  run_header()};
+  for (const Run &run : scene.runs) table.rows.push_back(run_cells(run));
+  page.table(table);
+  std::vector<std::string> commands;
+  for (const Run &run : scene.runs)
+    if (run.front) commands.push_back(run_command_of(scene, run));
+  page.commands(commands);
+}
+
+void add_summary(Page &page, const Report &report)
+{
+  page.section("What to pick");
+  PageTable table{"the cheapest setting that keeps a wished error", {"scene", "error", "wished", "solver", "setting", "error kept", "ms per 1/60 s"}};
+  for (const SceneReport &scene : report.scenes)
+    for (const Pick &pick : scene.picks) {
+      const Run &run = scene.runs[pick.run];
+      table.rows.push_back({scene.source->name, axis_text(scene.metric), pick.wished, run.solver, short_text(run.settings), run.error(scene.metric),
+                            run.cost()});
+    }
+  page.table(table);
+}
+
+const Run *same_settings(const std::vector<Run> &runs, const Run &wanted)
+{
+  for (const Run &run : runs)
+    if (run.solver == wanted.solver && run.settings.substeps == wanted.settings.substeps && run.settings.iterations == wanted.settings.iterations &&
+        run.settings.step == wanted.settings.step)
+      return &run;
+  return nullptr;
+}
+
+void add_backends(Page &page, const Report &report)
+{
+  if (report.by_backend.empty()) return;
+  page.section("Backends");
+  page.paragraph("The same settings on every backend: the error is the same to the bit, and only the time moves. The hash is that of all bodies at the "
+                 "end; it is compared with the first backend's.");
+  Chart chart{report.backend_scene, {"ms for 1/60 s of simulated time", AxisScale::logarithmic}, {axis_text(report.backend_metric), AxisScale::logarithmic}};
+  chart.series = series_by(report.by_backend, report.backend_metric, [](const Run &run) { return run.backend; });
+  page.chart(chart);
+  PageTable table{report.backend_scene, {"backend", "setting", "ms per 1/60 s", axis_text(report.backend_metric), "hash"}};
+  for (const Run &run : report.by_backend)
+    table.rows.push_back({run.backend, short_text(run.settings), run.cost(), run.error(report.backend_metric),
+                          hash_cell(run, same_settings(report.by_backend, run)->hash == run.hash)});
+  page.table(table);
+}
+
+void add_contact_problems(Page &page, const Report &report)
+{
+  if (report.contact_curves.empty()) return;
+  page.section("Contact problems");
+  std::map<std::string, Chart> charts;
+  for (const ContactCurve &curve : report.contact_curves) {
+    Chart &chart = charts.try_emplace(curve.problem, Chart{curve.problem, {"ms", AxisScale::logarithmic}, {"natural-map residual, relative", AxisScale::logarithmic}})
+                       .first->second;
+    ChartSeries series{curve.solver};
+    for (const ContactCurve::Point &point : curve.points) series.points.push_back({point.milliseconds, point.residual, point.note});
+    chart.series.push_back(series);
+  }
+  for (const auto &[problem, chart] : charts) page.chart(chart);
+}
+
+using RoundingKey = std::tuple<Kernel, Buffer, std::string>;
+
+std::map<RoundingKey, const RoundingRow *> rows_by_key(const RoundingTable &table)
+{
+  std::map<RoundingKey, const RoundingRow *> rows;
+  for (const RoundingRow &row : table.rows) rows[{row.kernel, row.buffer, row.field}] = &row;
+  return rows;
+}
+
+void add_rounding(Page &page, const RoundingReport &rounding)
+{
+  page.section("Rounding, stage by stage");
+  page.paragraph(fmt::format("Every launch of {} in float, and the same launch on the same input in double: distance in units of the last place of a "
+                             "float (0.5 is a perfect rounding), of a float as large as the field's largest number, relative and absolute. Moved: the same scene {:g} km from the origin. Numbers near 0 that "
+                             "are differences of large ones have few digits left, which the ulps show and the absolute error does not.",
+                             rounding.scene, rounding.far / 1000));
+  const auto moved = rows_by_key(rounding.far_table);
+  PageTable table{fmt::format("{} launches", rounding.near_table.launches),
+                  {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps", "max ulps of the field", "max relative", "max absolute", "moved: median ulps",
+                   "moved: max ulps", "moved: max absolute"}};
+  for (const RoundingRow &row : rounding.near_table.rows) {
+    const auto far = moved.find({row.kernel, row.buffer, row.field});
+    const RoundingRow *other = far == moved.end() ? nullptr : far->second;
+    table.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, row.field, double(row.numbers), row.median_ulps, row.high_ulps,
+                          row.max_ulps, row.max_field_ulps, row.max_relative, row.max_absolute, other ? other->median_ulps : NAN, other ? other->max_ulps : NAN,
+                          other ? other->max_absolute : NAN});
+  }
+  page.table(table);
+  PageTable decisions{"whole numbers: keys, indices, flags; where they differ a decision fell otherwise in double",
+                      {"kernel", "buffer", "numbers", "differing", "moved: differing"}};
+  std::map<std::pair<Kernel, Buffer>, double> far;
+  for (const DecisionRow &row : rounding.far_table.decisions) far[{row.kernel, row.buffer}] = double(row.differing);
+  for (const DecisionRow &row : rounding.near_table.decisions)
+    decisions.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, double(row.numbers), double(row.differing),
+                              far.contains({row.kernel, row.buffer}) ? far[{row.kernel, row.buffer}] : NAN});
+  page.table(decisions);
+}
+
+} // namespace
+
+std::string report_page(const Report &report)
+{
+  Page page("Tandem: error against run time",
+            fmt::format("{}. Made on {} with {}; scenes on {}; solvers: {}. Times are medians of whole steps, for 1/60 s of simulated time so that time steps "
+                        "of all sizes compare; the first quarter of each run is warm-up. Errors are defined in docs/metrics.md. Click a column to sort by it; "
+                        "hold the pointer over a point to read it.",
+                        report.request.quick ? "A quick look: small scenes, few settings" : "Work-precision diagrams", report.date, report.machine,
+                        report.request.backends.front(), fmt::join(report.request.solvers, ", ")));
+  add_summary(page, report);
+  for (const SceneReport &scene : report.scenes) add_scene(page, scene);
+  add_backends(page, report);
+  add_contact_problems(page, report);
+  add_rounding(page, report.rounding);
+  page.section("Made by");
+  page.commands({report.request.command});
+  return page.text();
+}
+
+} // namespace tandem

@@ -1,0 +1,218 @@
+/* stability.cpp - `tandem stability`: stiff and extreme cases, each with its figure and bound, solver by solver. */
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <sstream>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/backend_list.h"
+#include "host/world.h"
+#include "tools/command.h"
+#include "tools/output.h"
+#include "tools/progress.h"
+#include "tools/stability/cases.h"
+#include "tools/stability/results.h"
+
+namespace tandem {
+namespace {
+
+using stability::Case;
+using stability::Length;
+
+struct StabilityOptions {
+  std::string only, solvers, on = "tbb", out, between;
+  bool quick = false, list = false, inexact = false;
+  JsonOutput json;
+};
+
+std::vector<std::string> split(const std::string &text)
+{
+  std::vector<std::string> parts;
+  std::stringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+std::vector<const Case *> chosen_cases(const StabilityOptions &options)
+{
+  std::vector<const Case *> chosen;
+  std::vector<std::string> wanted = split(options.only);
+  for (const Case &each : stability::all_cases()) {
+    const auto named = std::find(wanted.begin(), wanted.end(), each.name);
+    if (!options.only.empty() && named == wanted.end()) continue;
+    chosen.push_back(&each);
+    if (named != wanted.end()) wanted.erase(named);
+  }
+  if (!wanted.empty()) {
+    std::vector<std::string> names;
+    for (const Case &each : stability::all_cases()) names.push_back(each.name);
+    throw InputError(fmt::format("--only: no case '{}'; the cases are {}", wanted.front(), fmt::join(names, ", ")));
+  }
+  return chosen;
+}
+
+std::vector<std::string> chosen_solvers(const StabilityOptions &options)
+{
+  const std::vector<std::string> known = solver_names();
+  if (options.solvers.empty()) return known;
+  const std::vector<std::string> wanted = split(options.solvers);
+  for (const std::string &name : wanted)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("--solvers: '{}' is unknown; use {}", name, fmt::join(known, ", ")));
+  return wanted;
+}
+
+/* The folder is made before the first case runs: a long run must not end without its results. */
+void prepare_folder(const std::string &folder)
+{
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error.message()));
+  check_writable("--out", folder + "/stability.json");
+}
+
+std::string verdict(const stability::Outcome &outcome)
+{
+  const stability::CheckResult &headline = outcome.headline;
+  return fmt::format("{:24} {:10} {}  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver, outcome.passed ? "pass" : "FAIL", headline.figure,
+                     headline.unit, headline.what, headline.bound, outcome.note.empty() ? "" : "; " + outcome.note);
+}
+
+/* A backend that does not exist, or solvers it cannot run, is bad use: found before the first case. */
+void check_backend(const Placement &placement)
+{
+  Scene scene = stability::empty_scene();
+  stability::add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 0, 0});
+  World(scene, {}, placement).step();
+}
+
+stability::Outcome run_with_progress(const Case &which, const std::string &solver, const Placement &placement, Length length)
+{
+  Progress progress(fmt::format("{} {}", which.name, solver), which.build(length).steps);
+  return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
+}
+
+/* As it would be typed again. */
+std::string command_text(const StabilityOptions &options)
+{
+  std::string text = "tandem stability";
+  const auto add = [&](const char *name, const std::string &value) {
+    if (!value.empty()) text += fmt::format(" {} {}", name, value);
+  };
+  add("--only", options.only);
+  add("--solvers", options.solvers);
+  add("--on", options.on == "tbb" ? "" : options.on);
+  add("--out", options.out);
+  return text + (options.quick ? " --quick" : "");
+}
+
+/* Status 1 unless the first solver, which is the default one unless it was left out, passes every case. */
+int conclude(const stability::Results &results)
+{
+  std::vector<std::string> failed;
+  for (const stability::Result &result : results.results)
+    if (!result.outcome.passed && result.outcome.solver == results.solvers.front()) failed.push_back(result.outcome.name);
+  if (failed.empty()) return 0;
+  fmt::print(stderr, "tandem: {} fails {} of {} cases: {}\n", results.solvers.front(), failed.size(), results.results.size() / results.solvers.size(),
+             fmt::join(failed, ", "));
+  return 1;
+}
+
+int run_cases(const StabilityOptions &options)
+{
+  const std::vector<const Case *> cases = chosen_cases(options);
+  const std::vector<std::string> solvers = chosen_solvers(options);
+  const Placement placement{options.on, {}, options.inexact};
+  const Length length = options.quick ? Length::quick : Length::full;
+  if (options.out.empty()) throw InputError("--out DIR is needed: the folder for the page, stability.json and figures.csv");
+  options.json.check();
+  check_backend(placement);
+  prepare_folder(options.out);
+  stability::Results results{options.on, solvers, length, {}};
+  for (const Case *each : cases)
+    for (const std::string &solver : solvers) {
+      stability::Outcome outcome = run_with_progress(*each, solver, placement, length);
+      if (!options.json.takes_standard_output()) fmt::print("{}\n", verdict(outcome));
+      std::fflush(stdout);
+      results.add(*each, each->build(length).scene, std::move(outcome));
+    }
+  const Json json = stability::results_json(results);
+  write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
+  write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
+  write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
+  if (!options.json.takes_standard_output()) fmt::print("{}/index.html\n", options.out);
+  options.json.write(json);
+  return conclude(results);
+}
+
+/* Every case, shortened, on every backend: equal bits, whether the solver copes or not. */
+int compare_backends(const StabilityOptions &options)
+{
+  const std::vector<std::string> backends = split_backends(options.between);
+  if (backends.size() < 2) throw InputError(fmt::format("--between '{}': name two backends or more", options.between));
+  const std::vector<const Case *> cases = chosen_cases(options);
+  const std::vector<std::string> solvers = chosen_solvers(options);
+  options.json.check();
+  for (const std::string &backend : backends) check_backend({backend, {}, options.inexact});
+  Json list = Json::array();
+  size_t unequal = 0;
+  for (const Case *each : cases)
+    for (const std::string &solver : solvers) {
+      Json hashes = Json::object();
+      bool equal = true;
+      std::string first;
+      for (const std::string &backend : backends) {
+        const stability::Outcome outcome = run_with_progress(*each, solver, {backend, {}, options.inexact}, Length::brief);
+        const std::string hash = outcome.end.empty() ? outcome.note : hash_text(outcome.body_hash);
+        if (first.empty()) first = hash;
+        equal = equal && hash == first && !outcome.end.empty();
+        hashes[backend] = hash;
+      }
+      unequal += !equal;
+      if (!options.json.takes_standard_output()) fmt::print("{:28} {:10} {} {}\n", each->name, solver, equal ? "equal" : "UNEQUAL", equal ? first : hashes.dump());
+      std::fflush(stdout);
+      list.push_back({{"name", each->name}, {"solver", solver}, {"equal", equal}, {"body_hash", hashes}});
+    }
+  options.json.write({{"backends", backends}, {"equal", unequal == 0}, {"cases", list}});
+  if (unequal) fmt::print(stderr, "tandem: {} of {} runs differ between {}\n", unequal, list.size(), fmt::join(backends, ", "));
+  return unequal ? 1 : 0;
+}
+
+int list_cases()
+{
+  std::string group;
+  for (const Case &each : stability::all_cases()) {
+    if (each.group != group) fmt::print("{}\n", group = each.group);
+    fmt::print("  {:26} {}\n", each.name, each.what);
+  }
+  return 0;
+}
+
+int execute(const StabilityOptions &options)
+{
+  if (options.list) return list_cases();
+  return options.between.empty() ? run_cases(options) : compare_backends(options);
+}
+
+} // namespace
+
+Command stability_command(CLI::App &parser)
+{
+  CLI::App *command = parser.add_subcommand("stability", "stiff and extreme cases, each with a figure and a bound");
+  auto options = std::make_shared<StabilityOptions>();
+  command->add_option("--only", options->only, "these cases alone")->type_name("CASE,...");
+  command->add_option("--solvers", options->solvers, "these solvers alone")->type_name("NAME,...");
+  command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
+  command->add_option("--out", options->out, "write the results into this folder")->type_name("DIR");
+  command->add_option("--json", options->json.path, "write the results as JSON; - for standard output")->type_name("FILE");
+  command->add_option("--between", options->between, "no figures: every case, shortened, on each of these backends must end in the same bits")->type_name("B,B,...");
+  command->add_flag("--list", options->list, "name the cases");
+  command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
+  command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not, 2 for bad use.");
+  command->add_flag("--quick", options->quick, "shorter versions of the long cases, named as such");
+  return {command, [options] { return execute(*options); }};
+}
+
+} // namespace tandem

@@ -1,0 +1,133 @@
+/* cases_scale.cpp - sizes and masses many decades apart in one scene, and scenes far from the origin. */
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "tools/stability/cases.h"
+
+namespace tandem::stability {
+namespace {
+
+Trial sizes_trial(Length length)
+{
+  Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
+  add_ground(trial.scene);
+  add_body(trial.scene, Motion::dynamic, box_shape(500, 500, 500), {-600, 500, 0}, 1e9f);
+  for (int i = 0; i < 3; ++i) add_body(trial.scene, Motion::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
+  trial.checks.push_back(check("small cubes moved by", "m", 2e-4, [start = trial.scene.bodies](const Moment &moment) {
+    double worst = 0;
+    for (size_t i = 2; i < start.size(); ++i) {
+      const double way = (vector_of(moment.bodies[i].position) - vector_of(start[i].position)).norm();
+      worst = way > worst || std::isnan(way) ? way : worst;
+    }
+    return worst;
+  }));
+  trial.checks.push_back(check("large cube moved by", "m", 0.02, [start = trial.scene.bodies[1]](const Moment &moment) {
+    return (vector_of(moment.bodies[1].position) - vector_of(start.position)).norm();
+  }));
+  return trial;
+}
+
+/* Alone, at a scale of its own: columns of five cubes. */
+Case size_case(const std::string &name, double edge, double gravity)
+{
+  return {name, "scale", fmt::format("a column of five cubes of {} m", edge), "no cube moves by a fifth of its edge or turns by 0.05 rad in 5 s",
+          [edge, gravity](Length length) {
+            Trial trial = trial_of(empty_scene({0, float(-gravity), 0}), steps_for(length, 300, 300));
+            add_ground(trial.scene);
+            for (int i = 0; i < 5; ++i)
+              add_body(trial.scene, Motion::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)), {0, float(edge * (i + 0.5)), 0},
+                       float(1000 * edge * edge * edge));
+            trial.checks.push_back(check("farthest from the start", "m", edge / 5, displacement(trial.scene)));
+            trial.checks.push_back(check("largest tilt", "rad", 0.05, tilt(trial.scene)));
+            return trial;
+          }};
+}
+
+Trial masses_trial(Length length)
+{
+  Trial trial = trial_of(empty_scene(), steps_for(length, 600, 600));
+  add_ground(trial.scene);
+  add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0}, 1e9f);
+  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0, 1.1f, 0}, 1e-6f);
+  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.6f, 0.1f, 0}, 1e-6f);
+  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.8f, 0.1f, 0}, 1e-6f);
+  add_standing(trial, {});
+  return trial;
+}
+
+/* What must stand or move far away exactly as near: a column, a sliding box, a rolling ball, on a static block. All places
+ * are multiples of 1/16 m, which a float still tells apart at 1,000 km. */
+Scene yard(double x)
+{
+  Scene scene = empty_scene();
+  const auto at = [x](double dx, double y, double z) { return Vec3{float(x + dx), float(y), float(z)}; };
+  add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
+  for (int i = 0; i < 5; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0, 0.5 + i, 0));
+  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.5f), at(-8, 0.25, 3)).linear_velocity = {5, 0, 0};
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(-8, 0.5, -3)).linear_velocity = {3, 0, 0};
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(4, 3.5, -3));
+  return scene;
+}
+
+/* A world of its own at the origin, stepped along with the far one. */
+Figure difference_from_twin(double x, const Settings &settings)
+{
+  auto twin = std::make_shared<std::unique_ptr<World>>();
+  auto done = std::make_shared<uint64_t>(0);
+  return [=](const Moment &moment) {
+    if (!*twin) {
+      Settings same = settings;
+      same.solver = moment.world.settings().solver;
+      *twin = std::make_unique<World>(yard(0), same, Placement{});
+    }
+    for (; *done < moment.step; ++*done) (*twin)->step();
+    const std::vector<BodyState> near = (*twin)->bodies();
+    double worst = 0;
+    for (size_t i = 0; i < near.size(); ++i) {
+      const double way = (vector_of(moment.bodies[i].position) - vector_of(near[i].position) - Vector(x, 0, 0)).norm();
+      if (std::isnan(way) || way > worst) worst = way;
+    }
+    return worst;
+  };
+}
+
+/* The spacing of floats at x. */
+double spacing(double x) { return std::nextafter(float(x), HUGE_VALF) - float(x); }
+
+Case far_case(double kilometres)
+{
+  const double x = 1000 * kilometres, bound = std::max(0.01, 2 * spacing(x));
+  return {fmt::format("far-{:.0f}-km", kilometres), "scale",
+          fmt::format("{:.0f} km from the origin, where floats are {:.2g} m apart: a column, a sliding box, a rolling and a falling ball", kilometres, spacing(x)),
+          fmt::format("everything within {:.2g} m of where it is at the origin, for 3 s; the column does not tilt by 0.05 rad", bound),
+          [=](Length length) {
+            Trial trial = trial_of(yard(x), steps_for(length, 180, 180));
+            trial.checks.push_back(check("difference from the origin", "m", bound, difference_from_twin(x, trial.settings)));
+            trial.checks.push_back(check("largest tilt of the column", "rad", 0.05, [](const Moment &moment) {
+              double worst = 0;
+              for (size_t i = 1; i <= 5; ++i) worst = std::max(worst, std::acos(std::min(1.0, axes_of(moment.bodies[i].orientation)(1, 1))));
+              return worst;
+            }));
+            return trial;
+          }};
+}
+
+} // namespace
+
+void add_scale_cases(std::vector<Case> &cases)
+{
+  cases.push_back({"1mm-beside-1km", "scale", "three cubes of 1 mm, 1 mg each, on one another, beside a cube of 1 km",
+                   "the small ones move by less than a fifth of their edge in 5 s, the large one by less than 2 cm", sizes_trial});
+  cases.push_back(size_case("edge-1-mm", 1e-3, 10));
+  cases.push_back(size_case("edge-1-cm", 1e-2, 10));
+  cases.push_back(size_case("edge-100-m", 100, 10));
+  cases.push_back(size_case("edge-1-km", 1000, 10));
+  cases.push_back({"masses-1e-6-beside-1e9", "scale", "cubes of 1 mg on and against a cube of a million tonnes",
+                   "stands 10 s: nothing turns by 0.05 rad or leaves by 5 cm, contacts at most 2 cm deep, at rest at the end", masses_trial});
+  for (double kilometres : {1.0, 20.0, 1000.0}) cases.push_back(far_case(kilometres));
+}
+
+} // namespace tandem::stability

@@ -1,0 +1,93 @@
+/* cases_spin.cpp - fast and unstable rotation, against conservation and the theory of the free and the heavy top. */
+#include <cmath>
+#include <memory>
+
+#include "host/scene_catalog_structures.h"
+#include "tools/stability/cases.h"
+
+namespace tandem::stability {
+namespace {
+
+/* A free rod of 1 m by 4 cm that turns mostly about body axis `axis` at `speed`, a hundredth of it about the others. */
+Trial rod_trial(int axis, double speed, Length length)
+{
+  Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
+  Body &rod = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.02f, 0.02f), {0, 0, 0});
+  for (int k = 0; k < 3; ++k) rod.angular_velocity[size_t(k)] = float(k == axis ? speed : 0.01 * speed);
+  trial.checks.push_back(check("drift of angular momentum", "", 5e-3, spin_momentum_drift(0)));
+  trial.checks.push_back(check("drift of energy", "", 5e-3, spin_energy_drift(0)));
+  return trial;
+}
+
+/* A plate of three different moments that turns about the middle one: it flips over and over (Dzhanibekov). */
+Trial flip_trial(double speed, Length length)
+{
+  Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 1800, 1800));
+  const double slant = 0.02;
+  Body &plate = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.3f, 0.1f), {0, 0, 0});
+  plate.angular_velocity = {float(speed * slant), float(speed), 0};
+  const double interval = flip_interval(moments_of(trial.scene, plate), vector_of(plate.angular_velocity));
+  trial.checks.push_back(at_end(check("error of the time between flips", "", 0.01, flip_error(0, interval))));
+  trial.checks.push_back(check("drift of angular momentum", "", 5e-3, spin_momentum_drift(0)));
+  trial.checks.push_back(check("drift of energy", "", 5e-3, spin_energy_drift(0)));
+  return trial;
+}
+
+/* The azimuth of the line from tip to centre, unwound, against W t; the tip is where the ground touches the corner. */
+Figure precession_error(double rate)
+{
+  struct Azimuth {
+    double before = 0, turned = 0, first_time = -1;
+  };
+  auto azimuth = std::make_shared<Azimuth>();
+  return [=](const Moment &moment) {
+    const Vector axis = axes_of(moment.bodies[1].orientation) * Vector(1, 1, 1);
+    const double now = std::atan2(-axis.z(), axis.x());
+    if (azimuth->first_time < 0) azimuth->first_time = moment.time;
+    else azimuth->turned += std::remainder(now - azimuth->before, 2 * pi);
+    azimuth->before = now;
+    const double expected = rate * (moment.time - azimuth->first_time);
+    return expected > 1 ? std::abs(azimuth->turned / expected - 1) : 0.0;
+  };
+}
+
+/* Lean against that at the start: steady precession keeps it. */
+Figure nutation(const Scene &scene)
+{
+  const double start = std::acos((axes_of(scene.bodies[1].orientation) * Vector(1, 1, 1).normalized()).y());
+  return [start](const Moment &moment) {
+    return std::abs(std::acos((axes_of(moment.bodies[1].orientation) * Vector(1, 1, 1).normalized()).y()) - start);
+  };
+}
+
+Trial top_trial(Length length)
+{
+  Trial trial = trial_of(load_scene("tops"), steps_for(length, 5000, 5000));
+  trial.settings.step = 1e-3f;
+  trial.every = 20;
+  const double rate = steady_precession(0.1, 100, 0.3, 10);
+  trial.checks.push_back(at_end(check("error of the precession's angle", "", 0.05, precession_error(rate))));
+  trial.checks.push_back(check("change of the lean", "rad", 0.05, nutation(trial.scene)));
+  trial.checks.push_back(check("gain of energy", "J/kg", 0.01, energy_gain()));
+  return trial;
+}
+
+} // namespace
+
+void add_spin_cases(std::vector<Case> &cases)
+{
+  const char *conserved = "angular momentum and energy drift by less than 0.5% in 10 s";
+  cases.push_back({"rod-across-100", "spin", "a free rod end over end at 100 rad/s", conserved, [](Length length) { return rod_trial(1, 100, length); }});
+  cases.push_back({"rod-across-1000", "spin", "a free rod end over end at 1,000 rad/s: four radians a substep", conserved,
+                   [](Length length) { return rod_trial(1, 1000, length); }});
+  cases.push_back({"rod-along-1000", "spin", "a free rod about its long axis at 1,000 rad/s, wobbling", conserved,
+                   [](Length length) { return rod_trial(0, 1000, length); }});
+  const char *flips = "time between flips within 1% of theory (elliptic integral), angular momentum and energy drift by less than 0.5% in 30 s";
+  cases.push_back({"flip", "spin", "a free plate that turns about its middle axis at 4 rad/s and flips over and over", flips,
+                   [](Length length) { return flip_trial(4, length); }});
+  cases.push_back({"flip-fast", "spin", "the same at 30 rad/s, an eighth of a radian a substep", flips, [](Length length) { return flip_trial(30, length); }});
+  cases.push_back({"top", "spin", "a cube of 20 cm that spins on a corner at 100 rad/s and precesses; at dt 1/1000, since it turns 1.7 rad in 1/60 s and contacts are found once a step",
+                   "angle of precession within 5% of the steady precession of a heavy symmetric top, lean kept to 0.05 rad, no gain of energy, 5 s", top_trial});
+}
+
+} // namespace tandem::stability

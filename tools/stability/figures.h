@@ -1,0 +1,59 @@
+/* figures.h - the figures that stability cases are judged by, each one function of a moment.
+ *
+ * All in double precision from what World reports. Those that compare with the start take the scene. A body
+ * that is not finite makes a figure NaN, which passes no bound. docs/stability.md lists them with their formulas.
+ */
+#pragma once
+
+#include <Eigen/Geometry>
+#include <functional>
+
+#include "tools/stability/trial.h"
+
+namespace tandem::stability {
+
+using Vector = Eigen::Vector3d;
+using Matrix = Eigen::Matrix3d;
+using Figure = std::function<double(const Moment &)>;
+
+inline constexpr double pi = 3.14159265358979323846;
+
+inline Vector vector_of(const Vec3 &v) { return {v[0], v[1], v[2]}; }
+inline Vec3 vec3_of(const Vector &v) { return {float(v.x()), float(v.y()), float(v.z())}; }
+Matrix axes_of(const Quat &q);
+Quat turn_about(const Vector &axis, double angle);
+
+Vector moments_of(const Scene &scene, const Body &body);                               /* principal; 0 where infinite */
+Vector spin_momentum(const Scene &scene, const Body &body, const BodyState &state); /* kg m^2/s, world axes */
+double kinetic_energy(const Scene &scene, const Body &body, const BodyState &state);   /* J */
+double mechanical_energy(const Moment &moment); /* J, kinetic and of gravity (factor included), dynamic bodies */
+
+/* Largest over the dynamic bodies. */
+Figure tilt(const Scene &scene);           /* rad, angle of the turn from the start */
+Figure sideways(const Scene &scene);       /* m, from the start, across gravity's axis y */
+Figure displacement(const Scene &scene);   /* m, from the start */
+Figure speed();                            /* m/s, linear */
+Figure penetration();                      /* m, over contact points */
+Figure below(double height);               /* m, how far a centre is under y = height; 0 if none is */
+
+/* Gain of mechanical energy over that at the start, in J per kg of moving mass; below 0 if energy went. */
+Figure energy_gain();
+/* |E - E(0)| / |E(0)| of the kinetic energy; for free motion without gravity. */
+Figure kinetic_energy_drift();
+/* |p - p(0)| / sum of |m v| at the start, and the same of angular momentum about the origin. */
+Figure linear_momentum_drift();
+Figure angular_momentum_drift();
+/* As above for the body alone, about its own centre. */
+Figure spin_momentum_drift(uint32_t body);
+Figure spin_energy_drift(uint32_t body);
+
+/* |position - expected(time)| of one body. */
+Figure distance_from_path(uint32_t body, std::function<Vector(double time)> expected);
+
+/* Time between two flips of a body about its middle axis, theory: Landau and Lifshitz, Mechanics, section 37.
+ * moments ascending, spin in body axes. */
+double flip_interval(const Vector &moments, const Vector &spin);
+/* Relative difference of the mean time between sign changes of body-axis component 1 from `expected`; 1 before two flips. */
+Figure flip_error(uint32_t body, double expected);
+
+} // namespace tandem::stability

@@ -1,0 +1,31 @@
+/* results.h - what a run of the cases found, and its JSON and page. */
+#pragma once
+
+#include "tools/output.h"
+#include "tools/stability/trial.h"
+
+namespace tandem::stability {
+
+struct Result {
+  Case which;
+  Outcome outcome;
+  std::vector<Body> start; /* for the pictures, with the shapes */
+  std::vector<Shape> shapes;
+};
+
+struct Results {
+  std::string backend;
+  std::vector<std::string> solvers; /* the default first, if it ran */
+  Length length;
+  std::vector<Result> results; /* case by case, within each solver by solver */
+
+  void add(const Case &which, const Scene &scene, Outcome outcome);
+};
+
+Json results_json(const Results &results);
+/* The page: a table case by solver, then each case with its pictures and its figure over time. `command` made it. */
+std::string results_page(const Results &results, const std::string &command);
+/* Every figure over time: case, solver, figure, unit, time, value. */
+std::string series_csv(const Results &results);
+
+} // namespace tandem::stability

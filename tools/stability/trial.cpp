@@ -1,0 +1,189 @@
+/* trial.cpp - see trial.h. */
+#include "tools/stability/trial.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+namespace tandem::stability {
+namespace {
+
+constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
+
+/* The value of one check so far, and how it came about. */
+struct Record {
+  const Check *check;
+  double figure = nothing_seen;
+  std::vector<Sample> series;
+
+  void note(const Moment &moment)
+  {
+    if (moment.time + 1e-9 < check->from) return;
+    const double value = check->value(moment);
+    series.push_back({moment.time, value});
+    const bool lost = std::isnan(figure); /* once not a number, for ever failed */
+    if (!lost) figure = check->over == Check::Over::last || std::isnan(value) ? value : std::max(figure, value);
+  }
+  CheckResult result() const
+  {
+    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound, series};
+  }
+};
+
+void note(std::vector<Record> &records, World &world, uint64_t step)
+{
+  const Moment moment(world, step);
+  for (Record &record : records) record.note(moment);
+}
+
+std::string names_of(const std::vector<Quarantine> &lost)
+{
+  std::string text;
+  for (size_t i = 0; i < std::min<size_t>(lost.size(), 3); ++i)
+    text += fmt::format("{}body {} in step {} ({})", i ? ", " : "", lost[i].body, lost[i].step, lost[i].stage);
+  return text + (lost.size() > 3 ? ", ..." : "");
+}
+
+void conclude(Outcome &outcome, const std::vector<Record> &records, World &world, uint64_t poisoned)
+{
+  const uint64_t lost = world.quarantined().size();
+  bool passed = lost == poisoned;
+  size_t headline = 0;
+  for (size_t i = 0; i < records.size(); ++i) {
+    outcome.checks.push_back(records[i].result());
+    if (!outcome.checks.back().passed && outcome.checks[headline].passed) headline = i;
+    passed = passed && outcome.checks.back().passed;
+  }
+  outcome.passed = passed;
+  outcome.headline = outcome.checks.at(headline);
+  if (lost != poisoned) outcome.note = fmt::format("{} bodies stopped being finite, {} expected: {}", lost, poisoned, names_of(world.quarantined()));
+  outcome.end = world.bodies();
+  outcome.body_hash = world.body_hash();
+}
+
+void simulate(Outcome &outcome, std::vector<Record> &records, World &world, const Trial &trial,
+              const std::function<void(uint64_t, uint64_t)> &after_step)
+{
+  using Clock = std::chrono::steady_clock;
+  Clock::duration spent{};
+  note(records, world, 0);
+  for (uint64_t step = 0; step < trial.steps; ++step) {
+    if (trial.disturb) trial.disturb(world, step);
+    const Clock::time_point start = Clock::now();
+    world.step();
+    spent += Clock::now() - start;
+    outcome.steps = step + 1;
+    if (outcome.steps % trial.every == 0 || outcome.steps == trial.steps) note(records, world, outcome.steps);
+    if (after_step) after_step(outcome.steps, trial.steps);
+    if (world.quarantined().size() > trial.poisoned) break;
+  }
+  outcome.milliseconds_per_step = std::chrono::duration<double, std::milli>(spent).count() / static_cast<double>(std::max<uint64_t>(outcome.steps, 1));
+}
+
+/* Without a figure: no number can pass for one. */
+void fail(Outcome &outcome, const Trial &trial, const std::string &why)
+{
+  const Check &first = trial.checks.front();
+  outcome.headline = {first.what, first.unit, std::numeric_limits<double>::quiet_NaN(), first.bound, false, {}};
+  outcome.checks = {outcome.headline};
+  outcome.passed = false;
+  outcome.note = why;
+}
+
+} // namespace
+
+Moment::Moment(World &world, uint64_t step)
+  : world(world), step(step), time(static_cast<double>(step) * static_cast<double>(world.settings().step)), bodies(world.bodies())
+{
+}
+
+const Statistics &Moment::statistics() const
+{
+  if (!statistics_) statistics_ = world.statistics();
+  return *statistics_;
+}
+
+std::string reported_name(const Case &which, Length length)
+{
+  if (length == Length::brief) return which.name + "-brief";
+  return length == Length::quick && which.shorter ? which.name + "-short" : which.name;
+}
+
+Settings settings_of(const Trial &trial, const std::string &solver)
+{
+  const Settings own = settings_for(solver);
+  Settings settings = trial.settings;
+  settings.solver = solver;
+  if (trial.own_passes) return settings;
+  settings.substeps = own.substeps;
+  settings.iterations = own.iterations;
+  return settings;
+}
+
+Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
+                  const std::function<void(uint64_t done, uint64_t of)> &after_step)
+{
+  Outcome outcome;
+  outcome.name = name;
+  outcome.solver = solver;
+  const Settings settings = settings_of(trial, solver);
+  outcome.settings = settings_text(settings);
+  std::vector<Record> records;
+  for (const Check &check : trial.checks) records.push_back({&check, nothing_seen, {}});
+  try {
+    World world(trial.scene, settings, placement);
+    simulate(outcome, records, world, trial, after_step);
+    conclude(outcome, records, world, trial.poisoned);
+  } catch (const std::exception &error) {
+    fail(outcome, trial, error.what());
+  }
+  outcome.default_passed = outcome.passed;
+  return outcome;
+}
+
+Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
+                 const std::function<void(uint64_t done, uint64_t of)> &after_step)
+{
+  const std::string name = reported_name(which, length);
+  const Trial trial = which.build(length);
+  Outcome first = run_trial(name, trial, solver, placement, after_step);
+  if (first.passed || !trial.documented || length == Length::brief) return first;
+  Trial again = which.build(length); /* its figures have seen nothing yet */
+  const Settings own = settings_for(solver);
+  again.settings = *trial.documented;
+  again.settings.substeps = std::max(again.settings.substeps, own.substeps);
+  again.settings.iterations = std::max(again.settings.iterations, own.iterations);
+  again.own_passes = true;
+  Outcome second = run_trial(name, again, solver, placement, after_step);
+  if (!second.passed) {
+    first.note += fmt::format("{}fails with {} too", first.note.empty() ? "" : "; ", second.settings);
+    return first;
+  }
+  second.default_passed = false;
+  second.note = fmt::format("with {}; by default {:.3g} {} ({})", second.settings, first.headline.figure, first.headline.unit, first.headline.what);
+  return second;
+}
+
+std::string settings_text(const Settings &settings)
+{
+  const Settings defaults = settings_for(settings.solver);
+  std::string text;
+  const auto add = [&](const char *name, auto value, auto standard) {
+    if (value != standard) text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, static_cast<double>(value));
+  };
+  add("dt", settings.step, defaults.step);
+  add("substeps", settings.substeps, defaults.substeps);
+  add("iterations", settings.iterations, defaults.iterations);
+  add("contact_hertz", settings.contact_hertz, defaults.contact_hertz);
+  add("contact_damping_ratio", settings.contact_damping_ratio, defaults.contact_damping_ratio);
+  add("push_speed", settings.push_speed, defaults.push_speed);
+  add("slop", settings.slop, defaults.slop);
+  add("slop_share", settings.slop_share, defaults.slop_share);
+  add("restitution_speed", settings.restitution_speed, defaults.restitution_speed);
+  return text.empty() ? "default" : text;
+}
+
+} // namespace tandem::stability
