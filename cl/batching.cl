@@ -5,6 +5,7 @@
 #include "shared/batching/check.h"
 #include "shared/batching/coloring.h"
 #include "shared/batching/incidence.h"
+#include "shared/batching/body_coloring.h"
 #include "shared/batching/iterative.h"
 #include "shared/batching/order.h"
 #include "shared/batching/single_group.h"
@@ -143,6 +144,34 @@ __kernel void incidence_starts(__global const uint *incidence_body, __global con
 {
   FOR_EACH_IN_RANGE(i)
   incidence_starts_item(incidence_body, counts, incidence_start, length, i);
+}
+
+__kernel void body_color_begin(__global const uint *incidence_start, __global uint *counts,
+                               __global uint *body_color, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  body_color_begin_item(incidence_start, counts, body_color, i);
+}
+
+__kernel void body_color_round(__global const uint *constraint_a, __global const uint *constraint_b,
+                               __global const uint *incidence_start, __global const uint *incidence,
+                               __global uint *counts, __global uint *body_color, uint round, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  body_color_round_item(constraint_a, constraint_b, incidence_start, incidence, counts, body_color, round, i);
+}
+
+__kernel void body_color_keys(__global const uint *body_color, __global uint *sort_key,
+                              __global uint *sort_value, uint rounds, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  body_color_keys_item(body_color, sort_key, sort_value, rounds, i);
+}
+
+__kernel void body_color_starts(__global const uint *sort_key, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  body_color_starts_item(sort_key, counts, i);
 }
 
 __kernel void mark_tail(__global const uint *constraint_a, __global const uint *constraint_b,

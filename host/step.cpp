@@ -118,6 +118,7 @@ private:
       run(Kernel::clear_cached_rolling);
       run(Kernel::cache_rolling);
     }
+    if (const auto keep = solver_named(settings().solver).commit) keep(*this);
   }
 
   static unsigned bits_of(uint32_t values) { return std::bit_width(values); }

@@ -54,7 +54,8 @@ enum {
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,    /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
-  COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
+  BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2
 };
 

@@ -7,6 +7,8 @@
 #include "shared/setup/contact.h"
 #include "shared/setup/rolling.h"
 #include "shared/solve/contact.h"
+#include "shared/solve/xpbd.h"
+#include "shared/solve/avbd.h"
 #include "shared/solve/mass_split.h"
 #include "shared/solve/pgs.h"
 #include "shared/solve/nncg.h"
