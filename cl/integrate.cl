@@ -24,10 +24,11 @@ __kernel void prepare_bodies(__global const row *body_mass, __global const row *
 }
 
 __kernel void integrate_velocities(__global const Parameters *parameters, __global const row *body_mass,
-                                   __global row *solver_velocity, __global row *solver_push, RANGE)
+                                   __global const row *solver_inertia, __global row *solver_velocity,
+                                   __global row *solver_push, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  integrate_velocities_item(parameters, body_mass, solver_velocity, solver_push, i);
+  integrate_velocities_item(parameters, body_mass, solver_inertia, solver_velocity, solver_push, i);
 }
 
 __kernel void integrate_positions(__global const Parameters *parameters, __global const row *body_mass,

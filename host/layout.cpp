@@ -13,6 +13,7 @@ namespace {
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
   const size_t sortable = std::max(sizes.bodies, sizes.pairs);
+  const size_t most_sorted = std::max(sortable, 2 * size_t{sizes.pairs}); /* incidences are sorted in buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -23,9 +24,9 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
-  case Capacity::SORT_HISTOGRAM: return histogram_words(static_cast<uint32_t>(sortable));
+  case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
   case Capacity::SCAN_SUMS:
-    return std::max(scan_sum_words(static_cast<uint32_t>(sortable) + 1), scan_sum_words(histogram_words(static_cast<uint32_t>(sortable))));
+    return std::max(scan_sum_words(most_sorted + 1), scan_sum_words(histogram_words(most_sorted)));
   case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
   }
   return 0;

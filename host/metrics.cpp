@@ -38,9 +38,9 @@ struct SolverBody {
 };
 
 /* The contact problem of the last step, read back from the buffers that the solver worked on. */
-class ContactProblem {
+class StepContacts {
 public:
-  explicit ContactProblem(World &world) : step_(world.settings().step)
+  explicit StepContacts(World &world) : step_(world.settings().step)
   {
     Memory &memory = world.memory();
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
@@ -150,7 +150,7 @@ private:
 
 /* What a point still owes at the end of the step: a gap may be closed within the step, so any speed from closing it to
  * standing still is right. */
-double owed_speed(const ContactProblem::Point &p, double step)
+double owed_speed(const StepContacts::Point &p, double step)
 {
   if (p.speed > 0) return p.speed;
   return std::min(p.speed + std::max(p.started, 0.0) / step, 0.0);
@@ -180,10 +180,10 @@ struct Sums {
   double natural_map = 0, fischer_burmeister = 0, impulses = 0, violation = 0, limit = 0; /* squares, but for the last two */
 };
 
-void add_points(const ContactProblem &problem, size_t i, Sums &sums)
+void add_points(const StepContacts &problem, size_t i, Sums &sums)
 {
   for (size_t k = 0; k < 4; ++k) {
-    const ContactProblem::Point p = problem.point(i, k);
+    const StepContacts::Point p = problem.point(i, k);
     const bool still_ahead = p.started > 0 && p.impulse == 0;
     if (!p.used || still_ahead) continue;
     const double owed = p.mass * owed_speed(p, problem.step());
@@ -193,10 +193,10 @@ void add_points(const ContactProblem &problem, size_t i, Sums &sums)
   }
 }
 
-void add_friction(const ContactProblem &problem, size_t i, Sums &sums)
+void add_friction(const StepContacts &problem, size_t i, Sums &sums)
 {
   using Single = Eigen::Matrix<double, 1, 1>;
-  const ContactProblem::Friction f = problem.friction(i);
+  const StepContacts::Friction f = problem.friction(i);
   sums.limit = std::max(sums.limit, f.limit);
   sums.violation = std::max(sums.violation, f.impulse.norm() - f.limit);
   const Pair mass_speed = f.mass * f.speed;
@@ -270,15 +270,15 @@ double natural_map_of(double impulse, double mass_speed) { return impulse - std:
 
 double fischer_burmeister_of(double impulse, double mass_speed) { return impulse + mass_speed - std::hypot(impulse, mass_speed); }
 
-ContactResiduals contact_residuals(World &world)
+StepResiduals step_residuals(World &world)
 {
-  const ContactProblem problem(world);
+  const StepContacts problem(world);
   Sums sums;
   for (size_t i = 0; i < problem.count; ++i) {
     add_points(problem, i, sums);
     add_friction(problem, i, sums);
   }
-  ContactResiduals residuals;
+  StepResiduals residuals;
   if (sums.impulses > 0) {
     residuals.natural_map = std::sqrt(sums.natural_map / sums.impulses);
     residuals.fischer_burmeister = std::sqrt(sums.fischer_burmeister / sums.impulses);

@@ -46,12 +46,12 @@ double mean_height(const Scene &scene, const PreciseBodies &states);
 
 /* How far the impulses and velocities at the end of the last step are from solving its contact problem. All relative: to the
  * Euclidean norm of the impulses, the violation to the largest limit of friction. 0 without contacts. */
-struct ContactResiduals {
+struct StepResiduals {
   double natural_map = 0;
   double fischer_burmeister = 0;
   double cone_violation = 0;
 };
-ContactResiduals contact_residuals(World &world);
+StepResiduals step_residuals(World &world);
 
 /* One contact of a problem in impulses: normal p >= 0 and speed u, complementary. Both in N s: `mass_speed` is effective mass x speed. */
 double natural_map_of(double impulse, double mass_speed);

@@ -29,6 +29,7 @@ public:
     find_contacts();
     color_contacts();
     run(Kernel::prepare_contacts);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     solver_named(settings().solver).launch(*this);
     commit();
@@ -117,6 +118,7 @@ private:
       run(Kernel::clear_cached_rolling);
       run(Kernel::cache_rolling);
     }
+    if (const auto keep = solver_named(settings().solver).commit) keep(*this);
   }
 
   static unsigned bits_of(uint32_t values) { return std::bit_width(values); }

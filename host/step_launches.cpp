@@ -15,10 +15,15 @@ void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const
   launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
 }
 
-void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values)
+void StepLaunches::for_each_color(Kernel kernel, const std::vector<uint32_t> &values)
 {
   for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)
     run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
+}
+
+void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values)
+{
+  for_each_color(kernel, values);
   if (plan_.colors > COLOR_LIMIT) run(tail, values);
 }
 

@@ -22,7 +22,9 @@ public:
   void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
   /* A kernel over [counts[first], counts[last]). */
   void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
-  /* One launch a colour of constraints, and `tail` over those without a colour of their own. */
+  /* One launch a colour of constraints; those without a colour of their own are left to host/solvers/mass_split.h. */
+  void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
+  /* The same, and `tail` over those without a colour. */
   void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
   void scan_pairs(Buffer starts);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);

@@ -72,10 +72,11 @@ struct World::Implementation {
     return {plan.bodies, static_cast<uint32_t>(scene.materials.size()), plan.capacity_pairs, plan.capacity_cells, special.features};
   }
 
+  /* Kernels and buffers of the tail only once there is one. */
   void record_kernels()
   {
     StepPlan all = plan;
-    all.colors = COLOR_LIMIT + 1;
+    all.colors = std::max(plan.colors, COLOR_LIMIT);
     all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
     Recorder recorder;
     launch_step(recorder, all, settings);
@@ -203,6 +204,7 @@ struct World::Implementation {
   {
     if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
     if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
+    if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) make_room_for_tail();
     if (status & STATUS_NONFINITE) quarantine(plan.known[COUNT_NONFINITE]);
     plan.known[COUNT_COMMIT_BODIES] = plan.bodies;
     plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
@@ -228,6 +230,20 @@ struct World::Implementation {
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
     place(wanted);
     guess_counts();
+  }
+
+  void make_room_for_tail()
+  {
+    record_kernels();
+    try {
+      allocate();
+    } catch (const std::bad_alloc &) {
+      plan.colors = COLOR_LIMIT;
+      record_kernels();
+      allocate();
+      throw std::runtime_error("out of memory: contacts past the last colour need more than there is; the state is that before the step");
+    }
+    place(wanted);
   }
 
   void quarantine(uint32_t code)

@@ -5,7 +5,7 @@
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
-/* Colours of the constraint graph; contacts past the last go to the tail, solved in order. */
+/* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). */
 #define COLOR_LIMIT 63u
 #define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
 #define COLOR_NONE 254u     /* touching, not coloured yet */
@@ -45,6 +45,8 @@ enum {
   COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */
   COUNT_DIRECT_STALLED, /* islands, over the passes of the step, whose solve did not reach its tolerance */
   COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks) */
+  COUNT_INCIDENCES,    /* twice the constraints: each has two bodies */
+  COUNT_TAIL_INCIDENCES, /* twice the constraints of the tail */
   COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
   COUNT_BATCH_CELLS,   /* cells of a class for two-stage batching, a power of two; set by the host */
   COUNT_BATCH_ITEMS,   /* TILE times as many: a group a cell */
@@ -52,7 +54,8 @@ enum {
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,    /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
-  COLOR_START,         /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
+  BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2
 };
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|widths|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|widths|solvers|batchers|all]
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -43,4 +43,20 @@ if [ "$what" = widths ] || [ "$what" = all ]; then
   for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes box-stack pyramid spheres mixed; do
     record "widths-${scene%%:*}" diff "$scene" --between "$backends,tbb:lanes=16,cl:pocl,$gpu" --steps 120
   done
+fi
+# Every solver and every batcher gives the same bits on every backend; what each costs.
+solvers="soft-step pgs nncg jacobi xpbd avbd direct"
+if [ "$what" = solvers ] || [ "$what" = all ]; then
+  for solver in $solvers; do
+    record "solver-$solver-parity" diff mixed:n=400 --solver "$solver" --between "serial,tbb,$gpu" --steps 60
+    for backend in "$gpu" tbb; do
+      record "solver-$solver-${backend%%:*}" run box-grid:nx=20,ny=20,nz=20 --solver "$solver" --on "$backend" --steps 60
+    done
+  done
+fi
+if [ "$what" = batchers ] || [ "$what" = all ]; then
+  for batching in coloring sequential single-group iterative two-stage; do
+    record "batching-$batching-parity" diff mixed:n=400 --batching "$batching" --check --between "serial,tbb,$gpu" --steps 60
+  done
+  for backend in "$gpu" tbb; do record "bench-batching-${backend%%:*}" bench batching --on "$backend"; done
 fi

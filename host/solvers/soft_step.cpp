@@ -1,32 +1,40 @@
 /* soft_step.cpp - the default solver: small substeps, each solved softly, moved, and relaxed; see shared/solve/contact.h. */
+#include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
 
-void solve(StepLaunches &step, uint32_t pass)
+void solve(StepLaunches &step, MassSplit &tail, uint32_t pass)
 {
-  step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {pass});
+  step.for_each_color(Kernel::solve_contacts, {pass});
+  tail.solve(pass, tail_iterations);
   solve_rolling(step);
 }
 
-void launch_substep(StepLaunches &step, uint32_t substep)
+/* Later substeps find the impulses of the colours in solver_push; the tail adds its own each time. */
+void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   step.run(Kernel::integrate_velocities);
-  if (substep == 0) step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
+  if (substep == 0) step.for_each_color(Kernel::warm_start);
+  tail.warm_start();
   warm_start_rolling(step);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) solve(step, PASS_BIASED);
+  for (uint32_t turn = 0; turn < step.settings().iterations * tail.turns(); ++turn) solve(step, tail, PASS_BIASED);
   step.run(Kernel::integrate_positions);
-  solve(step, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
+  solve(step, tail, substep + 1 < step.settings().substeps ? PASS_RELAXING : PASS_LAST);
 }
 
 } // namespace
 
 void launch_soft_step(StepLaunches &step)
 {
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, substep);
-  if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  step.for_each_color(Kernel::apply_restitution);
+  tail.apply_restitution();
 }
 
 } // namespace tandem

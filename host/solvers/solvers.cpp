@@ -16,6 +16,9 @@ const std::vector<Solver> &solvers()
       {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 5, 1, launch_soft_step},
       {"pgs", "projected Gauss-Seidel on velocities, normals of all batches, then friction (Coumans 2009, 2013)", 1, 10, launch_pgs},
       {"nncg", "nonsmooth nonlinear conjugate gradients over pgs (Silcowitz, Niebe and Erleben 2010)", 1, 10, launch_nncg},
+      {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 8, 1, launch_xpbd, commit_xpbd},
+      {"avbd", "bodies one by one against penalties with multipliers (Giles, Diaz and Yuksel 2025)", 1, 10, launch_avbd, commit_avbd},
+      {"jacobi", "all contacts at once on bodies split by mass (Tonge and others 2012)", 4, 8, launch_jacobi},
       {"direct", "soft-step, then small islands solved to convergence in double on the CPU", 4, 1, launch_direct},
   };
   return list;

@@ -16,6 +16,7 @@ struct Solver {
   const char *name, *what;
   uint32_t substeps, iterations; /* where the user names none */
   void (*launch)(StepLaunches &step);
+  void (*commit)(StepLaunches &step) = nullptr; /* what it keeps for the next step, once the step is known to be whole */
 };
 
 /* Default first. */
@@ -26,6 +27,11 @@ const Solver &solver_named(const std::string &name);
 void launch_soft_step(StepLaunches &step);
 void launch_pgs(StepLaunches &step);
 void launch_nncg(StepLaunches &step);
+void launch_xpbd(StepLaunches &step);
+void commit_xpbd(StepLaunches &step);
+void launch_avbd(StepLaunches &step);
+void commit_avbd(StepLaunches &step);
+void launch_jacobi(StepLaunches &step);
 void launch_direct(StepLaunches &step);
 
 /* What several solvers launch: one sweep of pgs, friction after all normals; the torques of rolling friction, nothing in a

@@ -95,7 +95,7 @@ SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (group >= counts[COUNT_BATCH_CELLS] || count == 0u) return;
   FOR_EACH_ITEM(round, CELL_ROUNDS + 1u) local_memory[round] = round == 0u ? count : 0u;
   for (uint round = 0u; round < CELL_ROUNDS; ++round) {
-    FOR_EACH_ITEM(k, count) color_bid_item(pair_a, pair_b, body_traits, pair_color, body_bid, round, sort_value[first + k]);
+    FOR_EACH_ITEM(k, count) place_bid(pair_a, pair_b, body_traits, pair_color, body_bid, round, sort_value[first + k]);
     const uint active = local_memory[round] > 0u ? count : 0u;
     FOR_EACH_ITEM(k, active)
     {

@@ -26,16 +26,6 @@ SHARED uint bid_of(uint pair)
 
 SHARED uint is_moving(GLOBAL const uint *body_traits, uint body) { return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC; }
 
-/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
-SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
-                           GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
-{
-  if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
-  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
-  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
-}
-
 /* The lowest colour not in the two masks; COLOR_TAIL if all are taken. */
 SHARED uint lowest_free_color(uint low_used, uint high_used)
 {
@@ -53,6 +43,33 @@ SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, ui
   uint low = (moving_a ? body_colors[2u * a] : 0u) | (moving_b ? body_colors[2u * b] : 0u);
   uint high = (moving_a ? body_colors[2u * a + 1u] : 0u) | (moving_b ? body_colors[2u * b + 1u] : 0u);
   return lowest_free_color(low, high);
+}
+
+/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
+SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *pair_color,
+                      GLOBAL uint *body_bid, uint round, uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
+  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
+  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
+}
+
+/* A contact whose bodies have all colours in use between them goes to the tail at once: of ten thousand contacts of one body a
+ * single one wins a round. */
+SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                           GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_bid, uint round,
+                           uint i)
+{
+  if (pair_color[i] != COLOR_NONE) return;
+  uint a = pair_a[i], b = pair_b[i];
+  if (free_color(body_colors, a, is_moving(body_traits, a), b, is_moving(body_traits, b)) != COLOR_TAIL) {
+    place_bid(pair_a, pair_b, body_traits, pair_color, body_bid, round, i);
+    return;
+  }
+  pair_color[i] = COLOR_TAIL;
+  ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
+  ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
 /* True if the pair holds the highest bid of the round at each of its moving bodies; clears the bids of the next round. */
@@ -78,6 +95,15 @@ SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (moving_b) take_color(body_colors, b, color);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
+}
+
+/* A body of the tail alone shall not count as free: it takes the tail's bit, by itself so that no colouring reads it meanwhile. */
+SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *body_traits,
+                           GLOBAL uint *body_colors, uint i)
+{
+  uint a = constraint_a[i], b = constraint_b[i];
+  if (is_moving(body_traits, a)) occupy_color(body_colors, a, COLOR_TAIL);
+  if (is_moving(body_traits, b)) occupy_color(body_colors, b, COLOR_TAIL);
 }
 
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide

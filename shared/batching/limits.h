@@ -2,6 +2,8 @@
 #ifndef TANDEM_SHARED_BATCHING_LIMITS_H
 #define TANDEM_SHARED_BATCHING_LIMITS_H
 
+#include "shared/platform.h"
+
 /* Iterative batching: rounds that fill one batch. */
 #define BATCH_ROUNDS 4u
 

@@ -31,6 +31,8 @@ SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, 
   if (color == COLOR_TAIL) {
     counts[COLOR_START + COLOR_TAIL + 1u] = end;
     counts[COUNT_CONSTRAINTS] = end;
+    counts[COUNT_INCIDENCES] = 2u * end;
+    counts[COUNT_TAIL_INCIDENCES] = 2u * (end - start);
   }
 }
 

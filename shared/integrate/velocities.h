@@ -5,10 +5,10 @@
 #include "shared/records.h"
 
 /* solver_push: what the constraints of the last substep pushed the body by, 0 in the first; taken here, and cleared. */
-SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL row *solver_velocity,
-                                      GLOBAL row *solver_push, item_index i)
+SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const row *solver_inertia,
+                                      GLOBAL row *solver_velocity, GLOBAL row *solver_push, item_index i)
 {
-  motion m = load_motion(solver_velocity, i), push = load_motion(solver_push, i);
+  motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;
   mask moves = m.inverse_mass > R(0.0);
   real pull = choose(moves, load_row(body_mass, i * 2u).w * h, (real)R(0.0));
@@ -18,8 +18,8 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
     m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));
   }
-  m.linear = add(m.linear, push.linear);
-  m.angular = add(m.angular, push.angular);
+  m.linear = add_scaled(m.linear, xyz(load_row(solver_push, i * 2u)), m.inverse_mass);
+  m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), xyz(load_row(solver_push, i * 2u + 1u))));
   store_motion_if(moves, solver_velocity, i, m);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_row(solver_push, i * 2u, zero);

@@ -155,17 +155,18 @@ SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
   store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }
 
-/* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: what every body's
- * constraints will push it by, in the order of the colours. A pass of its own would read every constraint once more. */
+/* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: the impulse and the
+ * moment that each body's constraints will push it by, in the order of the colours. A pass of its own would read every
+ * constraint once more. */
 SHARED void add_push(GLOBAL row *solver_push, contact c, wrench w)
 {
-  motion push_a = load_motion(solver_push, c.a), push_b = load_motion(solver_push, c.b);
-  push_a.linear = add_scaled(push_a.linear, w.impulse, -c.motion_a.inverse_mass);
-  push_a.angular = subtract(push_a.angular, symmetric_times(c.inertia_a, w.turn_a));
-  push_b.linear = add_scaled(push_b.linear, w.impulse, c.motion_b.inverse_mass);
-  push_b.angular = add(push_b.angular, symmetric_times(c.inertia_b, w.turn_b));
-  store_motion_if(c.motion_a.inverse_mass > R(0.0), solver_push, c.a, push_a);
-  store_motion_if(c.motion_b.inverse_mass > R(0.0), solver_push, c.b, push_b);
+  mask moves_a = c.motion_a.inverse_mass > R(0.0), moves_b = c.motion_b.inverse_mass > R(0.0);
+  vec3 impulse_a = subtract(xyz(load_row(solver_push, c.a * 2u)), w.impulse), turn_a = subtract(xyz(load_row(solver_push, c.a * 2u + 1u)), w.turn_a);
+  vec3 impulse_b = add(xyz(load_row(solver_push, c.b * 2u)), w.impulse), turn_b = add(xyz(load_row(solver_push, c.b * 2u + 1u)), w.turn_b);
+  store_row_if(moves_a, solver_push, c.a * 2u, extend(impulse_a, R(0.0)));
+  store_row_if(moves_a, solver_push, c.a * 2u + 1u, extend(turn_a, R(0.0)));
+  store_row_if(moves_b, solver_push, c.b * 2u, extend(impulse_b, R(0.0)));
+  store_row_if(moves_b, solver_push, c.b * 2u + 1u, extend(turn_b, R(0.0)));
 }
 
 typedef struct { contact c; vec4 impulse; } solved;

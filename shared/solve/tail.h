@@ -1,7 +1,6 @@
-/* tail.h - the constraints past the last colour, solved in order by one item.
+/* tail.h - the constraints past the last colour, in order by one item: for solvers whose rows are not those of mass_split.h.
  *
- * A body touched by more than COLOR_LIMIT others leaves a few constraints without a colour of their own.
- * Slow, but right and the same everywhere; most scenes have none, and then these kernels are not launched.
+ * Right and the same everywhere, but as slow as the tail is long; a body of ten thousand contacts wants mass_split.h.
  */
 #ifndef TANDEM_SHARED_SOLVE_TAIL_H
 #define TANDEM_SHARED_SOLVE_TAIL_H

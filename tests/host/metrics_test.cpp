@@ -105,19 +105,19 @@ TEST_CASE("metrics: a ball at rest solves its problem; a velocity that does not 
 {
   const auto kept = resting_ball();
   World &world = *kept;
-  CHECK(contact_residuals(world).natural_map < 1e-9);
-  CHECK(contact_residuals(world).fischer_burmeister < 1e-9);
+  CHECK(step_residuals(world).natural_map < 1e-9);
+  CHECK(step_residuals(world).fischer_burmeister < 1e-9);
   const double pressure = pressure_of(world);
   CHECK(pressure == Approx(10.0 / 240).epsilon(0.01)); /* m g h of a substep */
 
   const double approach = 0.015625;
   set_solver_velocity(world, {0, float(-approach), 0});
-  CHECK(contact_residuals(world).natural_map == Approx(approach / pressure).epsilon(1e-6));
-  CHECK(contact_residuals(world).fischer_burmeister == Approx((std::hypot(pressure, approach) - pressure + approach) / pressure).epsilon(1e-6));
+  CHECK(step_residuals(world).natural_map == Approx(approach / pressure).epsilon(1e-6));
+  CHECK(step_residuals(world).fischer_burmeister == Approx((std::hypot(pressure, approach) - pressure + approach) / pressure).epsilon(1e-6));
 
   set_solver_velocity(world, {0.5f, 0, 0}); /* sliding without the friction of its cone */
-  CHECK(contact_residuals(world).natural_map == Approx(0.6).epsilon(1e-6));
-  CHECK(contact_residuals(world).cone_violation == 0);
+  CHECK(step_residuals(world).natural_map == Approx(0.6).epsilon(1e-6));
+  CHECK(step_residuals(world).cone_violation == 0);
 }
 
 TEST_CASE("metrics: an impulse outside of its cone is a violation", "[metrics]")
@@ -126,8 +126,8 @@ TEST_CASE("metrics: an impulse outside of its cone is a violation", "[metrics]")
   World &world = *kept;
   const row friction{float(1.5 * 0.6 * pressure_of(world)), 0, 0, 0};
   world.memory().upload(Buffer::constraint_friction_impulse, &friction, sizeof friction);
-  CHECK(contact_residuals(world).cone_violation == Approx(0.5).epsilon(1e-5));
-  CHECK(contact_residuals(world).natural_map > 0.1);
+  CHECK(step_residuals(world).cone_violation == Approx(0.5).epsilon(1e-5));
+  CHECK(step_residuals(world).natural_map > 0.1);
 }
 
 TEST_CASE("metrics: a box that slides keeps its friction on the cone, against the sliding", "[metrics]")
@@ -139,7 +139,7 @@ TEST_CASE("metrics: a box that slides keeps its friction on the cone, against th
     World world(scene, settings_with(1.0 / 60, 4), {backend, {}, false});
     run(world, 10);
     CAPTURE(backend);
-    const ContactResiduals residuals = contact_residuals(world);
+    const StepResiduals residuals = step_residuals(world);
     CHECK(residuals.natural_map < 0.05);
     CHECK(residuals.fischer_burmeister < 0.05);
     CHECK(residuals.cone_violation < 0.05);
@@ -152,6 +152,6 @@ TEST_CASE("metrics: nothing touches, nothing is left over", "[metrics]")
   add_body(scene, Motion::dynamic, sphere_shape(1), {0, 0, 0});
   World world(scene, {}, {"serial", {}, false});
   run(world, 2);
-  CHECK(contact_residuals(world).natural_map == 0);
-  CHECK(contact_residuals(world).fischer_burmeister == 0);
+  CHECK(step_residuals(world).natural_map == 0);
+  CHECK(step_residuals(world).fischer_burmeister == 0);
 }

@@ -55,18 +55,24 @@ inline std::string describe(const Difference &difference)
 }
 
 /* Every kernel of every step compared; nothing compared would be no proof. */
-inline void require_parity(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,
-                           const Settings &settings = {})
+inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps, const Settings &settings = {})
 {
   ComparisonRequest request;
   request.settings = settings;
   request.backends = backends;
   request.steps = steps;
-  const Comparison comparison = compare_backends(load_scene(scene), request);
-  CAPTURE(scene, settings.broadphase, settings.batching);
+  const Comparison comparison = compare_backends(scene, request);
+  CAPTURE(scene.name, settings.solver, settings.broadphase, settings.batching);
   if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
   CHECK(comparison.steps == steps);
   CHECK(comparison.kernels_compared > 10 * steps * (backends.size() - 1));
+}
+
+inline void require_parity(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,
+                           const Settings &settings = {})
+{
+  CAPTURE(scene);
+  require_parity(load_scene(scene), backends, steps, settings);
 }
 
 /* Hash of the bodies and the contact cache after so many steps. */

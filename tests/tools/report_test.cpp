@@ -104,7 +104,8 @@ Run run_of(const char *solver, double milliseconds, double error, uint32_t subst
 const files::path &tiny_report()
 {
   static const Folder folder;
-  static const Outcome outcome = shell("'" TANDEM_COMMAND "' report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 --out '" +
+  static const Outcome outcome = shell("'" TANDEM_COMMAND "' report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 "
+                                       "--problems '" TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat' --out '" +
                                        folder.path.string() + "/new/folder' 2>&1");
   INFO(outcome.out);
   REQUIRE(outcome.status == 0);
@@ -232,6 +233,7 @@ TEST_CASE("report: bad input is one line and status 2", "[report][command]")
   check_refused("--solvers magic" + out, "magic");
   check_refused("--metric beauty" + out, "beauty");
   check_refused("--on gpu" + out, "gpu");
+  check_refused("--problems missing.dat" + out, "missing.dat");
   check_refused("--quick --out /proc/nowhere/report", "/proc/nowhere/report");
   std::ofstream(folder.path / "file") << "taken";
   check_refused("--quick --out '" + (folder.path / "file").string() + "'", "file");
@@ -295,6 +297,19 @@ TEST_CASE("report: the truth converges, and more work brings less error", "[repo
   CHECK(json["rounding"]["near"]["launches"].get<int>() > 100);
 }
 
+TEST_CASE("report: each solver has its curve on each contact problem", "[report][command]")
+{
+  const Json curves = Json::parse(contents(tiny_report() / "report.json"))["contact_problems"];
+  REQUIRE(curves.size() == 4);
+  for (const Json &curve : curves) {
+    CHECK(curve["problem"] == "box-on-corners");
+    const Json &points = curve["points"];
+    REQUIRE(points.size() >= 2);
+    CHECK(points.back()["residual"].get<double>() < 0.1 * points.front()["residual"].get<double>());
+    CHECK(points.back()["ms"].get<double>() > points.front()["ms"].get<double>());
+  }
+}
+
 TEST_CASE("report: the page stands alone and shows charts and tables in a browser, where sorting works", "[report][command]")
 {
   const std::string page = contents(tiny_report() / "report.html");
@@ -304,8 +319,8 @@ TEST_CASE("report: the page stands alone and shows charts and tables in a browse
     return;
   }
   const std::string dom = page_in_browser("?sort=1.4&sort=2.4&sort=2.4");
-  CHECK(count_of(dom, "<svg") == 3); /* two scenes, backends */
-  CHECK(count_of(dom, "<g class=\"point") == 4 * settings_grid("soft-step", true).size());
+  CHECK(count_of(dom, "<svg") == 4); /* two scenes, backends, a contact problem */
+  CHECK(count_of(dom, "<g class=\"point") > 4 * settings_grid("soft-step", true).size());
   CHECK(count_of(dom, "<table") >= 6);
   CHECK(count_of(dom, "aria-sort=\"ascending\"") == 1);
   CHECK(count_of(dom, "aria-sort=\"descending\"") == 1);

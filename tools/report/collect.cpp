@@ -194,7 +194,7 @@ Report collect_report(const ReportRequest &request)
   Work work(work_of(request));
   for (const ReportCase *source : request.cases) report.scenes.push_back(collect_scene(*source, request, work));
   collect_backends(report, work);
-  report.contact_curves = contact_curves(request.quick);
+  report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
   collect_rounding(report, work);
   return report;
 }

@@ -16,6 +16,7 @@ struct ReportRequest {
   std::vector<std::string> solvers;
   std::vector<std::string> backends; /* all scenes run on the first; one chart compares all of them */
   std::optional<Metric> metric;      /* instead of each scene's own */
+  std::vector<std::string> problems; /* files of contact problems */
   std::string command;               /* as it was typed */
 };
 

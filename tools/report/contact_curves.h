@@ -7,7 +7,11 @@
 
 namespace tandem {
 
-/* Curves of the project's own small problems, and of those under data/siconos if they are there. */
-std::vector<ContactCurve> contact_curves(bool quick);
+/* Each solver on each file, on `backend`; nsgs always on the reference. InputError for a file that is no contact problem. */
+std::vector<ContactCurve> contact_curves(const std::vector<std::string> &files, const std::string &backend, bool quick);
+
+/* Where the user names none: the project's own small problems and, not for a quick look, those of data/siconos, as far as they lie
+ * under the working directory. */
+std::vector<std::string> usual_contact_problems(bool quick);
 
 } // namespace tandem

@@ -45,7 +45,7 @@ public:
   {
     last_ = world.precise_bodies();
     if (k < truth_.comparable_frames) trajectory_.add(scene_, last_, truth_.frames[k]);
-    const ContactResiduals residuals = contact_residuals(world);
+    const StepResiduals residuals = step_residuals(world);
     natural_map_ += residuals.natural_map;
     fischer_burmeister_ += residuals.fischer_burmeister;
     cone_violation_ = std::max(cone_violation_, residuals.cone_violation);

@@ -8,8 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "host/backend_list.h"
+#include "host/contact_problem_file.h"
 #include "tools/command.h"
 #include "tools/output.h"
+#include "tools/report/contact_curves.h"
 #include "tools/report/data.h"
 #include "tools/report/report_page.h"
 
@@ -18,7 +20,7 @@ namespace {
 
 struct ReportOptions {
   bool quick = false;
-  std::string scenes, solvers, on = "tbb,serial", metric, out;
+  std::string scenes, solvers, on = "tbb,serial", metric, problems, out;
   JsonOutput json;
 };
 
@@ -44,6 +46,8 @@ void add_options(CLI::App &parser, ReportOptions &options)
   parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))->type_name("NAME,NAME,...");
   parser.add_option("--on", options.on, "the first runs all scenes; one chart compares all of them")->type_name("B,B,...")->capture_default_str();
   parser.add_option("--metric", options.metric, "one error for all scenes instead of each scene's own: " + metric_list())->type_name("NAME");
+  parser.add_option("--problems", options.problems, "files for contact-problem (default: those of tests/scenes and data/siconos, if they are there)")
+      ->type_name("FILE,FILE,...");
   parser.add_option("--json", options.json.path, "write report.json here too; - for standard output")->type_name("FILE");
 }
 
@@ -80,6 +84,7 @@ std::string typed(const ReportOptions &options)
   add("--solvers", options.solvers);
   add("--on", options.on);
   add("--metric", options.metric);
+  add("--problems", options.problems);
   add("--out", options.out);
   return command;
 }
@@ -95,6 +100,8 @@ ReportRequest request_of(const ReportOptions &options)
     for (const ReportCase &report_case : report_cases()) request.cases.push_back(&report_case);
   else
     for (const std::string &name : list_of("--scenes", options.scenes)) request.cases.push_back(&report_case_named(name));
+  request.problems = options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
+  for (const std::string &file : request.problems) read_contact_problem(file); /* a bad one is said before anything runs */
   request.command = typed(options);
   return request;
 }

@@ -168,6 +168,7 @@ void add_contact_problems(Page &page, const Report &report)
 {
   if (report.contact_curves.empty()) return;
   page.section("Contact problems");
+  page.paragraph("Frictional contact problems by themselves (docs/contact-problems.md): relative natural-map residual after each sweep against time.");
   std::map<std::string, Chart> charts;
   for (const ContactCurve &curve : report.contact_curves) {
     Chart &chart = charts.try_emplace(curve.problem, Chart{curve.problem, {"ms", AxisScale::logarithmic}, {"natural-map residual, relative", AxisScale::logarithmic}})

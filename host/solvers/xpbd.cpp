@@ -1,0 +1,29 @@
+/* xpbd.cpp - positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
+#include "host/solvers/solvers.h"
+
+namespace tandem {
+namespace {
+
+void launch_substep(StepLaunches &step)
+{
+  step.run(Kernel::integrate_velocities);
+  warm_start_rolling(step);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
+    step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_tail, {iteration == 0});
+  step.run(Kernel::integrate_positions);
+  step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_tail);
+  solve_rolling(step);
+}
+
+} // namespace
+
+void launch_xpbd(StepLaunches &step)
+{
+  step.run(Kernel::xpbd_prepare);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
+  if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
+}
+
+void commit_xpbd(StepLaunches &step) { step.run(Kernel::xpbd_cache); }
+
+} // namespace tandem

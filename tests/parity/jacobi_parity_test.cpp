@@ -1,0 +1,59 @@
+/* Mass-split rows give equal bits on every backend: for all contacts, and for a tail beside colours. */
+#include "tests/parity/parity.h"
+
+#include "tests/physics/laden.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=8", "tbb"};
+
+Settings all_features(Settings settings)
+{
+  settings.specialise = false;
+  return settings;
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: jacobi", "[sanitizer]")
+{
+  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 12, settings_for("jacobi"));
+  require_parity("mixed:n=60", cpu, 25, settings_for("jacobi"));
+  require_parity("spheres:n=60,height=0,restitution=0.5", cpu, 25, settings_for("jacobi"));
+}
+
+TEST_CASE("parity on CPU: the tail")
+{
+  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 12, {});
+  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 6, settings_for("jacobi"));
+}
+
+/* Long enough for a second level of the tree. */
+TEST_CASE("parity on CPU: a list of more than a thousand") { require_parity(physics_tests::laden_slab(35), {"serial", cpu[2], cpu[3]}, 3, {}); }
+
+TEST_CASE("parity on OpenCL: jacobi and the tail")
+{
+  if (!has_pocl()) return;
+  const std::vector<std::string> backends = {"serial", "cl:pocl"};
+  require_parity("mixed:n=60", backends, 15, all_features(settings_for("jacobi")));
+  require_parity(physics_tests::laden_slab(35), backends, 3, all_features(settings_for("jacobi")));
+  require_parity(physics_tests::laden_slab(13, 0.5f), backends, 8, all_features({}));
+}
+
+TEST_CASE("jacobi and the tail are the same in a specialised build")
+{
+  for (const std::string &solver : {std::string("jacobi"), std::string("soft-step")}) {
+    Settings settings = settings_for(solver);
+    World special(physics_tests::laden_slab(12), settings, {"serial", {}, false});
+    World general(physics_tests::laden_slab(12), all_features(settings), {"serial", {}, false});
+    for (int step = 0; step < 10; ++step) {
+      special.step();
+      general.step();
+      CAPTURE(solver, step);
+      REQUIRE(special.state_hash() == general.state_hash());
+    }
+  }
+}

@@ -1,0 +1,41 @@
+/* The solvers xpbd and avbd: one result from every order of items, number of threads, width, and from OpenCL. */
+#include "host/solvers/solvers.h"
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=2,lanes=4", "tbb:threads=7,lanes=8",
+                                      "tbb:threads=7,lanes=16"};
+
+} // namespace
+
+TEST_CASE("parity of position solvers on CPU", "[sanitizer]")
+{
+  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  CAPTURE(name);
+  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 8, settings_for(name));
+  require_parity("mixed:n=60", cpu, 25, settings_for(name));
+  require_parity("spheres:n=100,height=0,restitution=0.5", cpu, 20, settings_for(name));
+}
+
+TEST_CASE("parity of position solvers on OpenCL")
+{
+  if (!has_pocl()) return;
+  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  Settings settings = settings_for(name);
+  settings.specialise = false;
+  CAPTURE(name);
+  require_parity("mixed:n=60", {"serial", "cl:pocl"}, 15, settings);
+}
+
+TEST_CASE("parity of position solvers: specialised or not")
+{
+  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  Settings settings = settings_for(name);
+  const uint64_t specialised = state_after("falling-boxes:n=60,height=0", "tbb", 25, settings);
+  settings.specialise = false;
+  CHECK(state_after("falling-boxes:n=60,height=0", "serial", 25, settings) == specialised);
+}
