@@ -10,7 +10,7 @@ namespace tandem {
 /* Every choice that changes the result. Names are those of the command's options. */
 struct Settings {
   float step = 1.0f / 60.0f; /* s, > 0 */
-  uint32_t substeps = 5;     /* 1 .. 1000 */
+  uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* brute-force, sap, grid */
@@ -19,7 +19,7 @@ struct Settings {
   bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool specialise = true; /* false: every feature built and run, same bits */
 
-  float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a quarter of the substep rate */
+  float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */
   float contact_damping_ratio = 10.0f; /* overdamped, so that pushing apart adds no bounce */
   float push_speed = 3.0f;             /* m/s, penetration is never removed faster */
   float slop = 0.005f;                 /* m, penetration left in place so that contacts persist */

@@ -8,6 +8,11 @@
 
 constexpr int width = TANDEM_LANES;
 
+/* A function that takes wide vectors on the stack wants the stack aligned for them, and GCC 12 has been seen to call one from a
+ * frame that is not; so nothing that takes one is ever called. */
+#undef SHARED
+#define SHARED static inline __attribute__((always_inline))
+
 typedef float float_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
 typedef int32_t int_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
 typedef uint32_t uint_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
@@ -34,43 +39,43 @@ struct vec4 {
   real x, y, z, w;
 };
 
-static inline real operator+(real a, real b) { return real(a.v + b.v); }
-static inline real operator-(real a, real b) { return real(a.v - b.v); }
-static inline real operator*(real a, real b) { return real(a.v * b.v); }
-static inline real operator/(real a, real b) { return real(a.v / b.v); }
-static inline real operator-(real a) { return real(-a.v); }
-static inline real &operator+=(real &a, real b) { return a = a + b; }
-static inline real &operator-=(real &a, real b) { return a = a - b; }
-static inline real &operator*=(real &a, real b) { return a = a * b; }
-static inline mask operator<(real a, real b) { return {a.v < b.v}; }
-static inline mask operator>(real a, real b) { return {a.v > b.v}; }
-static inline mask operator<=(real a, real b) { return {a.v <= b.v}; }
-static inline mask operator>=(real a, real b) { return {a.v >= b.v}; }
-static inline mask operator==(real a, real b) { return {a.v == b.v}; }
-static inline mask operator!=(real a, real b) { return {a.v != b.v}; }
+SHARED real operator+(real a, real b) { return real(a.v + b.v); }
+SHARED real operator-(real a, real b) { return real(a.v - b.v); }
+SHARED real operator*(real a, real b) { return real(a.v * b.v); }
+SHARED real operator/(real a, real b) { return real(a.v / b.v); }
+SHARED real operator-(real a) { return real(-a.v); }
+SHARED real &operator+=(real &a, real b) { return a = a + b; }
+SHARED real &operator-=(real &a, real b) { return a = a - b; }
+SHARED real &operator*=(real &a, real b) { return a = a * b; }
+SHARED mask operator<(real a, real b) { return {a.v < b.v}; }
+SHARED mask operator>(real a, real b) { return {a.v > b.v}; }
+SHARED mask operator<=(real a, real b) { return {a.v <= b.v}; }
+SHARED mask operator>=(real a, real b) { return {a.v >= b.v}; }
+SHARED mask operator==(real a, real b) { return {a.v == b.v}; }
+SHARED mask operator!=(real a, real b) { return {a.v != b.v}; }
 
-static inline natural operator+(natural a, natural b) { return natural(a.v + b.v); }
-static inline natural operator-(natural a, natural b) { return natural(a.v - b.v); }
-static inline natural operator*(natural a, natural b) { return natural(a.v * b.v); }
-static inline natural operator&(natural a, natural b) { return natural(a.v & b.v); }
-static inline natural operator|(natural a, natural b) { return natural(a.v | b.v); }
-static inline natural operator^(natural a, natural b) { return natural(a.v ^ b.v); }
-static inline natural operator<<(natural a, natural b) { return natural(a.v << b.v); }
-static inline natural operator>>(natural a, natural b) { return natural(a.v >> b.v); }
-static inline mask operator<(natural a, natural b) { return {(int_lanes)(a.v < b.v)}; }
-static inline mask operator>(natural a, natural b) { return {(int_lanes)(a.v > b.v)}; }
-static inline mask operator<=(natural a, natural b) { return {(int_lanes)(a.v <= b.v)}; }
-static inline mask operator>=(natural a, natural b) { return {(int_lanes)(a.v >= b.v)}; }
-static inline mask operator==(natural a, natural b) { return {(int_lanes)(a.v == b.v)}; }
-static inline mask operator!=(natural a, natural b) { return {(int_lanes)(a.v != b.v)}; }
+SHARED natural operator+(natural a, natural b) { return natural(a.v + b.v); }
+SHARED natural operator-(natural a, natural b) { return natural(a.v - b.v); }
+SHARED natural operator*(natural a, natural b) { return natural(a.v * b.v); }
+SHARED natural operator&(natural a, natural b) { return natural(a.v & b.v); }
+SHARED natural operator|(natural a, natural b) { return natural(a.v | b.v); }
+SHARED natural operator^(natural a, natural b) { return natural(a.v ^ b.v); }
+SHARED natural operator<<(natural a, natural b) { return natural(a.v << b.v); }
+SHARED natural operator>>(natural a, natural b) { return natural(a.v >> b.v); }
+SHARED mask operator<(natural a, natural b) { return {(int_lanes)(a.v < b.v)}; }
+SHARED mask operator>(natural a, natural b) { return {(int_lanes)(a.v > b.v)}; }
+SHARED mask operator<=(natural a, natural b) { return {(int_lanes)(a.v <= b.v)}; }
+SHARED mask operator>=(natural a, natural b) { return {(int_lanes)(a.v >= b.v)}; }
+SHARED mask operator==(natural a, natural b) { return {(int_lanes)(a.v == b.v)}; }
+SHARED mask operator!=(natural a, natural b) { return {(int_lanes)(a.v != b.v)}; }
 
-static inline mask operator&(mask a, mask b) { return {a.v & b.v}; }
-static inline mask operator|(mask a, mask b) { return {a.v | b.v}; }
-static inline mask operator!(mask a) { return {~a.v}; }
+SHARED mask operator&(mask a, mask b) { return {a.v & b.v}; }
+SHARED mask operator|(mask a, mask b) { return {a.v | b.v}; }
+SHARED mask operator!(mask a) { return {~a.v}; }
 
-static inline real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v); }
-static inline natural choose(mask m, natural a, natural b) { return natural(m.v ? a.v : b.v); }
-static inline mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
+SHARED real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v); }
+SHARED natural choose(mask m, natural a, natural b) { return natural(m.v ? a.v : b.v); }
+SHARED mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
 
 /* Items first, first + 1, ...: what is loaded through it lies side by side. */
 struct item_index {
@@ -82,13 +87,13 @@ struct item_index {
     return i;
   }
 };
-static inline item_index operator+(item_index i, uint32_t offset) { return {i.first + offset}; }
-static inline item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
-static inline natural operator*(item_index i, uint32_t factor) { return natural(i) * natural(factor); }
+SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + offset}; }
+SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
+SHARED natural operator*(item_index i, uint32_t factor) { return natural(i) * natural(factor); }
 
-static inline real to_real(natural x) { return real(__builtin_convertvector((int_lanes)x.v, float_lanes)); }
-static inline real int_to_real(natural x) { return to_real(x); }
-static inline natural to_natural(real x) { return natural((uint_lanes)__builtin_convertvector(x.v, int_lanes)); }
+SHARED real to_real(natural x) { return real(__builtin_convertvector((int_lanes)x.v, float_lanes)); }
+SHARED real int_to_real(natural x) { return to_real(x); }
+SHARED natural to_natural(real x) { return natural((uint_lanes)__builtin_convertvector(x.v, int_lanes)); }
 
 #if defined(__x86_64__)
 #include "minicl/lanes_x86.h"
@@ -96,62 +101,62 @@ static inline natural to_natural(real x) { return natural((uint_lanes)__builtin_
 #include "minicl/lanes_portable.h"
 #endif
 
-static inline void store_real(memory_real *to, natural i, real value)
+SHARED void store_real(memory_real *to, natural i, real value)
 {
   for (int lane = 0; lane < width; ++lane) to[i.v[lane]] = value.v[lane];
 }
-static inline void store_natural(uint *to, natural i, natural value)
+SHARED void store_natural(uint *to, natural i, natural value)
 {
   for (int lane = 0; lane < width; ++lane) to[i.v[lane]] = value.v[lane];
 }
-static inline void store_natural_if(mask m, uint *to, natural i, natural value)
+SHARED void store_natural_if(mask m, uint *to, natural i, natural value)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) to[i.v[lane]] = value.v[lane];
 }
-static inline void atomic_min_if(mask m, uint *to, uint at, natural value)
+SHARED void atomic_min_if(mask m, uint *to, uint at, natural value)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
 }
 
-static inline real load_real(const memory_real *from, item_index i)
+SHARED real load_real(const memory_real *from, item_index i)
 {
   real r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
-static inline void store_real(memory_real *to, item_index i, real value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
-static inline natural load_natural(const uint *from, item_index i)
+SHARED void store_real(memory_real *to, item_index i, real value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
+SHARED natural load_natural(const uint *from, item_index i)
 {
   natural r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
-static inline void store_natural(uint *to, item_index i, natural value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
-static inline void store_natural_if(mask m, uint *to, item_index i, natural value) { store_natural_if(m, to, natural(i), value); }
+SHARED void store_natural(uint *to, item_index i, natural value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
+SHARED void store_natural_if(mask m, uint *to, item_index i, natural value) { store_natural_if(m, to, natural(i), value); }
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
-static inline vec4 load_row(const row *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
-static inline void store_row(row *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
+SHARED vec4 load_row(const row *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
+SHARED void store_row(row *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
 
 struct lane_numbers {
   uint32_t of[width];
 };
-static inline lane_numbers numbers_of(natural i)
+SHARED lane_numbers numbers_of(natural i)
 {
   lane_numbers n;
   __builtin_memcpy(n.of, &i.v, sizeof n.of);
   return n;
 }
-static inline vec4 load_row(const row *from, natural i)
+SHARED vec4 load_row(const row *from, natural i)
 {
   const lane_numbers at = numbers_of(i);
   const float *lanes[width];
   for (int lane = 0; lane < width; ++lane) lanes[lane] = &from[at.of[lane]].x;
   return transpose(gather_quarters(lanes));
 }
-static inline void store_row(row *to, natural i, vec4 value)
+SHARED void store_row(row *to, natural i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
   float *lanes[width];
@@ -159,7 +164,7 @@ static inline void store_row(row *to, natural i, vec4 value)
   scatter_quarters(lanes, transpose(value));
 }
 /* Lanes that must not write go to a spare row: a body that cannot move is shared by many lanes and threads. */
-static inline void store_row_if(mask m, row *to, natural i, vec4 value)
+SHARED void store_row_if(mask m, row *to, natural i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
   row spare;
@@ -167,7 +172,7 @@ static inline void store_row_if(mask m, row *to, natural i, vec4 value)
   for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? &to[at.of[lane]].x : &spare.x;
   scatter_quarters(lanes, transpose(value));
 }
-static inline void store_row_if(mask m, row *to, item_index i, vec4 value)
+SHARED void store_row_if(mask m, row *to, item_index i, vec4 value)
 {
   if (all_of(m)) store_row(to, i, value);
   else store_row_if(m, to, natural(i), value);

@@ -10,77 +10,77 @@
 #pragma once
 
 #if TANDEM_LANES == 16
-static inline real square_root(real x) { return real((float_lanes)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
-static inline bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
-static inline bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
-static inline real load_real(const memory_real *from, natural i)
+SHARED real square_root(real x) { return real((float_lanes)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
+SHARED bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
+SHARED bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
+SHARED real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
 }
-static inline natural load_natural(const uint *from, natural i)
+SHARED natural load_natural(const uint *from, natural i)
 {
   return natural((uint_lanes)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
 }
 
 typedef __m512 quarter_rows; /* four records: of lanes k, k + 4, k + 8, k + 12 */
-static inline quarter_rows load_quarter(const float *const *lanes, int k)
+SHARED quarter_rows load_quarter(const float *const *lanes, int k)
 {
   __m512 rows = _mm512_castps128_ps512(_mm_load_ps(lanes[k]));
   rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 4]), 1);
   rows = _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 8]), 2);
   return _mm512_insertf32x4(rows, _mm_load_ps(lanes[k + 12]), 3);
 }
-static inline void store_quarter(float *const *lanes, int k, quarter_rows rows)
+SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows)
 {
   _mm_store_ps(lanes[k], _mm512_castps512_ps128(rows));
   _mm_store_ps(lanes[k + 4], _mm512_extractf32x4_ps(rows, 1));
   _mm_store_ps(lanes[k + 8], _mm512_extractf32x4_ps(rows, 2));
   _mm_store_ps(lanes[k + 12], _mm512_extractf32x4_ps(rows, 3));
 }
-static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm512_unpacklo_ps(a, b); }
-static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm512_unpackhi_ps(a, b); }
-static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0x44); }
-static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0xee); }
+SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm512_unpacklo_ps(a, b); }
+SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm512_unpackhi_ps(a, b); }
+SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0x44); }
+SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0xee); }
 
 #elif TANDEM_LANES == 8
-static inline real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
-static inline bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
-static inline bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
-static inline real load_real(const memory_real *from, natural i)
+SHARED real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
+SHARED bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
+SHARED bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
+SHARED real load_real(const memory_real *from, natural i)
 {
   return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
 }
-static inline natural load_natural(const uint *from, natural i)
+SHARED natural load_natural(const uint *from, natural i)
 {
   return natural((uint_lanes)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
 }
 
 typedef __m256 quarter_rows; /* two records: of lanes k and k + 4 */
-static inline quarter_rows load_quarter(const float *const *lanes, int k)
+SHARED quarter_rows load_quarter(const float *const *lanes, int k)
 {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(lanes[k])), _mm_load_ps(lanes[k + 4]), 1);
 }
-static inline void store_quarter(float *const *lanes, int k, quarter_rows rows)
+SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows)
 {
   _mm_store_ps(lanes[k], _mm256_castps256_ps128(rows));
   _mm_store_ps(lanes[k + 4], _mm256_extractf128_ps(rows, 1));
 }
-static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm256_unpacklo_ps(a, b); }
-static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm256_unpackhi_ps(a, b); }
-static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0x44); }
-static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0xee); }
+SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm256_unpacklo_ps(a, b); }
+SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm256_unpackhi_ps(a, b); }
+SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0x44); }
+SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0xee); }
 
 #else
-static inline real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
-static inline bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
-static inline bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
-static inline real load_real(const memory_real *from, natural i)
+SHARED real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
+SHARED bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
+SHARED bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
+SHARED real load_real(const memory_real *from, natural i)
 {
   real r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }
-static inline natural load_natural(const uint *from, natural i)
+SHARED natural load_natural(const uint *from, natural i)
 {
   natural r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
@@ -88,22 +88,22 @@ static inline natural load_natural(const uint *from, natural i)
 }
 
 typedef __m128 quarter_rows; /* one record */
-static inline quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
-static inline void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
-static inline quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
-static inline quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
-static inline quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
-static inline quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
+SHARED quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
+SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
+SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
+SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
+SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
+SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
 #endif
 
 struct quarters {
   quarter_rows a, b, c, d; /* of lanes 0, 1, 2, 3 and every fourth after each */
 };
-static inline quarters gather_quarters(const float *const *lanes)
+SHARED quarters gather_quarters(const float *const *lanes)
 {
   return {load_quarter(lanes, 0), load_quarter(lanes, 1), load_quarter(lanes, 2), load_quarter(lanes, 3)};
 }
-static inline void scatter_quarters(float *const *lanes, quarters q)
+SHARED void scatter_quarters(float *const *lanes, quarters q)
 {
   store_quarter(lanes, 0, q.a);
   store_quarter(lanes, 1, q.b);
@@ -111,14 +111,14 @@ static inline void scatter_quarters(float *const *lanes, quarters q)
   store_quarter(lanes, 3, q.d);
 }
 
-static inline vec4 transpose(quarters q)
+SHARED vec4 transpose(quarters q)
 {
   const quarter_rows xy01 = unpack_low(q.a, q.b), zw01 = unpack_high(q.a, q.b);
   const quarter_rows xy23 = unpack_low(q.c, q.d), zw23 = unpack_high(q.c, q.d);
   return {real((float_lanes)halves_low(xy01, xy23)), real((float_lanes)halves_high(xy01, xy23)),
           real((float_lanes)halves_low(zw01, zw23)), real((float_lanes)halves_high(zw01, zw23))};
 }
-static inline quarters transpose(vec4 value)
+SHARED quarters transpose(vec4 value)
 {
   const quarter_rows x = (quarter_rows)value.x.v, y = (quarter_rows)value.y.v;
   const quarter_rows z = (quarter_rows)value.z.v, w = (quarter_rows)value.w.v;
@@ -129,19 +129,19 @@ static inline quarters transpose(vec4 value)
 
 /* Records that lie side by side: whole registers hold consecutive records, which are dealt out to quarters. */
 #if TANDEM_LANES == 16
-static inline quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
+SHARED quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
 {
   const __m512 ab01 = _mm512_shuffle_f32x4(a, b, 0x44), ab23 = _mm512_shuffle_f32x4(a, b, 0xee);
   const __m512 cd01 = _mm512_shuffle_f32x4(c, d, 0x44), cd23 = _mm512_shuffle_f32x4(c, d, 0xee);
   return {_mm512_shuffle_f32x4(ab01, cd01, 0x88), _mm512_shuffle_f32x4(ab01, cd01, 0xdd),
           _mm512_shuffle_f32x4(ab23, cd23, 0x88), _mm512_shuffle_f32x4(ab23, cd23, 0xdd)};
 }
-static inline quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float *from)
 {
   return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32), _mm512_loadu_ps(from + 48));
 }
 /* Dealing is a transpose of 4 x 4 records, and so its own inverse. */
-static inline void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float *to, quarters q)
 {
   const quarters whole = deal(q.a, q.b, q.c, q.d);
   _mm512_storeu_ps(to, whole.a);
@@ -150,14 +150,14 @@ static inline void store_in_order(float *to, quarters q)
   _mm512_storeu_ps(to + 48, whole.d);
 }
 #elif TANDEM_LANES == 8
-static inline quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float *from)
 {
   const __m256 r01 = _mm256_loadu_ps(from), r23 = _mm256_loadu_ps(from + 8);
   const __m256 r45 = _mm256_loadu_ps(from + 16), r67 = _mm256_loadu_ps(from + 24);
   return {_mm256_permute2f128_ps(r01, r45, 0x20), _mm256_permute2f128_ps(r01, r45, 0x31),
           _mm256_permute2f128_ps(r23, r67, 0x20), _mm256_permute2f128_ps(r23, r67, 0x31)};
 }
-static inline void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float *to, quarters q)
 {
   _mm256_storeu_ps(to, _mm256_permute2f128_ps(q.a, q.b, 0x20));
   _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(q.c, q.d, 0x20));
@@ -165,11 +165,11 @@ static inline void store_in_order(float *to, quarters q)
   _mm256_storeu_ps(to + 24, _mm256_permute2f128_ps(q.c, q.d, 0x31));
 }
 #else
-static inline quarters load_in_order(const float *from)
+SHARED quarters load_in_order(const float *from)
 {
   return {_mm_loadu_ps(from), _mm_loadu_ps(from + 4), _mm_loadu_ps(from + 8), _mm_loadu_ps(from + 12)};
 }
-static inline void store_in_order(float *to, quarters q)
+SHARED void store_in_order(float *to, quarters q)
 {
   _mm_storeu_ps(to, q.a);
   _mm_storeu_ps(to + 4, q.b);

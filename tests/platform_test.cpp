@@ -3,7 +3,8 @@
 
 #include "minicl/kernel_table.h"
 
-TEST_CASE("the scalar table has every kernel")
+TEST_CASE("the scalar table has every kernel but the stages of the host")
 {
-  for (auto run : tandem::minicl::scalar_kernels.run) REQUIRE(run != nullptr);
+  for (size_t k = 0; k < tandem::kernel_count; ++k)
+    CHECK((tandem::minicl::scalar_kernels.run[k] != nullptr) == (tandem::row_of(tandem::kernel_at(k)).form != tandem::Form::host));
 }

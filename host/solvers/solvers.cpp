@@ -13,7 +13,7 @@ namespace tandem {
 const std::vector<Solver> &solvers()
 {
   static const std::vector<Solver> list = {
-      {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 5, 1, launch_soft_step},
+      {"soft-step", "small substeps, soft contacts, a relaxing pass (Catto 2024)", 4, 1, launch_soft_step},
       {"pgs", "projected Gauss-Seidel on velocities, normals of all batches, then friction (Coumans 2009, 2013)", 1, 10, launch_pgs},
       {"nncg", "nonsmooth nonlinear conjugate gradients over pgs (Silcowitz, Niebe and Erleben 2010)", 1, 10, launch_nncg},
       {"xpbd", "small substeps that correct positions, then velocities (Mueller and others 2020)", 8, 1, launch_xpbd, commit_xpbd},

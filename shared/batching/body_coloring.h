@@ -67,10 +67,10 @@ SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sor
 }
 
 /* Item c: the first of the sorted bodies of colour c; the tail also writes where the coloured bodies end. */
-SHARED void body_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
+SHARED void body_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
-  counts[BODY_COLOR_START + color] = lower_bound_of(sort_key, counts[COUNT_BODIES], color);
-  if (color == COLOR_TAIL) counts[BODY_COLOR_START + COLOR_TAIL + 1u] = lower_bound_of(sort_key, counts[COUNT_BODIES], color + 1u);
+  counts[BODY_COLOR_START + i] = lower_bound_of(sort_key, counts[COUNT_BODIES], i);
+  if (i == COLOR_TAIL) counts[BODY_COLOR_START + COLOR_TAIL + 1u] = lower_bound_of(sort_key, counts[COUNT_BODIES], i + 1u);
 }
 
 #endif

@@ -68,10 +68,10 @@ SHARED void solve_problem_contact(GLOBAL const uint *problem_start, GLOBAL const
 
 SHARED void problem_sweep_item(GLOBAL const uint *problem_order, GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
                                GLOBAL const row *problem_block, GLOBAL const row *problem_free, GLOBAL const row *problem_step,
-                               GLOBAL row *problem_impulse, uint place)
+                               GLOBAL row *problem_impulse, uint i)
 {
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, problem_impulse, problem_impulse, 0,
-                        problem_order[place]);
+                        problem_order[i]);
 }
 
 SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
