@@ -26,7 +26,7 @@ build  need libtbb-dev            oneTBB: the threads of the CPU backend
 build  need ocl-icd-opencl-dev    the OpenCL loader, which finds whatever devices there are
 build  need opencl-headers        OpenCL's C interface
 build  need opencl-clhpp-headers  OpenCL's C++ interface (opencl.hpp)
-build  need libeigen3-dev         linear algebra of the host's checks
+build  need libeigen3-dev         the direct solver, and linear algebra of the tests
 build  need catch2                the test framework
 build  need libcli11-dev          the command line of `tandem`
 build  need nlohmann-json3-dev    scene files and --json
