@@ -11,8 +11,6 @@
 #include "host/hash.h"
 
 namespace tandem {
-namespace {
-
 std::vector<Buffer> buffers_written(const Launch &launch)
 {
   std::vector<Buffer> written;
@@ -24,6 +22,8 @@ std::vector<Buffer> buffers_written(const Launch &launch)
   }
   return written;
 }
+
+namespace {
 
 const char *contents_of(World &world, Buffer buffer)
 {

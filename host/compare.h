@@ -71,4 +71,7 @@ struct Comparison {
 /* InputError on fewer than two backends, and as World's constructor. */
 Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
 
+/* What a launch writes, slots included, in the order of its kernel's arguments. */
+std::vector<Buffer> buffers_written(const Launch &launch);
+
 } // namespace tandem

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "host/buffer_place.h"
+#include "host/compare.h"
 #include "host/launcher.h"
 #include "shared/platform.h"
 #include "shared/counts.h"
@@ -101,18 +102,6 @@ private:
   std::unique_ptr<Backend> backend_; /* outlives the memory */
   Memory memory_;
 };
-
-std::vector<Buffer> buffers_written(const Launch &launch)
-{
-  std::vector<Buffer> written;
-  size_t slot = 0;
-  for (const Argument &argument : row_of(launch.kernel).arguments) {
-    if (argument.kind == Argument::Kind::value) continue;
-    const Buffer buffer = argument.kind == Argument::Kind::slot ? launch.slots.at(slot++) : argument.buffer;
-    if (argument.access != Access::in) written.push_back(buffer);
-  }
-  return written;
-}
 
 class Measurer {
 public:

@@ -45,10 +45,6 @@ const KernelTable *lanes_table(uint32_t lanes)
 
 namespace {
 
-/* More threads than processors, when asked for: results must not depend on it, and tests look. The least of
- * all controls counts, so there is one for the process. */
-void allow_many_threads() { static const tbb::global_control workers(tbb::global_control::max_allowed_parallelism, 1024); }
-
 /* About how many items one task should have: small kernels stay on one thread. */
 constexpr uint32_t items_per_task = 256;
 
@@ -169,9 +165,7 @@ private:
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options)
 {
   Options filled = options;
-  const auto processors = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
-  if (filled.threads == 0) filled.threads = processors;
-  if (filled.threads > processors) allow_many_threads();
+  if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
   if (filled.lanes == 0) filled.lanes = widest_lanes();
   return std::make_unique<MiniclBackend>(name, filled);
 }
