@@ -1,0 +1,143 @@
+/* shape_mass.cpp - see shape_mass.h. */
+#include "host/geometry/shape_mass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "host/geometry/vector.h"
+
+namespace tandem {
+namespace {
+
+/* Of a shape's size: centres nearer to its origin, and turns smaller than principal_tolerance, are roundings of its floats. */
+constexpr double center_rounding = 0x1p-24;
+/* Of the largest moment: mistakes, not roundings, and quaternions written with four digits. */
+constexpr double axes_tolerance = 1e-3;
+
+Eigen::Quaterniond quaternion_of(const Rotation &q) { return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
+Rotation rotation_of(const Eigen::Quaterniond &q) { return {q.x(), q.y(), q.z(), q.w()}; }
+Rotation widened(const Quat &q) { return rotation_of(quaternion_of({q[0], q[1], q[2], q[3]})); }
+Double3 widened(const Vec3 &v) { return {v[0], v[1], v[2]}; }
+
+/* What double left over from numbers that cancel is no number of its own. */
+template <size_t n> std::array<float, n> without_residue(const std::array<double, n> &values)
+{
+  double largest = 0;
+  for (double x : values) largest = std::max(largest, std::abs(x));
+  std::array<float, n> result;
+  for (size_t i = 0; i < n; ++i) result[i] = std::abs(values[i]) <= 1e-14 * largest ? 0.0f : float(values[i]);
+  return result;
+}
+
+double largest_of(const Shape &shape)
+{
+  double largest = 0;
+  const auto take = [&](const Vec3 &v) {
+    for (float x : v) largest = std::max(largest, double(std::abs(x)));
+  };
+  if (shape.type != ShapeType::hull) take(shape.size);
+  else
+    for (const Vec3 &v : shape.hull->vertices) take(v);
+  return largest;
+}
+
+} // namespace
+
+Rotation product(const Rotation &a, const Rotation &b) { return rotation_of(quaternion_of(a) * quaternion_of(b)); }
+Double3 turned(const Rotation &rotation, const Double3 &v) { return array_of(quaternion_of(rotation) * vector_of(v)); }
+
+/* The hull of its own vertices: they alone say all of it, faces included, and a scene file holds no more. */
+Shape hull_shape(std::span<const Vec3> points, const std::string &where)
+{
+  ConvexHull hull = convex_hull(points, where);
+  for (size_t before = 0; before != hull.vertices.size();) {
+    before = hull.vertices.size();
+    hull = convex_hull(hull.vertices, where);
+  }
+  return {ShapeType::hull, {0, 0, 0}, std::make_shared<const ConvexHull>(std::move(hull))};
+}
+
+MassProperties mass_properties_of(const Shape &shape)
+{
+  const double a = shape.size[0], b = shape.size[1], c = shape.size[2];
+  switch (shape.type) {
+  case ShapeType::sphere: return sphere_mass(a);
+  case ShapeType::box: return box_mass({a, b, c});
+  case ShapeType::capsule: return capsule_mass(a, c, 2 * b);
+  case ShapeType::cylinder: return cylinder_mass(a, c, 2 * b);
+  case ShapeType::hull: return hull_mass(*shape.hull);
+  case ShapeType::half_space: break;
+  }
+  throw std::logic_error("a shape without mass");
+}
+
+PrincipalFrame principal_frame_of(const Shape &shape)
+{
+  const MassProperties solid = mass_properties_of(shape);
+  const PrincipalAxes axes = principal_axes(solid.inertia);
+  PrincipalFrame frame{solid.mass, solid.center, axes.rotation, axes.moments};
+  const double rounding = center_rounding * largest_of(shape);
+  if (vector_of(frame.center).lpNorm<Eigen::Infinity>() <= rounding) frame.center = {};
+  if (Vector(axes.rotation[0], axes.rotation[1], axes.rotation[2]).norm() <= principal_tolerance) frame.rotation = {0, 0, 0, 1};
+  return frame;
+}
+
+ShapePlace place_of_shape(const Body &body)
+{
+  const Rotation orientation = widened(body.orientation);
+  const Vector offset = vector_of(turned(orientation, widened(body.shape_position)));
+  return {array_of(Vector(vector_of(body.position) + offset)), product(orientation, widened(body.shape_orientation))};
+}
+
+/* The pose in the body is rounded to floats first; the position, in double, then makes good for it. */
+void move_frame(Body &body, const Double3 &position, const Rotation &orientation)
+{
+  const ShapePlace place = place_of_shape(body);
+  body.orientation = without_residue(rotation_of(quaternion_of(orientation)));
+  const Eigen::Quaterniond turn = quaternion_of(widened(body.orientation));
+  body.shape_orientation = without_residue(rotation_of(turn.conjugate() * quaternion_of(place.orientation)));
+  body.shape_position = without_residue(array_of(turn.conjugate() * (vector_of(place.position) - vector_of(position))));
+  body.position = array_of(vector_of(place.position) - turn * vector_of(body.shape_position));
+}
+
+bool has_principal_axes(const Body &body, const Shape &shape)
+{
+  const PrincipalFrame frame = principal_frame_of(shape);
+  const Eigen::Matrix3d axes = quaternion_of(product(widened(body.shape_orientation), frame.rotation)).toRotationMatrix();
+  const Eigen::Matrix3d expected = vector_of(frame.moments).asDiagonal(), actual = axes * expected * axes.transpose();
+  return (actual - expected).cwiseAbs().maxCoeff() <= axes_tolerance * expected.maxCoeff();
+}
+
+Vec3 inertia_of(const Shape &shape, float mass)
+{
+  const double m = mass, x = shape.size[0], y = shape.size[1], z = shape.size[2];
+  switch (shape.type) {
+  case ShapeType::half_space: return {0, 0, 0};
+  case ShapeType::sphere: {
+    const float moment = float(0.4 * m * x * x);
+    return {moment, moment, moment};
+  }
+  case ShapeType::box: return {float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))};
+  default: break;
+  }
+  const PrincipalFrame frame = principal_frame_of(shape);
+  Vec3 moments;
+  for (size_t axis = 0; axis < 3; ++axis) moments[axis] = float(frame.moments[axis] * (m / frame.mass));
+  return moments;
+}
+
+void take_mass_properties(const Scene &scene, Body &body)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (shape.type == ShapeType::half_space) return;
+  const PrincipalFrame frame = principal_frame_of(shape);
+  const Body untouched;
+  const bool own = body.shape_position == untouched.shape_position && body.shape_orientation == untouched.shape_orientation;
+  if (own && frame.center == Double3{} && frame.rotation == Rotation{0, 0, 0, 1}) return;
+  const ShapePlace place = place_of_shape(body);
+  const Vector center = vector_of(place.position) + vector_of(turned(place.orientation, frame.center));
+  move_frame(body, array_of(center), product(place.orientation, frame.rotation));
+}
+
+} // namespace tandem

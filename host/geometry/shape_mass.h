@@ -1,0 +1,53 @@
+/* shape_mass.h - from a shape of a scene to the mass properties of its body.
+ *
+ * A body's frame has its origin at the centre of mass and its axes along the principal axes of inertia: then the tensor is three
+ * numbers, and the equations of motion need no others. A shape has a frame of its own (the one its sizes or vertices are given
+ * in), and the two differ for tapered and for irregular shapes:
+ *
+ *        y ^        world ---- position, orientation ----> body ---- shape_position, shape_orientation ----> shape
+ *         /|\
+ *        / | \      A cone of height 2h: its frame lies half way up, its centre of mass a quarter up, so
+ *       /  +  \     position + (0, h/2, 0) is the shape's origin.
+ *      /___x___\    + origin of the shape, x centre of mass
+ *
+ * inertia_of and take_mass_properties of host/scene.h are defined here.
+ */
+#pragma once
+
+#include "host/geometry/mass_properties.h"
+
+namespace tandem {
+
+using Rotation = std::array<double, 4>; /* x y z w, unit length */
+
+/* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. */
+MassProperties mass_properties_of(const Shape &shape);
+
+/* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1. Where it
+ * differs from the shape's own by no more than roundings, it is the shape's own. */
+struct PrincipalFrame {
+  double mass = 0;
+  Double3 center{};
+  Rotation rotation{0, 0, 0, 1}; /* turns the principal frame into the shape's axes */
+  Double3 moments{};
+};
+PrincipalFrame principal_frame_of(const Shape &shape);
+
+/* Where the shape of a body stands in the world. */
+struct ShapePlace {
+  Double3 position{};
+  Rotation orientation{0, 0, 0, 1};
+};
+ShapePlace place_of_shape(const Body &body);
+
+/* Moves the body's frame and leaves the shape where it is. */
+void move_frame(Body &body, const Double3 &position, const Rotation &orientation);
+
+/* False where the moments of inertia_of, taken about the body's axes, are not those of the shape as it stands in the body. */
+bool has_principal_axes(const Body &body, const Shape &shape);
+
+/* b first, then a. */
+Rotation product(const Rotation &a, const Rotation &b);
+Double3 turned(const Rotation &rotation, const Double3 &v);
+
+} // namespace tandem

@@ -1,0 +1,80 @@
+/* obj_test.cpp - vertices and faces of OBJ files, and what is said of files that are none. */
+#include "host/geometry/obj.h"
+#include "tests/catch.h"
+#include "tests/host/geometry/shapes.h"
+
+#include "host/geometry/mass_properties.h"
+
+using namespace tandem;
+using namespace tandem::geometry_test;
+using Catch::Matchers::ContainsSubstring;
+
+namespace {
+
+/* A cube of side 2 in quads and two groups, with normals, textures, comments and a material that is not there. */
+const std::string cube = R"(# a cube
+mtllib missing.mtl
+o cube
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+vt 0 0
+vn 0 0 1
+g ends
+usemtl stone
+f 5//1 6//1 7//1 8//1
+f 4/1 3/1 2/1 1/1
+g sides
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f -5 -8 -4 -1
+)";
+
+std::string refusal(const std::string &text)
+{
+  return complaint([&] { parse_obj(text, "cube.obj"); });
+}
+
+} // namespace
+
+TEST_CASE("obj: polygons of all groups become triangles, seen from the same side")
+{
+  const ObjMesh mesh = parse_obj(cube, "cube.obj");
+  CHECK(mesh.vertices.size() == 8);
+  CHECK(mesh.triangles.size() == 12);
+  CHECK(mesh.vertices[6] == Vec3{1, 1, 1});
+  const TriangleMesh checked = triangle_mesh(mesh.vertices, mesh.triangles, "cube.obj");
+  CHECK(volume_warning(checked).empty());
+  CHECK(mesh_mass(checked, "cube.obj").mass == Approx(8));
+}
+
+TEST_CASE("obj: numbers are read to the nearest float, or its neighbour")
+{
+  const ObjMesh mesh = parse_obj("v 0.1 -1.5e-3 123456.789\nv 1e10 -0 3.4028234e38\n", "a.obj");
+  CHECK(mesh.vertices[0][0] == Approx(0.1).epsilon(1.2e-7));
+  CHECK(mesh.vertices[0][1] == Approx(-1.5e-3).epsilon(1.2e-7));
+  CHECK(mesh.vertices[0][2] == Approx(123456.789).epsilon(1.2e-7));
+  CHECK(mesh.vertices[1][0] == Approx(1e10).epsilon(1.2e-7));
+  CHECK(mesh.triangles.empty()); /* a cloud of points */
+}
+
+TEST_CASE("obj: what is no shape is refused in one line with the file's name")
+{
+  CHECK_THAT(refusal(""), ContainsSubstring("cube.obj: no vertices"));
+  CHECK_THAT(refusal("{\"not\": \"an OBJ file\"}\n"), ContainsSubstring("cube.obj: no vertices"));
+  for (const std::string face : {"f 1 2 4\n", "f 1 2 -9\n", "f 0 1 2\n"}) {
+    const std::string said = refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face);
+    INFO(face << said);
+    CHECK_THAT(said, ContainsSubstring("cube.obj: "));
+    CHECK(said.find('\n') == std::string::npos);
+  }
+  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 4\n"), ContainsSubstring("a face names vertex 4, but there are 2"));
+  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"), ContainsSubstring("a face counts back 7 vertices before the first"));
+  CHECK_THAT(complaint([] { load_obj("/no/such/file.obj"); }), ContainsSubstring("/no/such/file.obj"));
+}
