@@ -8,12 +8,12 @@
 #include "shared/broadphase/overlap.h"
 
 __kernel void compute_bounds(__global const Parameters *parameters, __global const uint *body_traits,
-                             __global const row *body_shape, __global const row *body_mass,
-                             __global const row *body_position, __global const row *body_orientation,
+                             __global const row *body_shape, __global const row *body_shape_pose,
+                             __global const row *body_mass, __global const row *body_position, __global const row *body_orientation,
                              __global const row *body_velocity, __global row *bounds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  compute_bounds_item(parameters, body_traits, body_shape, body_mass, body_position, body_orientation,
+  compute_bounds_item(parameters, body_traits, body_shape, body_shape_pose, body_mass, body_position, body_orientation,
                       body_velocity, bounds, i);
 }
 

@@ -7,6 +7,8 @@ find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
+find_package(Qhull REQUIRED)
+find_package(tinyobjloader REQUIRED)
 
 add_library(tandem_dependencies INTERFACE)
 target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11

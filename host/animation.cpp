@@ -3,7 +3,9 @@
  * The JSON goes straight to the file and its length is filled in afterwards: with a million bodies
  * the text is hundreds of megabytes. The binary chunk:
  *
- *   | unit meshes: positions, normals, indices | times | body: translations, rotations | next body … |
+ *   | meshes: positions, normals, indices | times | body: translations, rotations | next body … |
+ *
+ * A body whose shape has a pose of its own in it has two nodes: the one that moves, and below it one that has the mesh.
  */
 #include "host/animation.h"
 
@@ -19,6 +21,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <tuple>
 
 namespace tandem {
 struct CloseFile {
@@ -31,17 +34,18 @@ struct Pose {
   Quat orientation;
 };
 
-/* A unit mesh in one of the colours. */
+/* The mesh of a shape in one of the colours. */
 struct ColoredMesh {
-  ShapeType shape;
+  Shape shape;
   uint32_t color;
 };
 
 struct RecordedBody {
   std::string name;
   Pose rest;     /* in the first frame */
-  Vec3 scale;    /* from the unit mesh to the body's size */
+  Vec3 scale;    /* from the mesh to the body's size */
   uint32_t mesh; /* index into Recording::meshes */
+  Pose shape;    /* in the body */
 };
 
 struct Recording {
@@ -76,7 +80,7 @@ namespace {
 
 constexpr uint64_t most_bytes = 0xffffffffu; /* GLB lengths are 32 bits wide */
 constexpr uint64_t block_bytes = 64u << 20;  /* memory for turning frames into bodies */
-constexpr uint32_t float_type = 5126, uint16_type = 5123, vertex_target = 34962, index_target = 34963;
+constexpr uint32_t float_type = 5126, uint16_type = 5123, uint32_type = 5125, vertex_target = 34962, index_target = 34963;
 
 bool finite(const Vec3 &p, const Quat &q)
 {
@@ -129,12 +133,24 @@ struct View {
   uint32_t target; /* 0: none */
 };
 
-/* The unit meshes of the shapes in use, behind each other, each part on a multiple of 4 bytes. */
+/* What tells two meshes apart: the type alone where all shapes of it share one. */
+using MeshKey = std::tuple<ShapeType, Vec3, const ConvexHull *>;
+
+MeshKey mesh_key(const Shape &shape)
+{
+  const bool size_matters = !has_unit_mesh(shape.type) && shape.type != ShapeType::hull;
+  return {shape.type, size_matters ? shape.size : Vec3{0, 0, 0}, shape.type == ShapeType::hull ? shape.hull.get() : nullptr};
+}
+
+/* Vertices that 16 bits can number; most meshes are that small. 0xffff itself is no index in glTF. */
+constexpr size_t most_short_vertices = 0xffff;
+
+/* The meshes of the shapes in use, behind each other, each part on a multiple of 4 bytes. */
 struct Geometry {
-  std::vector<ShapeType> shapes;
-  std::vector<TriangleMesh> meshes;
+  std::map<MeshKey, size_t> places;
+  std::vector<DisplayMesh> meshes;
   std::vector<uint8_t> bytes;
-  std::vector<View> views; /* three per shape: positions, normals, indices */
+  std::vector<View> views; /* three per mesh: positions, normals, indices */
 
   template <typename T> void append(const std::vector<T> &values, uint32_t target)
   {
@@ -143,20 +159,17 @@ struct Geometry {
     bytes.resize((offset + size + 3) / 4 * 4);
     std::memcpy(bytes.data() + offset, values.data(), size);
   }
-  void add(ShapeType shape)
+  void add(const Shape &shape)
   {
-    if (std::find(shapes.begin(), shapes.end(), shape) != shapes.end()) return;
-    TriangleMesh mesh = unit_mesh(shape);
+    if (!places.emplace(mesh_key(shape), meshes.size()).second) return;
+    DisplayMesh mesh = display_mesh(shape);
     append(mesh.positions, vertex_target);
     append(mesh.normals, vertex_target);
-    append(mesh.indices, index_target);
-    shapes.push_back(shape);
+    if (mesh.positions.size() > most_short_vertices) append(mesh.indices, index_target);
+    else append(std::vector<uint16_t>(mesh.indices.begin(), mesh.indices.end()), index_target);
     meshes.push_back(std::move(mesh));
   }
-  size_t index_of(ShapeType shape) const
-  {
-    return size_t(std::find(shapes.begin(), shapes.end(), shape) - shapes.begin());
-  }
+  size_t index_of(const Shape &shape) const { return places.at(mesh_key(shape)); }
 };
 
 std::string vec3_accessor(size_t view, const std::vector<Vec3> &values, bool bounds)
@@ -175,7 +188,7 @@ float half_space_reach(const Scene &scene)
   float reach = 25;
   for (const Body &body : scene.bodies)
     if (scene.shapes[body.shape].type != ShapeType::half_space)
-      for (float x : body.position) reach = std::max(reach, std::abs(x));
+      for (double x : body.position) reach = std::max(reach, float(std::abs(x)));
   return 2 * reach;
 }
 
@@ -183,7 +196,7 @@ Vec3 scale_of(const Shape &shape, float reach)
 {
   if (shape.type == ShapeType::half_space) return {reach, 1, reach};
   if (shape.type == ShapeType::sphere) return {shape.size[0], shape.size[0], shape.size[0]};
-  return shape.size;
+  return has_unit_mesh(shape.type) ? shape.size : Vec3{1, 1, 1};
 }
 
 bool same_pose(const Pose &a, const Pose &b) { return a.position == b.position && a.orientation == b.orientation; }
@@ -202,14 +215,15 @@ uint32_t color_of(const Scene &scene, size_t index)
 void collect_bodies(const Scene &scene, Recording &r)
 {
   float reach = half_space_reach(scene);
-  std::map<std::pair<ShapeType, uint32_t>, uint32_t> known;
+  std::map<std::pair<MeshKey, uint32_t>, uint32_t> known;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body &body = scene.bodies[i];
     const Shape &shape = scene.shapes[body.shape];
-    ColoredMesh mesh{shape.type, color_of(scene, i)};
-    auto [at, added] = known.emplace(std::pair{mesh.shape, mesh.color}, uint32_t(r.meshes.size()));
+    ColoredMesh mesh{shape, color_of(scene, i)};
+    auto [at, added] = known.emplace(std::pair{mesh_key(shape), mesh.color}, uint32_t(r.meshes.size()));
     if (added) r.meshes.push_back(mesh);
-    r.bodies.push_back({body.name, {body.position, normalized(body.orientation)}, scale_of(shape, reach), at->second});
+    r.bodies.push_back({body.name, {rounded(body.position), normalized(body.orientation)}, scale_of(shape, reach), at->second,
+                        {body.shape_position, normalized(body.shape_orientation)}});
     if (body.motion == Motion::fixed) continue;
     r.moving.push_back(uint32_t(i));
     r.last.push_back(r.bodies.back().rest);
@@ -219,7 +233,7 @@ void collect_bodies(const Scene &scene, Recording &r)
 
 /* --- the JSON chunk ------------------------------------------------------------------------------ */
 
-/* Views and accessors have the same numbers up to the times: three per shape, then the times. One
+/* Views and accessors have the same numbers up to the times: three per mesh, then the times. One
  * more view holds all poses, with two accessors per animated body. */
 struct Layout {
   Geometry geometry;
@@ -243,17 +257,32 @@ Layout layout_of(const Recording &r)
   return layout;
 }
 
+constexpr Pose no_pose{{0, 0, 0}, {0, 0, 0, 1}};
+
+/* The nodes of bodies have their numbers; those of shapes with a pose come after them. */
 void write_nodes(JsonStream &json, const Recording &r)
 {
   json.raw(R"(,"scene":0,"scenes":[{"nodes":[)");
   for (size_t i = 0; i < r.bodies.size(); ++i) json.item(fmt::format("{}", i));
   json.raw(R"(]}],"nodes":[)");
+  std::vector<size_t> posed;
   for (size_t i = 0; i < r.bodies.size(); ++i) {
     const RecordedBody &body = r.bodies[i];
     std::string name = body.name.empty() ? fmt::format("body {}", i) : body.name;
-    json.item(fmt::format(R"({{"name":{},"mesh":{},"translation":{},"rotation":{},"scale":{}}})",
-                          nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
-                          body.mesh, text(body.rest.position), text(body.rest.orientation), text(body.scale)));
+    std::string looks = fmt::format(R"("mesh":{})", body.mesh), scale = fmt::format(R"(,"scale":{})", text(body.scale));
+    if (!same_pose(body.shape, no_pose)) {
+      looks = fmt::format(R"("children":[{}])", r.bodies.size() + posed.size());
+      scale.clear();
+      posed.push_back(i);
+    }
+    json.item(fmt::format(R"({{"name":{},{},"translation":{},"rotation":{}{}}})",
+                          nlohmann::json(name).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), looks,
+                          text(body.rest.position), text(body.rest.orientation), scale));
+  }
+  for (size_t i : posed) {
+    const RecordedBody &body = r.bodies[i];
+    json.item(fmt::format(R"({{"mesh":{},"translation":{},"rotation":{},"scale":{}}})", body.mesh, text(body.shape.position),
+                          text(body.shape.orientation), text(body.scale)));
   }
   json.raw("]");
 }
@@ -292,12 +321,12 @@ void write_accessors(JsonStream &json, const Recording &r, const Layout &layout)
 {
   size_t frames = r.times.size(), times = layout.times_accessor();
   json.raw(R"(,"accessors":[)");
-  for (size_t shape = 0; shape < layout.geometry.meshes.size(); ++shape) {
-    const TriangleMesh &mesh = layout.geometry.meshes[shape];
-    json.item(vec3_accessor(3 * shape, mesh.positions, true));
-    json.item(vec3_accessor(3 * shape + 1, mesh.normals, false));
-    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * shape + 2,
-                          uint16_type, mesh.indices.size()));
+  for (size_t at = 0; at < layout.geometry.meshes.size(); ++at) {
+    const DisplayMesh &mesh = layout.geometry.meshes[at];
+    json.item(vec3_accessor(3 * at, mesh.positions, true));
+    json.item(vec3_accessor(3 * at + 1, mesh.normals, false));
+    json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * at + 2,
+                          mesh.positions.size() > most_short_vertices ? uint32_type : uint16_type, mesh.indices.size()));
   }
   if (!layout.animated.empty())
     json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[{}],"max":[{}]}})",

@@ -1,4 +1,4 @@
-/* animation_geometry.h - unit triangle meshes of the shapes, and the colours, for host/animation.cpp. */
+/* animation_geometry.h - triangle meshes of the shapes, and the colours, for host/animation.cpp; outlines for pictures. */
 #pragma once
 
 #include "host/scene.h"
@@ -9,13 +9,20 @@
 
 namespace tandem {
 
-struct TriangleMesh {
+struct DisplayMesh {
   std::vector<Vec3> positions, normals; /* same count; a vertex stands once per normal it has */
-  std::vector<uint16_t> indices;        /* three per triangle, counter-clockwise seen from outside */
+  std::vector<uint32_t> indices;        /* three per triangle, counter-clockwise seen from outside */
 };
 
-/* Half extent or radius 1; the half space is a quad of half extent 1 in y = 0 that faces +Y. */
-TriangleMesh unit_mesh(ShapeType shape);
+/* Spheres, boxes and half-spaces are all one mesh, stretched; the others have one for each shape. */
+bool has_unit_mesh(ShapeType type);
+
+/* Of those: half extent or radius 1; the half space is a quad of half extent 1 in y = 0 that faces +Y. Of the others, the shape
+ * itself in its own frame: round ones with corners on their surface, hulls with flat faces. */
+DisplayMesh display_mesh(const Shape &shape);
+
+/* Points whose convex hull is the shape, of round ones nearly; in the shape's frame. Of a half-space, none. */
+std::vector<Vec3> outline_points(const Shape &shape);
 
 /* Linear RGB. The first is for bodies that never move, the second for kinematic ones. */
 inline constexpr std::array<std::array<float, 3>, 8> palette{{{0.30f, 0.30f, 0.32f},

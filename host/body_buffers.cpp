@@ -5,13 +5,14 @@
 #include <cmath>
 
 #include "host/hash.h"
+#include "host/hull_buffers.h"
+#include "host/shape_bounds.h"
 #include "host/specialise.h"
+#include "shared/body_codes.h"
 #include "shared/platform.h"
 
 namespace tandem {
 namespace {
-
-constexpr uint32_t motion_quarantined = 3; /* MOTION_QUARANTINED of shared/records.h */
 
 template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
 {
@@ -21,9 +22,21 @@ template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vec
 row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
 Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
 
+/* The two rows of a place: shared/records.h. */
+std::array<row, 2> place_of(const Point &p)
+{
+  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
+  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
+}
+Point point_of(const row *place)
+{
+  return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
+}
+
 uint32_t traits_of(const Scene &scene, const Body &body)
 {
-  return static_cast<uint32_t>(scene.shapes[body.shape].type) | static_cast<uint32_t>(body.motion) << 3 | body.material << 8;
+  const uint32_t shape = is_general(scene, body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(scene.shapes[body.shape].type);
+  return shape | static_cast<uint32_t>(body.motion) << 3 | body.material << 8;
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
@@ -42,15 +55,16 @@ Quat unit(const Quat &q)
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  std::vector<row> shape(n), mass(2 * n), position(n), orientation(n), velocity(2 * n);
+  std::vector<row> shape(n), mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
   std::vector<uint32_t> traits(n), filter(2 * n);
   for (size_t i = 0; i < n; ++i) {
     const Body &body = scene.bodies[order[i]];
     const Quat q = unit(body.orientation);
-    shape[i] = row_of_vec(scene.shapes[body.shape].size, bounding_radius(scene.shapes[body.shape]));
+    shape[i] = row_of_vec(kernel_size(scene.shapes[body.shape]), bounding_radius(scene, body));
     mass[2 * i] = row_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
     mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
-    position[i] = row_of_vec(body.position, 0);
+    const auto place = place_of(body.position);
+    std::copy(place.begin(), place.end(), &position[2 * i]);
     orientation[i] = {q[0], q[1], q[2], q[3]};
     velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
     velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), 0);
@@ -65,6 +79,25 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
   upload_all(memory, Buffer::body_velocity, velocity);
   upload_all(memory, Buffer::body_traits, traits);
   upload_all(memory, Buffer::body_filter, filter);
+}
+
+/* Of every body, also of those with tests of their own: any of them may meet a shape that has none. */
+void upload_shape_poses(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  if (memory.bytes(Buffer::body_convex) == 0) return;
+  const std::vector<uint32_t> hulls = hull_numbers(scene);
+  std::vector<row> poses;
+  std::vector<uint32_t> convexes;
+  for (uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    const Shape &shape = scene.shapes[body.shape];
+    const Quat q = unit(body.shape_orientation);
+    const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(scene, body);
+    convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), hulls[body.shape]});
+    poses.insert(poses.end(), {row_of_vec(body.shape_position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0), row_of_vec(box.half_extents, 0)});
+  }
+  upload_all(memory, Buffer::body_convex, convexes);
+  upload_all(memory, Buffer::body_shape_pose, poses);
 }
 
 void upload_materials(Memory &memory, const Scene &scene)
@@ -82,10 +115,11 @@ void upload_materials(Memory &memory, const Scene &scene)
 void upload_body(Memory &memory, uint32_t index, const BodyState &state)
 {
   const Quat q = unit(state.orientation);
-  const row position = row_of_vec(state.position, 0), orientation{q[0], q[1], q[2], q[3]};
+  const auto place = place_of(state.position);
+  const row orientation{q[0], q[1], q[2], q[3]};
   const float inverse_mass = memory.read<row>(Buffer::body_velocity, 1, 2 * index).front().w;
   const row velocity[2] = {row_of_vec(state.linear_velocity, inverse_mass), row_of_vec(state.angular_velocity, 0)};
-  memory.upload(Buffer::body_position, &position, sizeof(row), index * sizeof(row));
+  memory.upload(Buffer::body_position, place.data(), 2 * sizeof(row), 2 * index * sizeof(row));
   memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
   memory.upload(Buffer::body_velocity, velocity, 2 * sizeof(row), 2 * index * sizeof(row));
 }
@@ -93,11 +127,11 @@ void upload_body(Memory &memory, uint32_t index, const BodyState &state)
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  const auto position = memory.read<row>(Buffer::body_position, n), orientation = memory.read<row>(Buffer::body_orientation, n);
+  const auto position = memory.read<row>(Buffer::body_position, 2 * n), orientation = memory.read<row>(Buffer::body_orientation, n);
   const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
   for (size_t i = 0; i < n; ++i)
-    states[order[i]] = {vec_of_row(position[i]), {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
+    states[order[i]] = {point_of(&position[2 * i]), {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
                         vec_of_row(velocity[2 * i]), vec_of_row(velocity[2 * i + 1])};
   return states;
 }
@@ -105,12 +139,12 @@ std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_
 std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  const auto position = memory.read_reals(Buffer::body_position, 4 * n), orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
+  const auto position = memory.read_reals(Buffer::body_position, 8 * n), orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
   const auto velocity = memory.read_reals(Buffer::body_velocity, 8 * n);
   std::vector<PreciseBodyState> states(n);
   for (size_t i = 0; i < n; ++i) {
     PreciseBodyState &state = states[order[i]];
-    std::copy_n(&position[4 * i], 3, state.position.begin());
+    for (size_t k = 0; k < 3; ++k) state.position[k] = position[8 * i + k] + position[8 * i + 4 + k];
     std::copy_n(&orientation[4 * i], 4, state.orientation.begin());
     std::copy_n(&velocity[8 * i], 3, state.linear_velocity.begin());
     std::copy_n(&velocity[8 * i + 4], 3, state.angular_velocity.begin());
@@ -120,17 +154,18 @@ std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std:
 
 bool is_finite(const BodyState &state)
 {
-  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); }); };
+  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(float(x)); }); };
   return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) && finite(state.angular_velocity);
 }
 
 void quarantine_body(Memory &memory, uint32_t index)
 {
-  row position = memory.read<row>(Buffer::body_position, 1, index).front();
-  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(position.z)) position = {0, 0, 0, 0};
+  auto position = memory.read<row>(Buffer::body_position, 2, 2 * index);
+  for (const double x : point_of(position.data()))
+    if (!std::isfinite(x)) position = {{0, 0, 0, 0}, {0, 0, 0, 0}};
   const row orientation{0, 0, 0, 1}, rest[2] = {};
-  const uint32_t traits = (memory.read<uint32_t>(Buffer::body_traits, 1, index).front() & ~(3u << 3)) | motion_quarantined << 3;
-  memory.upload(Buffer::body_position, &position, sizeof(row), index * sizeof(row));
+  const uint32_t traits = (memory.read<uint32_t>(Buffer::body_traits, 1, index).front() & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
+  memory.upload(Buffer::body_position, position.data(), 2 * sizeof(row), 2 * index * sizeof(row));
   memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
   memory.upload(Buffer::body_velocity, rest, 2 * sizeof(row), 2 * index * sizeof(row));
   memory.upload(Buffer::body_traits, &traits, sizeof(uint32_t), index * sizeof(uint32_t));

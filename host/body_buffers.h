@@ -10,6 +10,7 @@ namespace tandem {
 
 /* Writes every body buffer; buffer index i holds scene body order[i]. */
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
+void upload_shape_poses(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
 void upload_materials(Memory &memory, const Scene &scene);
 void upload_body(Memory &memory, uint32_t index, const BodyState &state);
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order);

@@ -29,13 +29,13 @@ std::string shown(const nlohmann::json &value)
 }
 
 /* std::from_chars takes hexadecimal digits without the 0x that strtof and printf("%a") have. */
-std::optional<float> parse_hex_float(const std::string &text)
+template <class Real> std::optional<Real> parse_hex_float(const std::string &text)
 {
   size_t start = !text.empty() && text[0] == '-' ? 1 : 0;
   if (text.compare(start, 2, "0x") != 0 || text.size() < start + 3 ||
       !std::isxdigit(static_cast<unsigned char>(text[start + 2])))
     return {};
-  float magnitude = 0;
+  Real magnitude = 0;
   auto [end, error] =
       std::from_chars(text.data() + start + 2, text.data() + text.size(), magnitude, std::chars_format::hex);
   if (error != std::errc() || end != text.data() + text.size()) return {};
@@ -124,23 +124,32 @@ JsonValue JsonValue::element(size_t index) const
   return {(*value_)[index], *where_, fmt::format("{}[{}]", path_, index)};
 }
 
-float JsonValue::number() const
+template <class Real> Real JsonValue::number_of() const
 {
   if (value_->is_string()) {
-    std::optional<float> parsed = parse_hex_float(value_->get_ref<const std::string &>());
+    std::optional<Real> parsed = parse_hex_float<Real>(value_->get_ref<const std::string &>());
     if (parsed && std::isfinite(*parsed)) return *parsed;
     fail(fmt::format("is {}; a number or a finite hexadecimal float such as \"0x1.8p+1\" is needed", shown(*value_)));
   }
   if (!value_->is_number()) fail(fmt::format("is {}; a number is needed", shown(*value_)));
-  auto result = float(value_->get<double>());
-  if (!std::isfinite(result)) fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
-  return result;
+  const auto result = value_->get<double>();
+  if (!std::isfinite(float(result))) fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
+  return Real(result);
 }
+
+float JsonValue::number() const { return number_of<float>(); }
+double JsonValue::precise_number() const { return number_of<double>(); }
 
 Vec3 JsonValue::vec3() const
 {
   if (array_size() != 3) fail(fmt::format("is {}; an array of 3 numbers is needed", shown(*value_)));
   return {element(0).number(), element(1).number(), element(2).number()};
+}
+
+Point JsonValue::point() const
+{
+  if (array_size() != 3) fail(fmt::format("is {}; an array of 3 numbers is needed", shown(*value_)));
+  return {element(0).precise_number(), element(1).precise_number(), element(2).precise_number()};
 }
 
 Quat JsonValue::quat() const

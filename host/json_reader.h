@@ -25,6 +25,7 @@ public:
 
   [[noreturn]] void fail(const std::string &message) const;
   const std::string &where() const { return *where_; }
+  std::string place() const { return path_.empty() ? *where_ : *where_ + ": " + path_; }
 
   /* An object's member; `find` gives nothing when it is absent, `member` fails. Both fail on non-objects. */
   std::optional<JsonValue> find(const char *key) const;
@@ -37,7 +38,9 @@ public:
 
   /* Finite floats: a number, or a string with a hexadecimal float such as "-0x1.8p+1". */
   float number() const;
+  double precise_number() const; /* the same, of 64 bits */
   Vec3 vec3() const;
+  Point point() const;
   Quat quat() const;
   bool boolean() const;
   uint32_t unsigned_integer() const;
@@ -45,6 +48,8 @@ public:
   size_t choice(std::span<const char *const> names) const; /* index of the string in names */
 
 private:
+  template <class Real> Real number_of() const;
+
   const nlohmann::json *value_;
   const std::string *where_;
   std::string path_;

@@ -42,7 +42,7 @@ constexpr size_t stage_count = 8;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
-  NOTHING, ONE, MATERIALS, BODIES, BODIES_PLUS_ONE, PAIRS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS, REDUCE_PARTIAL
+  NOTHING, ONE, MATERIALS, HULLS, HULL_VERTICES, HULL_FACES, HULL_CORNERS, HULL_EDGES, BODIES, BODIES_PLUS_ONE, PAIRS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS, REDUCE_PARTIAL
 };
 
 enum class Element : uint8_t { row, real, uint, ulong, Parameters };

@@ -18,6 +18,11 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
   case Capacity::MATERIALS: return sizes.materials;
+  case Capacity::HULLS: return sizes.hulls.hulls;
+  case Capacity::HULL_VERTICES: return sizes.hulls.vertices;
+  case Capacity::HULL_FACES: return size_t{sizes.hulls.faces} + 1;
+  case Capacity::HULL_CORNERS: return sizes.hulls.corners;
+  case Capacity::HULL_EDGES: return sizes.hulls.edges;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;

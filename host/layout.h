@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "host/hull_buffers.h"
 #include "host/kernel_list.h"
 #include "host/settings.h"
 
@@ -12,6 +13,7 @@ namespace tandem {
 struct Sizes {
   uint32_t bodies = 0;
   uint32_t materials = 0;
+  HullSizes hulls;
   uint32_t pairs = 0; /* capacity */
   uint32_t cells = 0; /* capacity */
   uint32_t features = 0;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "host/buffer_place.h"
 #include "host/compare.h"
@@ -33,16 +34,32 @@ constexpr double boundless = 1e29;
 /* The last place of a float of this size. */
 double unit_of(double size) { return std::ldexp(1.0, size == 0 ? -149 : std::max(std::ilogb(size) - 23, -149)); }
 
+/* Two numbers stand for a coordinate (shared/records.h): their sum is what has a rounding. */
+void join_places(std::vector<double> &numbers)
+{
+  for (size_t k = 0; k + 8 <= numbers.size(); k += 8)
+    for (size_t axis = 0; axis < 3; ++axis) numbers[k + axis] += std::exchange(numbers[k + 4 + axis], 0.0);
+}
+
+std::vector<double> numbers_of(Buffer buffer, const std::vector<char> &bytes)
+{
+  std::vector<float> floats(bytes.size() / sizeof(float));
+  std::memcpy(floats.data(), bytes.data(), floats.size() * sizeof(float));
+  std::vector<double> numbers(floats.begin(), floats.end());
+  if (buffer == Buffer::body_position) join_places(numbers);
+  return numbers;
+}
+
 class Samples {
 public:
-  void add(float value, double exact)
+  void add(double value, double exact)
   {
     if (!std::isfinite(value) || !std::isfinite(exact)) {
       ++row_.nonfinite;
       return;
     }
     if (std::abs(exact) > boundless) return;
-    const double distance = std::abs(double{value} - exact);
+    const double distance = std::abs(value - exact);
     ulps_.push_back(static_cast<float>(ulps_from(value, exact)));
     launch_distance_ = std::max(launch_distance_, distance);
     launch_largest_ = std::max(launch_largest_, std::abs(exact));
@@ -152,13 +169,12 @@ private:
   void compare_reals(Kernel kernel, Buffer buffer, const std::vector<char> &before)
   {
     const size_t count = before.size() / sizeof(float), capacity = pair_capacity();
-    const std::vector<float> value = world_.memory().read<float>(buffer, count);
-    const std::vector<double> exact = mirror_.memory().read_reals(buffer, count);
+    const std::vector<double> value = numbers_of(buffer, world_.memory().read<char>(buffer, before.size())), old = numbers_of(buffer, before);
+    std::vector<double> exact = mirror_.memory().read_reals(buffer, count);
+    if (buffer == Buffer::body_position) join_places(exact);
     std::set<Samples *> touched;
     for (size_t k = 0; k < count; ++k) {
-      float old;
-      std::memcpy(&old, &before[k * sizeof old], sizeof old);
-      if (std::memcmp(&value[k], &old, sizeof old) == 0 && exact[k] == double{old}) continue;
+      if (value[k] == old[k] && exact[k] == old[k]) continue;
       Samples &samples = samples_[{kernel, buffer, field_of(place_in(buffer, k, capacity))}];
       samples.add(value[k], exact[k]);
       touched.insert(&samples);
@@ -177,10 +193,7 @@ private:
 
 } // namespace
 
-double ulps_from(float value, double exact)
-{
-  return std::abs(double{value} - exact) / unit_of(std::max(std::abs(exact), std::abs(double{value})));
-}
+double ulps_from(double value, double exact) { return std::abs(value - exact) / unit_of(std::max(std::abs(exact), std::abs(value))); }
 
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request)
 {

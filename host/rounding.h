@@ -60,6 +60,6 @@ struct RoundingTable {
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request);
 
 /* |value - exact| in units of the last place of a float as large as the larger of them. */
-double ulps_from(float value, double exact);
+double ulps_from(double value, double exact);
 
 } // namespace tandem

@@ -5,6 +5,9 @@
  */
 #include "host/scene.h"
 
+#include "host/geometry/shape_mass.h"
+
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -16,9 +19,9 @@ namespace {
   throw InputError(fmt::format("{}: {}: {}", where, what, why));
 }
 
-bool finite(const Vec3 &v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); }
+template <class Vector> bool finite(const Vector &v) { return std::isfinite(float(v[0])) && std::isfinite(float(v[1])) && std::isfinite(float(v[2])); }
 
-std::string text(const Vec3 &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 
 std::string label(const char *kind, size_t index, const std::string &name)
 {
@@ -34,7 +37,7 @@ struct Checker {
 
   [[noreturn]] void fail(const std::string &why) const { refuse(where, label(kind, index, name), why); }
 
-  void finite_vector(const char *field, const Vec3 &v) const
+  template <class Vector> void finite_vector(const char *field, const Vector &v) const
   {
     if (!finite(v)) fail(fmt::format("{} is {}; three finite numbers are needed", field, text(v)));
   }
@@ -51,6 +54,33 @@ struct Checker {
   }
 };
 
+/* Its sides, the common tangent of the two spheres, exist only while neither sphere holds the other. */
+void check_capsule(const Shape &shape, const Checker &check)
+{
+  const float bottom = shape.size[0], half_height = shape.size[1], top = shape.size[2];
+  check.positive("radius_bottom", bottom);
+  check.positive("half_height", half_height);
+  check.positive("radius_top", top);
+  if (std::abs(double(bottom) - top) >= 2.0 * half_height)
+    check.fail(fmt::format("one sphere of the capsule (radii {} and {}, {} apart) holds the other; a sphere of radius {} is the same", bottom, top,
+                           2.0 * half_height, std::max(bottom, top)));
+}
+
+void check_cylinder(const Shape &shape, const Checker &check)
+{
+  check.at_least_zero("radius_bottom", shape.size[0]);
+  check.positive("half_height", shape.size[1]);
+  check.at_least_zero("radius_top", shape.size[2]);
+  check.positive("the larger radius", std::max(shape.size[0], shape.size[2]));
+}
+
+void check_hull(const Shape &shape, const Checker &check)
+{
+  if (!shape.hull) check.fail("a hull without points; hull_shape makes one");
+  if (shape.hull->vertices.size() < 4) check.fail(fmt::format("a hull of {} vertices; at least 4 are needed", shape.hull->vertices.size()));
+  for (const Vec3 &vertex : shape.hull->vertices) check.finite_vector("a vertex of the hull", vertex);
+}
+
 void check_shape(const Shape &shape, const Checker &check)
 {
   check.finite_vector("size", shape.size);
@@ -60,8 +90,11 @@ void check_shape(const Shape &shape, const Checker &check)
     for (int axis = 0; axis < 3; ++axis) check.positive("a half extent", shape.size[axis]);
     return;
   case ShapeType::half_space: return;
+  case ShapeType::capsule: check_capsule(shape, check); return;
+  case ShapeType::cylinder: check_cylinder(shape, check); return;
+  case ShapeType::hull: check_hull(shape, check); return;
   }
-  check.fail("unknown shape type; sphere, box and half_space exist");
+  check.fail("unknown shape type; sphere, box, half_space, capsule, cylinder and hull exist");
 }
 
 void check_material(const Material &material, const Checker &check)
@@ -76,15 +109,20 @@ void check_material(const Material &material, const Checker &check)
     check.fail("unknown combine rule; average, minimum, maximum, multiply and geometric_mean exist");
 }
 
-void check_pose(const Body &body, const Checker &check)
+void check_unit(const char *field, const Quat &q, const Checker &check)
 {
-  check.finite_vector("position", body.position);
-  const Quat &q = body.orientation;
   double length_squared = 0;
   for (float x : q) length_squared += double(x) * x;
   if (!(std::abs(length_squared - 1.0) < 2e-3)) /* also true for NaN */
-    check.fail(
-        fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+    check.fail(fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
+}
+
+void check_pose(const Body &body, const Checker &check)
+{
+  check.finite_vector("position", body.position);
+  check_unit("orientation", body.orientation, check);
+  check.finite_vector("shape_position", body.shape_position);
+  check_unit("shape_orientation", body.shape_orientation, check);
   check.finite_vector("linear_velocity", body.linear_velocity);
   check.finite_vector("angular_velocity", body.angular_velocity);
 }
@@ -95,6 +133,10 @@ void check_inertia(const Body &body, const Shape &shape, const Checker &check)
   bool from_shape = body.inertia == Vec3{0, 0, 0};
   Vec3 moments = from_shape ? inertia_of(shape, body.mass) : body.inertia;
   for (float moment : moments) check.positive(from_shape ? "inertia from shape and mass" : "inertia", moment);
+  const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type == ShapeType::hull;
+  if (from_shape && turned && !has_principal_axes(body, shape))
+    check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the inertia, or a density instead "
+               "of the mass (take_mass_properties)");
 }
 
 void check_body(const Body &body, const Scene &scene, const Checker &check)
@@ -111,8 +153,10 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   check.at_least_zero("angular_damping", body.angular_damping);
   if (!std::isfinite(body.mass)) check.fail(fmt::format("mass is {}; a finite number is needed", body.mass));
   check.finite_vector("inertia", body.inertia);
-  if (body.motion != Motion::dynamic) return;
   const Shape &shape = scene.shapes[body.shape];
+  if (shape.type == ShapeType::half_space && (body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1}))
+    check.fail("a half_space has no pose in its body (shape_position, shape_orientation); move and turn the body");
+  if (body.motion != Motion::dynamic) return;
   if (shape.type == ShapeType::half_space) check.fail("a half_space cannot be dynamic; make it fixed or kinematic");
   check.positive("mass", body.mass);
   check_inertia(body, shape, check);
@@ -131,17 +175,6 @@ void validate(const Scene &scene, const std::string &where)
     check_material(scene.materials[i], {where, "material", i, scene.materials[i].name});
   for (size_t i = 0; i < scene.bodies.size(); ++i)
     check_body(scene.bodies[i], scene, {where, "body", i, scene.bodies[i].name});
-}
-
-Vec3 inertia_of(const Shape &shape, float mass)
-{
-  if (shape.type == ShapeType::half_space) return {0, 0, 0};
-  double m = mass, x = shape.size[0], y = shape.size[1], z = shape.size[2];
-  if (shape.type == ShapeType::sphere) {
-    float moment = float(0.4 * m * x * x);
-    return {moment, moment, moment};
-  }
-  return {float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))};
 }
 
 } // namespace tandem

@@ -8,6 +8,8 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -21,19 +23,35 @@ struct InputError : std::runtime_error {
 };
 
 using Vec3 = std::array<float, 3>;
-using Quat = std::array<float, 4>; /* x y z w, unit length */
+using Point = std::array<double, 3>; /* of the world, m: a float is 6 cm apart from the next 1,000 km away */
+using Quat = std::array<float, 4>;  /* x y z w, unit length */
 
-enum class ShapeType : uint32_t { sphere = 0, box = 1, half_space = 2 };
+inline Vec3 rounded(const Point &p) { return {float(p[0]), float(p[1]), float(p[2])}; }
 
-/* sphere: size[0] = radius. box: half extents. half_space: all points with y <= 0 in the body's
- * frame (its outward normal is the body's +Y axis); size is ignored; never dynamic. */
+enum class ShapeType : uint32_t { sphere = 0, box = 1, half_space = 2, capsule = 3, cylinder = 4, hull = 5 };
+
+struct ConvexHull; /* host/geometry/convex_hull.h */
+
+/* In the shape's own frame:
+ *   sphere      size[0]: radius
+ *   box         size: half extents
+ *   half_space  all points with y <= 0 (its outward normal is +Y); size is ignored; never dynamic, without a pose of its own
+ *   capsule     hull of two spheres on the Y axis. size: radius of the lower, half the distance of the centres, radius of the upper
+ *   cylinder    along Y, between -size[1] and +size[1]; size[0]: radius of the lower end, size[2]: of the upper. One may be 0: a cone
+ *   hull        `hull`; size is ignored */
 struct Shape {
   ShapeType type = ShapeType::box;
   Vec3 size{0.5f, 0.5f, 0.5f};
+  std::shared_ptr<const ConvexHull> hull = nullptr; /* shared by the copies of a shape */
 };
 
 inline Shape sphere_shape(float radius) { return {ShapeType::sphere, {radius, radius, radius}}; }
 inline Shape box_shape(float x, float y, float z) { return {ShapeType::box, {x, y, z}}; } /* half extents */
+inline Shape capsule_shape(float radius, float half_height) { return {ShapeType::capsule, {radius, half_height, radius}}; }
+inline Shape cylinder_shape(float radius, float half_height) { return {ShapeType::cylinder, {radius, half_height, radius}}; }
+inline Shape cone_shape(float radius, float half_height) { return {ShapeType::cylinder, {radius, half_height, 0}}; } /* apex up */
+/* InputError as convex_hull of host/geometry/convex_hull.h. */
+Shape hull_shape(std::span<const Vec3> points, const std::string &where);
 inline Shape half_space_shape() { return {ShapeType::half_space, {0, 0, 0}}; }
 
 /* How the values of two materials become one. Of two different rules the first in this order
@@ -63,8 +81,10 @@ struct Body {
   Motion motion = Motion::dynamic;
   uint32_t shape = 0;    /* index into Scene::shapes */
   uint32_t material = 0; /* index into Scene::materials */
-  Vec3 position{0, 0, 0}; /* centre of mass, which is the shape's centre */
-  Quat orientation{0, 0, 0, 1};
+  Point position{0, 0, 0};      /* centre of mass */
+  Quat orientation{0, 0, 0, 1}; /* of the principal axes of inertia */
+  Vec3 shape_position{0, 0, 0}; /* of the shape's frame in the body's: not 0 where the shape's origin is not the centre of mass */
+  Quat shape_orientation{0, 0, 0, 1};
   Vec3 linear_velocity{0, 0, 0};  /* world axes */
   Vec3 angular_velocity{0, 0, 0}; /* world axes */
   float mass = 1.0f;              /* > 0 for dynamic bodies; ignored otherwise */
@@ -90,7 +110,12 @@ struct Scene {
  * indices out of range, dynamic half-spaces. `where` prefixes the message (a file name). */
 void validate(const Scene &scene, const std::string &where);
 
-/* Principal moments of inertia of a solid shape of uniform density about its centre. */
+/* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes that
+ * take_mass_properties gives its body. */
 Vec3 inertia_of(const Shape &shape, float mass);
+
+/* For a body whose position, orientation and shape pose place its shape: makes the shape's centre of mass and principal axes (of
+ * uniform density) the body's own, and leaves the shape where it is in the world. Nothing to do for shapes that are symmetric. */
+void take_mass_properties(const Scene &scene, Body &body);
 
 } // namespace tandem

@@ -2,7 +2,9 @@
 #include "host/scene_catalog.h"
 
 #include "host/random.h"
+#include "host/scene_builders.h"
 #include "host/scene_catalog_closed_forms.h"
+#include "host/scene_catalog_shapes.h"
 #include "host/scene_catalog_structures.h"
 #include "host/scene_gltf.h"
 #include "host/scene_json.h"
@@ -14,13 +16,10 @@
 #include <fmt/format.h>
 
 namespace tandem {
+
+using namespace scene_builders;
+
 namespace {
-
-constexpr auto integer = SceneParameter::Type::integer;
-constexpr auto real = SceneParameter::Type::real;
-
-int64_t whole(const SceneValues &values, const char *name) { return int64_t(values.find(name)->second); }
-double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
 
 /* The smallest side with side * side * layers >= count. */
 int64_t square_side(int64_t count, int64_t layers)
@@ -28,44 +27,6 @@ int64_t square_side(int64_t count, int64_t layers)
   int64_t side = 1;
   while (side * side * layers < count) ++side;
   return side;
-}
-
-/* Places `count` items in layers of side × side cells, centred over the origin, the lowest cell
- * centres at y = bottom: no two items whose radius plus jitter is below cell / 2 can touch. */
-struct CellGrid {
-  int64_t side;
-  double cell, bottom;
-
-  Vec3 place(int64_t index, double jitter, Random &random) const
-  {
-    int64_t layer = index / (side * side), within = index % (side * side);
-    double x = (double(within % side) - 0.5 * double(side - 1)) * cell;
-    double z = (double(within / side) - 0.5 * double(side - 1)) * cell;
-    double dx = random.uniform(-jitter, jitter), dy = random.uniform(-jitter, jitter),
-           dz = random.uniform(-jitter, jitter);
-    return {float(x + dx), float(bottom + double(layer) * cell + dy), float(z + dz)};
-  }
-};
-
-/* Body 0 of most scenes. */
-void add_ground(Scene &scene, uint32_t material = 0)
-{
-  Body ground;
-  ground.name = "ground";
-  ground.motion = Motion::fixed;
-  ground.shape = uint32_t(scene.shapes.size());
-  ground.material = material;
-  scene.shapes.push_back(half_space_shape());
-  scene.bodies.push_back(ground);
-}
-
-Body dynamic_body(uint32_t shape, const Vec3 &position, float mass)
-{
-  Body body;
-  body.shape = shape;
-  body.position = position;
-  body.mass = mass;
-  return body;
 }
 
 /* --- box-grid: the scene of the published comparisons; layers are shifted against each other ---- */
@@ -80,24 +41,20 @@ Scene box_grid(const SceneValues &v)
   int64_t nx = whole(v, "nx"), ny = whole(v, "ny"), nz = whole(v, "nz");
   Scene scene;
   scene.shapes = {box_shape(400, 400, 400), box_shape(1, 1, 1)};
-  Body ground;
+  Body &ground = add_body(scene, 0, {0, -400, 0});
   ground.name = "ground";
   ground.motion = Motion::fixed;
-  ground.position = {0, -400, 0};
-  scene.bodies.push_back(ground);
   for (int64_t i = 0; i < nx; ++i)
     for (int64_t j = 0; j < ny; ++j)
       for (int64_t k = 0; k < nz; ++k) {
         double shift = double((j + 1) & 1);
         double x = shift + double(i - nx / 2) * 2.2, y = double(1 + 2 * j), z = shift + double(k - nz / 2) * 2.2;
-        scene.bodies.push_back(dynamic_body(1, {float(x), float(y), float(z)}, 1));
+        add_body(scene, 1, {float(x), float(y), float(z)});
       }
   return scene;
 }
 
 /* --- falling-boxes -------------------------------------------------------------------------- */
-
-uint64_t ground_and_n(const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); }
 
 Scene falling_boxes(const SceneValues &v)
 {
@@ -112,9 +69,8 @@ Scene falling_boxes(const SceneValues &v)
   while (2 * side * side * side < n) ++side;
   CellGrid grid{side, 2 * (radius + jitter) * 1.001, number(v, "height") + radius + jitter};
   for (int64_t i = 0; i < n; ++i) {
-    Body body = dynamic_body(0, grid.place(i, jitter, random), 1);
+    Body &body = add_body(scene, 0, grid.place(i, jitter, random));
     body.orientation = random.orientation();
-    scene.bodies.push_back(body);
   }
   return scene;
 }
@@ -133,8 +89,7 @@ Scene box_stack(const SceneValues &v)
     int64_t column = i / height, level = i % height;
     double x = (double(column % side) - 0.5 * double(side - 1)) * pitch;
     double z = (double(column / side) - 0.5 * double(side - 1)) * pitch;
-    scene.bodies.push_back(
-        dynamic_body(0, {float(x), float(half * double(1 + 2 * level)), float(z)}, float(number(v, "mass"))));
+    add_body(scene, 0, {float(x), float(half * double(1 + 2 * level)), float(z)}, float(number(v, "mass")));
   }
   return scene;
 }
@@ -153,7 +108,7 @@ Scene pyramid(const SceneValues &v)
   for (int64_t row = 0; row < rows; ++row)
     for (int64_t i = 0; i < rows - row; ++i) {
       double x = (double(i) - 0.5 * double(rows - row - 1)) * pitch;
-      scene.bodies.push_back(dynamic_body(0, {float(x), float(half * double(1 + 2 * row)), 0}, 1));
+      add_body(scene, 0, {float(x), float(half * double(1 + 2 * row)), 0});
     }
   return scene;
 }
@@ -169,10 +124,9 @@ Scene spheres(const SceneValues &v)
   scene.materials[0].restitution = float(number(v, "restitution"));
   scene.shapes = {sphere_shape(float(radius))};
   add_ground(scene);
-  int64_t side = 1;
-  while (side * side * side < n) ++side;
+  const int64_t side = cube_side(n);
   CellGrid grid{side, 2 * (radius + jitter) * 1.001, number(v, "height") + radius + jitter};
-  for (int64_t i = 0; i < n; ++i) scene.bodies.push_back(dynamic_body(0, grid.place(i, jitter, random), 1));
+  for (int64_t i = 0; i < n; ++i) add_body(scene, 0, grid.place(i, jitter, random));
   return scene;
 }
 
@@ -201,24 +155,6 @@ double volume(const Shape &shape)
   return shape.type == ShapeType::sphere ? 4.0 / 3.0 * 3.14159265358979 * x * x * x : 8 * x * y * z;
 }
 
-/* Four static boxes around |x|, |z| <= inner, as high as a third of the yard's width. */
-void add_walls(Scene &scene, double inner)
-{
-  float half_height = float(inner / 3), thick = 0.5f, far = float(inner) + thick;
-  auto first = uint32_t(scene.shapes.size());
-  scene.shapes.push_back(box_shape(thick, half_height, float(inner) + 2 * thick));
-  scene.shapes.push_back(box_shape(float(inner) + 2 * thick, half_height, thick));
-  for (int side = 0; side < 4; ++side) {
-    Body wall;
-    wall.name = "wall";
-    wall.motion = Motion::fixed;
-    wall.shape = first + (side >= 2);
-    wall.position = {0, half_height, 0};
-    wall.position[side < 2 ? 0 : 2] = side % 2 ? far : -far;
-    scene.bodies.push_back(wall);
-  }
-}
-
 uint64_t mixed_bodies(const SceneValues &v) { return 5 + uint64_t(whole(v, "n")); }
 
 Scene mixed(const SceneValues &v)
@@ -236,26 +172,23 @@ Scene mixed(const SceneValues &v)
                   sphere_shape(0.15f)};
   const auto movable = uint32_t(scene.shapes.size());
   const double largest_radius = 0.92, jitter = 0.1; /* half the diagonal of the plank */
-  int64_t side = 1;
-  while (side * side * side < n) ++side;
+  const int64_t side = cube_side(n);
   CellGrid grid{side, 2 * (largest_radius + jitter), largest_radius + jitter};
   add_ground(scene);
   add_walls(scene, 0.5 * grid.cell * double(side) + 0.5);
   for (int64_t i = 0; i < n; ++i) {
     uint32_t shape = random.below(movable), material = random.below(uint32_t(scene.materials.size()));
     double density = random.uniform(200, 2000);
-    Body body = dynamic_body(shape, grid.place(i, jitter, random), float(density * volume(scene.shapes[shape])));
+    Body &body = add_body(scene, shape, grid.place(i, jitter, random), float(density * volume(scene.shapes[shape])));
     body.material = material;
     body.orientation = random.orientation();
-    scene.bodies.push_back(body);
   }
   return scene;
 }
 
 /* --- the rows -------------------------------------------------------------------------------- */
 
-const SceneParameter seed{"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"};
-const SceneParameter half_extent{"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"};
+const SceneParameter seed = seed_parameter(), half_extent = half_extent_parameter();
 const double most = double(most_bodies - 5);
 
 std::vector<BuiltInScene> simple_scenes()
@@ -315,6 +248,7 @@ const std::vector<BuiltInScene> &catalog()
 {
   static const std::vector<BuiltInScene> rows = [] {
     std::vector<BuiltInScene> all = simple_scenes();
+    for (BuiltInScene &scene : shape_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : structure_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : talk_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));

@@ -10,26 +10,15 @@
 #include <cmath>
 
 #include "host/random.h"
+#include "host/scene_builders.h"
 
 namespace tandem {
+
+using namespace scene_builders;
+
 namespace {
 
-constexpr auto integer = SceneParameter::Type::integer;
-constexpr auto real = SceneParameter::Type::real;
 using Vector = std::array<double, 3>;
-
-int64_t whole(const SceneValues &values, const char *name) { return int64_t(values.find(name)->second); }
-double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
-
-Body &add_body(Scene &scene, const Shape &shape, Motion motion = Motion::dynamic)
-{
-  Body body;
-  body.motion = motion;
-  body.shape = uint32_t(scene.shapes.size());
-  scene.shapes.push_back(shape);
-  scene.bodies.push_back(body);
-  return scene.bodies.back();
-}
 
 /* --- free-flight ------------------------------------------------------------------------------- */
 
@@ -40,9 +29,9 @@ Scene free_flight(const SceneValues &v)
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
   const double spin = number(v, "spin");
+  const uint32_t box = add_shape(scene, box_shape(0.2f, 0.3f, 0.5f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    Body &body = add_body(scene, box_shape(0.2f, 0.3f, 0.5f));
-    body.position = {float(4 * (i % 100)), 0, float(4 * (i / 100))};
+    Body &body = add_body(scene, box, {float(4 * (i % 100)), 0, float(4 * (i / 100))});
     body.linear_velocity = {float(random.uniform(-0.5, 0.5)), float(random.uniform(3, 8)), float(random.uniform(-0.5, 0.5))};
     body.angular_velocity = {float(spin * random.uniform(-1, 1)), float(spin * random.uniform(-1, 1)), float(spin * random.uniform(-1, 1))};
     body.orientation = random.orientation();
@@ -72,10 +61,8 @@ Scene incline(const SceneValues &v)
   const double slope = number(v, "slope"), half = number(v, "half_extent");
   Scene scene;
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(number(v, "friction"));
-  Body &ground = add_body(scene, half_space_shape(), Motion::fixed);
-  ground.name = "ground";
-  ground.orientation = slope_turn(slope);
-  Body &box = add_body(scene, box_shape(float(half), float(half), float(half)));
+  add_ground(scene).orientation = slope_turn(slope);
+  Body &box = add_body(scene, add_shape(scene, box_shape(float(half), float(half), float(half))));
   const Vec3 normal = uphill_normal(slope);
   for (int k = 0; k < 3; ++k) box.position[k] = float(half * normal[k]);
   box.orientation = slope_turn(slope);
@@ -84,20 +71,18 @@ Scene incline(const SceneValues &v)
 
 /* --- bounce ---------------------------------------------------------------------------------------- */
 
-uint64_t ground_and_n(const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); }
-
 Scene bounce(const SceneValues &v)
 {
   const double radius = number(v, "radius"), height = number(v, "height");
   const int64_t n = whole(v, "n");
   Scene scene;
   scene.materials[0].restitution = float(number(v, "restitution"));
-  add_body(scene, half_space_shape(), Motion::fixed).name = "ground";
+  add_ground(scene);
+  const uint32_t ball = add_shape(scene, sphere_shape(float(radius)));
   for (int64_t i = 0; i < n; ++i) {
-    Body &ball = add_body(scene, sphere_shape(float(radius)));
     /* Not all alike: impacts fall everywhere within a time step. */
     const double own = height * (1 + 0.5 * double(i) / double(n));
-    ball.position = {float(4 * radius * double(i % 1000)), float(radius + own), float(4 * radius * double(i / 1000))};
+    add_body(scene, ball, {float(4 * radius * double(i % 1000)), float(radius + own), float(4 * radius * double(i / 1000))});
   }
   return scene;
 }
@@ -108,13 +93,10 @@ Scene mass_ratio(const SceneValues &v)
 {
   const double half = number(v, "half_extent"), ratio = number(v, "ratio");
   Scene scene;
-  add_body(scene, half_space_shape(), Motion::fixed).name = "ground";
+  add_ground(scene);
   double mass = 1;
-  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio) {
-    Body &box = add_body(scene, box_shape(float(half), float(half), float(half)));
-    box.position = {0, float(half * double(2 * i + 1)), 0};
-    box.mass = float(mass);
-  }
+  const uint32_t box = add_shape(scene, box_shape(float(half), float(half), float(half)));
+  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio) add_body(scene, box, {0, float(half * double(2 * i + 1)), 0}, float(mass));
   return scene;
 }
 
@@ -178,8 +160,7 @@ bool is_named(const Scene &scene, const char *name)
 
 std::vector<BuiltInScene> closed_form_scenes()
 {
-  const SceneParameter seed{"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"};
-  const SceneParameter half_extent{"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"};
+  const SceneParameter seed = seed_parameter(), half_extent = half_extent_parameter();
   return {{"free-flight",
            "boxes thrown apart, each spinning about no axis of its own; they meet nothing",
            {{"n", integer, 16, 1, 100000, "boxes"}, {"spin", real, 5, 0, 1000, "largest angular speed about each axis, rad/s"}, seed},

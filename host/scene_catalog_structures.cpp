@@ -4,41 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/scene_builders.h"
+
 namespace tandem {
+
+using namespace scene_builders;
+
 namespace {
 
-constexpr auto integer = SceneParameter::Type::integer;
-constexpr auto real = SceneParameter::Type::real;
-
-int64_t whole(const SceneValues &values, const char *name) { return int64_t(values.find(name)->second); }
-double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
-
+/* Shape 0 and body 0 are the ground. */
 Scene on_ground(double friction)
 {
   Scene scene;
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(friction);
-  scene.shapes.push_back(half_space_shape());
-  Body ground;
-  ground.name = "ground";
-  ground.motion = Motion::fixed;
-  scene.bodies.push_back(ground);
+  add_ground(scene);
   return scene;
-}
-
-uint32_t add_shape(Scene &scene, const Shape &shape)
-{
-  scene.shapes.push_back(shape);
-  return uint32_t(scene.shapes.size() - 1);
 }
 
 Body &add(Scene &scene, uint32_t shape, double x, double y, double z, double mass = 1)
 {
-  Body body;
-  body.shape = shape;
-  body.position = {float(x), float(y), float(z)};
-  body.mass = float(mass);
-  scene.bodies.push_back(body);
-  return scene.bodies.back();
+  return add_body(scene, shape, {float(x), float(y), float(z)}, float(mass));
 }
 
 /* Sine and cosine of the angle with the given tangent, and of its half. */
@@ -127,8 +112,6 @@ Scene tower(const SceneValues &v)
 
 /* --- dominoes: a row, the first pushed over ----------------------------------------------------------------------- */
 
-uint64_t dominoes_bodies(const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); }
-
 Scene dominoes(const SceneValues &v)
 {
   const double half_height = 0.5, half_thickness = 0.06, pitch = number(v, "pitch"), push = number(v, "push");
@@ -195,8 +178,6 @@ Scene tops(const SceneValues &v)
   return scene;
 }
 
-uint64_t tops_bodies(const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); }
-
 } // namespace
 
 double steady_precession(double half_extent, double spin, double lean_tangent, double gravity)
@@ -233,7 +214,7 @@ std::vector<BuiltInScene> structure_scenes()
        {{"n", integer, 20, 1, 100000, "dominoes"},
         {"pitch", real, 0.5, 0.13, 2, "from one to the next, m"},
         {"push", real, 2, 0, 100, "how fast the first turns over, rad/s"}},
-       dominoes_bodies,
+       ground_and_n,
        dominoes},
       {"wall",
        "a wall of bricks in running bond, and a ball that flies at it",
@@ -250,7 +231,7 @@ std::vector<BuiltInScene> structure_scenes()
         {"half_extent", real, 0.1, 0.001, 1000, "half the edge of a cube, m"},
         {"spin", real, 100, 0, 10000, "along the diagonal, rad/s"},
         {"lean", real, 0.3, 0, 0.7, "tangent of the angle between the diagonal and the vertical"}},
-       tops_bodies,
+       ground_and_n,
        tops},
   };
 }

@@ -1,8 +1,10 @@
 /* scene_json.cpp - one list of fields per record, from which both the reader and the writer follow. */
 #include "host/scene_json.h"
 
+#include "host/geometry/shape_mass.h"
 #include "host/json_reader.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
 #include <fmt/format.h>
@@ -11,7 +13,9 @@
 namespace tandem {
 namespace {
 
-constexpr const char *shape_names[] = {"sphere", "box", "half_space"};
+/* In the order of ShapeType; a cone is a cylinder, and written as one. */
+constexpr const char *shape_names[] = {"sphere", "box", "half_space", "capsule", "cylinder", "hull", "cone"};
+constexpr size_t cone_name = 6;
 constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
 constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
 
@@ -38,6 +42,8 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("material", &Body::material);
   field("position", &Body::position);
   field("orientation", &Body::orientation);
+  field("shape_position", &Body::shape_position);
+  field("shape_orientation", &Body::shape_orientation);
   field("linear_velocity", &Body::linear_velocity);
   field("angular_velocity", &Body::angular_velocity);
   field("mass", &Body::mass);
@@ -57,10 +63,15 @@ void read_value(const JsonValue &json, float &value) { value = json.number(); }
 void read_value(const JsonValue &json, uint32_t &value) { value = json.unsigned_integer(); }
 void read_value(const JsonValue &json, bool &value) { value = json.boolean(); }
 void read_value(const JsonValue &json, Vec3 &value) { value = json.vec3(); }
+void read_value(const JsonValue &json, Point &value) { value = json.point(); }
 void read_value(const JsonValue &json, Quat &value) { value = json.quat(); }
 template <typename Enum>
 requires std::is_enum_v<Enum>
 void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
+
+/* What a file may say of a record that is none of its fields. */
+template <typename Record> std::vector<const char *> further_keys(const Record *) { return {}; }
+std::vector<const char *> further_keys(const Body *) { return {"density"}; } /* take_densities */
 
 template <typename Record> void read_value(const JsonValue &json, Record &record) requires requires
 {
@@ -69,34 +80,102 @@ template <typename Record> void read_value(const JsonValue &json, Record &record
 {
   std::vector<const char *> known;
   each_field(&record, [&](const char *key, auto) { known.push_back(key); });
+  for (const char *key : further_keys(&record)) known.push_back(key);
   json.only_keys(known);
   each_field(&record, [&](const char *key, auto member) {
     if (std::optional<JsonValue> found = json.find(key)) read_value(*found, record.*member);
   });
 }
 
-/* {"type": "sphere", "radius": r}, {"type": "box", "half_extents": [x, y, z]}, {"type": "half_space"};
- * "size" instead gives the three numbers of the record as they are. */
-void read_value(const JsonValue &json, Shape &shape)
-{
-  static constexpr const char *size_keys[] = {"radius", "half_extents", nullptr};
-  shape.type = ShapeType(json.member("type").choice(shape_names));
-  const char *size_key = size_keys[size_t(shape.type)];
-  std::vector<const char *> known{"type", "size"};
-  if (size_key) known.push_back(size_key);
-  json.only_keys(known);
-  std::optional<JsonValue> size = json.find("size");
-  if (size && size_key && json.find(size_key))
-    json.fail(fmt::format("\"size\" and \"{}\" exclude each other", size_key));
-  if (size) shape.size = size->vec3();
-  else if (shape.type == ShapeType::sphere) shape = sphere_shape(json.member(size_key).number());
-  else shape.size = size_key ? json.member(size_key).vec3() : Vec3{0, 0, 0};
-}
+void read_value(const JsonValue &json, Shape &shape);
 
 template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records)
 {
   records.resize(json.array_size());
   for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
+}
+
+std::vector<const char *> size_keys(size_t name)
+{
+  if (name == cone_name) return {"radius", "half_height"};
+  switch (ShapeType(name)) {
+  case ShapeType::sphere: return {"radius"};
+  case ShapeType::box: return {"half_extents"};
+  case ShapeType::capsule:
+  case ShapeType::cylinder: return {"radius", "radius_bottom", "radius_top", "half_height"};
+  default: return {};
+  }
+}
+
+/* "radius" for both ends, or one for each. */
+void read_radii(const JsonValue &json, Shape &shape)
+{
+  std::optional<JsonValue> radius = json.find("radius");
+  if (radius && (json.find("radius_bottom") || json.find("radius_top")))
+    json.fail("\"radius\" and \"radius_bottom\", \"radius_top\" exclude each other");
+  shape.size[0] = radius ? radius->number() : json.member("radius_bottom").number();
+  shape.size[2] = radius ? shape.size[0] : json.member("radius_top").number();
+  shape.size[1] = json.member("half_height").number();
+}
+
+Shape read_hull(const JsonValue &points)
+{
+  std::vector<Vec3> list;
+  read_value(points, list);
+  return hull_shape(list, points.place());
+}
+
+void read_size(const JsonValue &json, size_t name, Shape &shape)
+{
+  if (name == cone_name) shape = cone_shape(json.member("radius").number(), json.member("half_height").number());
+  else if (shape.type == ShapeType::sphere) shape = sphere_shape(json.member("radius").number());
+  else if (shape.type == ShapeType::box) shape.size = json.member("half_extents").vec3();
+  else if (shape.type == ShapeType::capsule || shape.type == ShapeType::cylinder) read_radii(json, shape);
+}
+
+/* {"type": "sphere", "radius": r} and so on: docs/scene-format.md. "size" instead gives the three numbers of the record as they are. */
+void read_value(const JsonValue &json, Shape &shape)
+{
+  const size_t name = json.member("type").choice(shape_names);
+  const std::vector<const char *> sizes = size_keys(name);
+  const bool hull = name == size_t(ShapeType::hull);
+  std::vector<const char *> known{"type"};
+  known.insert(known.end(), sizes.begin(), sizes.end());
+  if (hull) known.push_back("points");
+  if (name != cone_name) known.push_back("size");
+  json.only_keys(known);
+  std::optional<JsonValue> size = json.find("size");
+  for (const char *key : sizes)
+    if (size && json.find(key)) json.fail(fmt::format("\"size\" and \"{}\" exclude each other", key));
+  shape = hull ? read_hull(json.member("points")) : Shape{name == cone_name ? ShapeType::cylinder : ShapeType(name), {0, 0, 0}};
+  if (size) shape.size = size->vec3();
+  else read_size(json, name, shape);
+}
+
+/* With a density, mass, centre of mass and principal axes come from the shape, and the body's frame moves there. */
+void take_density(const JsonValue &json, Scene &scene, Body &body)
+{
+  static constexpr const char *replaced[] = {"mass", "inertia"};
+  for (const char *key : replaced)
+    if (json.find(key)) json.fail(fmt::format("\"density\" and \"{}\" exclude each other", key));
+  const JsonValue density = json.member("density");
+  const Shape &shape = scene.shapes[body.shape];
+  if (shape.type == ShapeType::half_space) density.fail("a half_space has no mass; leave it away");
+  if (!(density.number() > 0)) density.fail(fmt::format("is {}; a number above 0 is needed", density.number()));
+  take_mass_properties(scene, body);
+  body.mass = float(double(density.number()) * mass_properties_of(shape).mass);
+}
+
+void take_densities(const JsonValue &bodies, Scene &scene, const std::string &where)
+{
+  std::vector<size_t> given;
+  for (size_t i = 0; i < scene.bodies.size(); ++i)
+    if (bodies.element(i).find("density")) given.push_back(i);
+  if (given.empty()) return;
+  Scene sound = scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
+  for (size_t i : given) sound.bodies[i].motion = std::min(sound.bodies[i].motion, Motion::kinematic);
+  validate(sound, where);
+  for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
 }
 
 void check_version(const JsonValue &root)
@@ -109,11 +188,11 @@ void check_version(const JsonValue &root)
 
 /* --- writing --------------------------------------------------------------------------------- */
 
-std::string hex_float(float value)
+template <class Real> std::string hex_float(Real value)
 {
   char digits[32];
   auto [end, error] = std::to_chars(digits, digits + sizeof digits, std::abs(value), std::chars_format::hex);
-  (void)error; /* 32 characters hold every float */
+  (void)error; /* 32 characters hold every number */
   return fmt::format("\"{}0x{}\"", std::signbit(value) ? "-" : "", std::string_view(digits, size_t(end - digits)));
 }
 
@@ -135,7 +214,7 @@ requires std::is_enum_v<Enum> std::string written(Enum value)
 {
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
-template <size_t n> std::string written(const std::array<float, n> &values)
+template <class Real, size_t n> std::string written(const std::array<Real, n> &values)
 {
   std::string text = "[";
   for (size_t i = 0; i < n; ++i) text += (i ? ", " : "") + hex_float(values[i]);
@@ -160,14 +239,37 @@ template <typename Record> std::string written_record(const Record &record, std:
 std::string written(const Material &material) { return written_record(material, ""); }
 std::string written(const Body &body) { return written_record(body, ""); }
 
+std::string written(const std::vector<Vec3> &points)
+{
+  std::string text = "[";
+  for (size_t i = 0; i < points.size(); ++i) text += (i ? ", " : "") + written(points[i]);
+  return text + "]";
+}
+
+/* The three numbers of a shape that says all it has without them. */
+std::string written_size(const Shape &shape, const Vec3 &expected)
+{
+  return same(shape.size, expected) ? "" : ", \"size\": " + written(shape.size);
+}
+
 std::string written(const Shape &shape)
 {
   std::string text = fmt::format("{{\"type\": \"{}\"", shape_names[size_t(shape.type)]);
-  if (shape.type == ShapeType::box) return text + ", \"half_extents\": " + written(shape.size) + "}";
-  bool sphere = shape.type == ShapeType::sphere;
-  Shape canonical = sphere ? sphere_shape(shape.size[0]) : half_space_shape();
-  if (!same(shape.size, canonical.size)) return text + ", \"size\": " + written(shape.size) + "}";
-  return text + (sphere ? ", \"radius\": " + written(shape.size[0]) : "") + "}";
+  const auto &[bottom, half_height, top] = shape.size;
+  switch (shape.type) {
+  case ShapeType::sphere: {
+    const std::string size = written_size(shape, sphere_shape(bottom).size);
+    return text + (size.empty() ? ", \"radius\": " + written(bottom) : size) + "}";
+  }
+  case ShapeType::box: return text + ", \"half_extents\": " + written(shape.size) + "}";
+  case ShapeType::half_space: return text + written_size(shape, {0, 0, 0}) + "}";
+  case ShapeType::hull: return text + ", \"points\": " + written(shape.hull->vertices) + written_size(shape, {0, 0, 0}) + "}";
+  case ShapeType::capsule:
+  case ShapeType::cylinder: break;
+  }
+  text += same(bottom, top) ? ", \"radius\": " + written(bottom)
+                            : fmt::format(", \"radius_bottom\": {}, \"radius_top\": {}", written(bottom), written(top));
+  return text + ", \"half_height\": " + written(half_height) + "}";
 }
 
 template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records)
@@ -192,6 +294,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where)
   if (auto materials = root.find("materials")) read_value(*materials, scene.materials);
   read_value(root.member("shapes"), scene.shapes);
   read_value(root.member("bodies"), scene.bodies);
+  take_densities(root.member("bodies"), scene, where);
   validate(scene, where);
   return scene;
 }

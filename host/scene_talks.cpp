@@ -20,27 +20,16 @@
 #include <cmath>
 
 #include "host/random.h"
+#include "host/scene_builders.h"
 
 namespace tandem {
+
+using namespace scene_builders;
+
 namespace {
 
-void add_ground(Scene &scene)
-{
-  Body ground;
-  ground.name = "ground";
-  ground.motion = Motion::fixed;
-  ground.shape = uint32_t(scene.shapes.size());
-  scene.shapes.push_back(half_space_shape());
-  scene.bodies.push_back(ground);
-}
-
-void add_box(Scene &scene, double x, double y, double z)
-{
-  Body body;
-  body.position = {float(x), float(y), float(z)};
-  body.mass = 1;
-  scene.bodies.push_back(body);
-}
+/* Of shape 0. */
+void add_box(Scene &scene, double x, double y, double z) { add_body(scene, 0, {float(x), float(y), float(z)}); }
 
 uint64_t value_of(const SceneValues &values, const char *name) { return uint64_t(values.find(name)->second); }
 
@@ -51,8 +40,6 @@ uint64_t whole_flanks(uint64_t n)
   while ((flanks + 1) * (flanks + 2) / 2 <= n) ++flanks;
   return flanks;
 }
-
-uint64_t pyramid_2d_bodies(const SceneValues &values) { return 1 + value_of(values, "n"); }
 
 Scene pyramid_2d(const SceneValues &values)
 {
@@ -98,12 +85,10 @@ uint64_t pyramid_2d_contacts(uint64_t n)
 
 std::vector<BuiltInScene> talk_scenes()
 {
-  constexpr auto integer = SceneParameter::Type::integer;
-  constexpr auto real = SceneParameter::Type::real;
   return {{"pyramid-2d",
            "a wall of touching cubes, each on two others: 31,602 contacts, as in a batch table of the 2009 talk",
            {{"n", integer, 10631, 1, 3'000'000, "cubes"}, {"half_extent", real, 0.5, 0.001, 1000, "half the edge of a cube, m"}},
-           pyramid_2d_bodies,
+           ground_and_n,
            pyramid_2d},
           {"talk-3d",
            "the 3,008 boxes of the other batch table of the 2009 talk: a lattice that falls and topples",
@@ -111,7 +96,7 @@ std::vector<BuiltInScene> talk_scenes()
             {"ny", integer, 47, 1, 1000, "layers"},
             {"nz", integer, 8, 1, 1000, "boxes along z"},
             {"jitter", real, 0.15, 0, 0.29, "largest random shift along x and z, m"},
-            {"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"}},
+            seed_parameter()},
            talk_3d_bodies,
            talk_3d}};
 }

@@ -54,7 +54,14 @@ std::string stage_list()
 } // namespace
 
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
-std::vector<std::string> narrowphase_names() { return {"sat"}; }
+/* In the order of CONVEX_ in shared/narrowphase/convex_contact.h. */
+std::vector<std::string> narrowphase_names() { return {"gjk-epa", "gjk-sampled", "sat"}; }
+
+uint32_t narrowphase_method(const std::string &name)
+{
+  const std::vector<std::string> names = narrowphase_names();
+  return static_cast<uint32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
 std::vector<std::string> batching_names()
 {
   std::vector<std::string> names;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/shape_bounds.h"
 #include "shared/features.h"
 
 namespace tandem {
@@ -25,9 +26,18 @@ Presence presence_of(const Scene &scene)
   Presence present;
   for (const Body &body : scene.bodies) {
     const auto type = static_cast<size_t>(scene.shapes[body.shape].type);
+    if (is_general(scene, body)) continue;
     (is_dynamic(body) ? present.dynamic : present.fixed)[type] = true;
   }
   return present;
+}
+
+uint32_t convex_features(const Scene &scene)
+{
+  const auto any = [&](const auto &wanted) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), wanted); };
+  if (!any([&](const Body &body) { return is_general(scene, body); })) return 0;
+  const bool above = any([&](const Body &body) { return scene.shapes[body.shape].type == ShapeType::half_space; });
+  return uint32_t{FEATURE_CONVEX} | (above ? uint32_t{FEATURE_CONVEX_HALF_SPACE} : 0u);
 }
 
 uint32_t pair_features(const Presence &present)
@@ -78,7 +88,7 @@ uint32_t body_features(const Scene &scene)
 std::vector<uint32_t> large_bodies(const Scene &scene)
 {
   const float limit = large_ratio * median_radius(scene);
-  const auto radius = [&](uint32_t body) { return bounding_radius(scene.shapes[scene.bodies[body].shape]); };
+  const auto radius = [&](uint32_t body) { return bounding_radius(scene, scene.bodies[body]); };
   std::vector<uint32_t> boundless, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
@@ -97,20 +107,16 @@ float median_radius(const Scene &scene)
 {
   std::vector<float> radii;
   for (const Body &body : scene.bodies)
-    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene.shapes[body.shape]));
+    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene, body));
   if (radii.empty()) return 0;
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
   return radii[radii.size() / 2];
 }
 
-float bounding_radius(const Shape &shape)
+bool is_general(const Scene &scene, const Body &body)
 {
-  switch (shape.type) {
-  case ShapeType::sphere: return shape.size[0];
-  case ShapeType::box: return std::hypot(shape.size[0], shape.size[1], shape.size[2]);
-  case ShapeType::half_space: return 0;
-  }
-  return 0;
+  const bool posed = body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
+  return posed || scene.shapes[body.shape].type > ShapeType::half_space;
 }
 
 Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
@@ -128,7 +134,7 @@ uint32_t all_features() { return (1u << FEATURE_COUNT) - 1; }
 Specialisation specialise(const Scene &scene)
 {
   Specialisation result;
-  result.features = pair_features(presence_of(scene)) | body_features(scene);
+  result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
   result.order = large_bodies(scene);
   result.large = static_cast<uint32_t>(result.order.size());
   std::vector<bool> taken(scene.bodies.size());

@@ -28,8 +28,8 @@ uint32_t all_features();
 /* The median of bounding_radius over the bodies of finite size; 0 for none. */
 float median_radius(const Scene &scene);
 
-/* Radius of the sphere about the centre that holds the shape; 0 for a half-space. */
-float bounding_radius(const Shape &shape);
+/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body. */
+bool is_general(const Scene &scene, const Body &body);
 
 /* Principal moments: the body's own, or from its shape and mass; 0 where it cannot turn. */
 Vec3 inverse_inertia_of(const Scene &scene, const Body &body);

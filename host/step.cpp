@@ -93,6 +93,8 @@ private:
     if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
     if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
+    if (has(FEATURE_CONVEX)) run(Kernel::collide_convex, {narrowphase_method(settings().narrowphase)});
+    if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
   }
 
   void color_contacts()

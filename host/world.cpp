@@ -69,7 +69,12 @@ struct World::Implementation {
 
   Sizes sizes() const
   {
-    return {plan.bodies, static_cast<uint32_t>(scene.materials.size()), plan.capacity_pairs, plan.capacity_cells, special.features};
+    return {.bodies = plan.bodies,
+            .materials = static_cast<uint32_t>(scene.materials.size()),
+            .hulls = hull_sizes(scene),
+            .pairs = plan.capacity_pairs,
+            .cells = plan.capacity_cells,
+            .features = special.features};
   }
 
   /* Kernels and buffers of the tail only once there is one. */
@@ -138,6 +143,8 @@ struct World::Implementation {
   void upload_scene()
   {
     upload_bodies(memory, scene, special.order);
+    upload_shape_poses(memory, scene, special.order);
+    upload_hulls(memory, scene);
     upload_materials(memory, scene);
     upload_parameters();
     std::vector<uint32_t> counts(COUNT_TOTAL);

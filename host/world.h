@@ -23,7 +23,7 @@
 namespace tandem {
 
 struct BodyState {
-  Vec3 position;
+  Point position;
   Quat orientation;
   Vec3 linear_velocity;
   Vec3 angular_velocity;
@@ -31,7 +31,7 @@ struct BodyState {
 
 /* The same as precise as it is known: in double where everything runs on the reference backend. */
 struct PreciseBodyState {
-  std::array<double, 3> position;
+  Point position;
   std::array<double, 4> orientation;
   std::array<double, 3> linear_velocity, angular_velocity;
 };

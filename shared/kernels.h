@@ -3,6 +3,7 @@
 #define TANDEM_SHARED_KERNELS_H
 
 #include "shared/lanes_kernels.h"
+#include "shared/narrowphase/collide_convex.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"
 #include "shared/parallel/copy.h"
@@ -26,10 +27,9 @@
 #include "shared/solve/mass_split_sum.h"
 #include "shared/batching/body_coloring.h"
 #include "shared/solve/avbd_bodies.h"
-#include "shared/solve/tail.h"
+#include "shared/solve/pgs.h"
+#include "shared/solve/nncg.h"
 #include "shared/solve/xpbd_tail.h"
-#include "shared/solve/pgs_tail.h"
-#include "shared/solve/nncg_tail.h"
 #include "shared/solve/rolling_tail.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"

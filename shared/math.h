@@ -27,6 +27,8 @@ SHARED vec3 make_vec3(real x, real y, real z)
   vec3 v = {x, y, z};
   return v;
 }
+/* Of the three components neither the least nor the largest. */
+SHARED real middle_of(vec3 v) { return maximum(minimum(v.x, v.y), minimum(maximum(v.x, v.y), v.z)); }
 SHARED vec4 make_vec4(real x, real y, real z, real w)
 {
   vec4 v = {x, y, z, w};
@@ -118,11 +120,14 @@ SHARED vec3 axis_x(mat3 m) { return make_vec3(m.x.x, m.y.x, m.z.x); }
 SHARED vec3 axis_y(mat3 m) { return make_vec3(m.x.y, m.y.y, m.z.y); }
 SHARED vec3 axis_z(mat3 m) { return make_vec3(m.x.z, m.y.z, m.z.z); }
 
-/* R diag(d) R^T */
+/* R diag(d) R^T = least I + R diag(d - least) R^T: the rows of R are square to one another only to rounding, and what all three
+ * share would leave that rounding, times its own size, in every element off the diagonal. */
 SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)
 {
-  vec3 x = multiply(m.x, d), y = multiply(m.y, d), z = multiply(m.z, d);
-  symmetric3 s = {inner(x, m.x), inner(y, m.y), inner(z, m.z), inner(x, m.y), inner(x, m.z), inner(y, m.z)};
+  real least = minimum(d.x, minimum(d.y, d.z));
+  vec3 rest = make_vec3(d.x - least, d.y - least, d.z - least);
+  vec3 x = multiply(m.x, rest), y = multiply(m.y, rest), z = multiply(m.z, rest);
+  symmetric3 s = {least + inner(x, m.x), least + inner(y, m.y), least + inner(z, m.z), inner(x, m.y), inner(x, m.z), inner(y, m.z)};
   return s;
 }
 

@@ -2,21 +2,54 @@
 #ifndef TANDEM_SHARED_RECORDS_H
 #define TANDEM_SHARED_RECORDS_H
 
+#include "shared/body_codes.h"
 #include "shared/counts.h"
 #include "shared/features.h"
 #include "shared/math.h"
 #include "shared/parameters.h"
 
-/* body_traits: bits 0-2 shape, 3-4 motion, 8-31 material */
-enum { SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2 };
 /* Half extent of what has no end, in metres. */
 #define BOUNDLESS R(1e30)
-
-enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
 SHARED natural material_of(natural traits) { return traits >> 8u; }
+
+/* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low` is what rounding
+ * took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971). */
+typedef struct { vec3 high, low; } place;
+
+SHARED place load_place(GLOBAL const row *body_position, natural body)
+{
+  place p = {xyz(load_row(body_position, body * 2u)), xyz(load_row(body_position, body * 2u + 1u))};
+  return p;
+}
+SHARED void store_place(GLOBAL row *body_position, natural body, place p)
+{
+  store_row(body_position, body * 2u, extend(p.high, R(0.0)));
+  store_row(body_position, body * 2u + 1u, extend(p.low, R(0.0)));
+}
+
+/* What a + b lost when it became `sum`, exactly (Knuth's two-sum). */
+SHARED vec3 lost_in_sum(vec3 a, vec3 b, vec3 sum)
+{
+  vec3 from_b = subtract(sum, a), from_a = subtract(sum, from_b);
+  return add(subtract(a, from_a), subtract(b, from_b));
+}
+SHARED place moved_place(place p, vec3 by)
+{
+  vec3 sum = add(p.high, by), low = add(p.low, lost_in_sum(p.high, by, sum));
+  place moved = {add(sum, low), low};
+  moved.low = lost_in_sum(sum, low, moved.high);
+  return moved;
+}
+
+/* The centre of `to` seen from that of `from`: differences first, so that far away costs nothing. */
+SHARED vec3 offset_between(GLOBAL const row *body_position, natural from, natural to)
+{
+  place a = load_place(body_position, from), b = load_place(body_position, to);
+  return add(subtract(b.high, a.high), subtract(b.low, a.low));
+}
 
 /* Linear velocity and inverse mass, angular velocity: two rows, one 32-byte record. */
 typedef struct {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "host/incidence.h"
+#include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
 
 namespace tandem {
@@ -52,7 +53,10 @@ void launch_avbd(StepLaunches &step)
     step.run(Kernel::integrate_positions);
     solve_rolling(step);
   }
-  if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  apply_restitution(step, tail);
 }
 
 void commit_avbd(StepLaunches &step) { step.run(Kernel::avbd_cache); }

@@ -3,23 +3,28 @@
  * The iterative rows run over all constraints: they are what large islands get, and the first guess of small ones, which
  * solve_islands (host/solvers/islands.h) then brings to the solution in double on the CPU. */
 #include "host/solvers/islands.h"
+#include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
 
-void launch_substep(StepLaunches &step)
+void launch_pass(StepLaunches &step, MassSplit &tail, uint32_t pass)
+{
+  step.for_each_color(Kernel::solve_contacts, {pass});
+  tail.solve(pass, tail_iterations);
+}
+
+void launch_substep(StepLaunches &step, MassSplit &tail)
 {
   step.run(Kernel::integrate_velocities);
-  step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
-  warm_start_rolling(step);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
-    step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {PASS_BIASED});
+  warm_start_contacts(step, tail);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration) launch_pass(step, tail, PASS_BIASED);
   step.run(Kernel::solve_islands, {island_pass_biased});
   solve_rolling(step);
   step.run(Kernel::integrate_positions);
-  step.for_each_color(Kernel::solve_contacts, Kernel::solve_tail, {PASS_LAST});
+  launch_pass(step, tail, PASS_LAST);
   step.run(Kernel::solve_islands, {island_pass_relaxing});
   solve_rolling(step);
 }
@@ -28,10 +33,11 @@ void launch_substep(StepLaunches &step)
 
 void launch_direct(StepLaunches &step)
 {
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
-  if (!step.has(FEATURE_RESTITUTION)) return;
-  step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
-  step.run(Kernel::solve_islands, {island_pass_bouncing});
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail);
+  apply_restitution(step, tail);
+  if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {island_pass_bouncing});
 }
 
 } // namespace tandem

@@ -92,7 +92,7 @@ struct Rows {
   Parameters parameters;
   std::vector<uint32_t> a, b;
   std::vector<row> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, bounce;
-  std::vector<double> slop;
+  std::vector<double> slop; /* or that it is deep: slop_or_deep */
 };
 
 uint32_t points_of(const Rows &rows, uint32_t constraint)
@@ -253,7 +253,8 @@ bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, 
   const double old = value_of(rows_.normal_impulse[i], k);
   const bool ahead = separation > 0;
   if (pass_ == island_pass_biased) {
-    bias = ahead ? separation * p.inverse_substep : maximum(rate * minimum(separation + rows_.slop[i], 0.0), -p.push_speed);
+    const double slop = slop_of(rows_.slop[i]), limit = push_limit(&p, rows_.slop[i]);
+    bias = ahead ? separation * p.inverse_substep : maximum(rate * minimum(separation + slop, 0.0), -limit);
     return true;
   }
   bias = ahead ? separation * p.inverse_substep : 0.0;

@@ -2,6 +2,7 @@
 #include "host/solvers/mass_split.h"
 
 #include "host/incidence.h"
+#include "host/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
 namespace tandem {
@@ -57,6 +58,20 @@ void MassSplit::join_parts()
   if (trees)
     for (Kernel kernel : {Kernel::split_sum, Kernel::split_join}) step_.run_range(kernel, COUNT_ZERO, incidence_count(first_color_));
   step_.run(Kernel::split_apply, {trees ? 1u : 0u});
+}
+
+void warm_start_contacts(StepLaunches &step, MassSplit &tail)
+{
+  step.for_each_color(Kernel::warm_start);
+  tail.warm_start();
+  warm_start_rolling(step);
+}
+
+void apply_restitution(StepLaunches &step, MassSplit &tail)
+{
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  step.for_each_color(Kernel::apply_restitution);
+  tail.apply_restitution();
 }
 
 } // namespace tandem

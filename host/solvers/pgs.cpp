@@ -1,33 +1,40 @@
 /* pgs.cpp - projected Gauss-Seidel, rows in the order of the talks; see shared/solve/pgs.h. */
+#include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
+#include "shared/solve/pass.h"
 
 namespace tandem {
 namespace {
 
-void launch_substep(StepLaunches &step)
+void launch_substep(StepLaunches &step, MassSplit &tail)
 {
+  const uint32_t sweeps = step.settings().iterations;
   step.run(Kernel::integrate_velocities);
-  step.for_each_color(Kernel::warm_start, Kernel::warm_start_tail);
-  warm_start_rolling(step);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_pgs_sweep(step, true);
+  warm_start_contacts(step, tail);
+  for (uint32_t sweep = 0; sweep < sweeps; ++sweep) launch_pgs_sweep(step, tail, PASS_BIASED);
   step.run(Kernel::integrate_positions);
   step.run(Kernel::pgs_masses);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_pgs_sweep(step, false);
+  for (uint32_t sweep = 0; sweep < sweeps; ++sweep) launch_pgs_sweep(step, tail, PASS_LAST);
 }
 
 } // namespace
 
-void launch_pgs_sweep(StepLaunches &step, bool biased)
+void launch_pgs_sweep(StepLaunches &step, MassSplit &tail, uint32_t pass)
 {
-  step.for_each_color(Kernel::pgs_normals, Kernel::pgs_normals_tail, {biased ? 1u : 0u});
-  if (step.has(FEATURE_FRICTION)) step.for_each_color(Kernel::pgs_friction, Kernel::pgs_friction_tail);
+  for (uint32_t turn = 0; turn < tail.turns(); ++turn) {
+    step.for_each_color(Kernel::pgs_normals, {pass == PASS_BIASED ? 1u : 0u});
+    if (step.has(FEATURE_FRICTION)) step.for_each_color(Kernel::pgs_friction);
+    tail.solve(pass, tail_iterations);
+  }
   solve_rolling(step);
 }
 
 void launch_pgs(StepLaunches &step)
 {
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
-  if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail);
+  apply_restitution(step, tail);
 }
 
 } // namespace tandem

@@ -39,9 +39,7 @@ void launch_soft_step(StepLaunches &step)
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
-  if (!step.has(FEATURE_RESTITUTION)) return;
-  step.for_each_color(Kernel::apply_restitution);
-  tail.apply_restitution();
+  apply_restitution(step, tail);
 }
 
 } // namespace tandem

@@ -34,9 +34,13 @@ void commit_avbd(StepLaunches &step);
 void launch_jacobi(StepLaunches &step);
 void launch_direct(StepLaunches &step);
 
-/* What several solvers launch: one sweep of pgs, friction after all normals; the torques of rolling friction, nothing in a
- * scene without. */
-void launch_pgs_sweep(StepLaunches &step, bool biased);
+class MassSplit;
+
+/* What several solvers launch: the impulses of the last step or substep, applied once more; one sweep of pgs, friction after all
+ * normals (pass: of shared/solve/pass.h); restitution and the torques of rolling friction, nothing in a scene without. */
+void warm_start_contacts(StepLaunches &step, MassSplit &tail);
+void launch_pgs_sweep(StepLaunches &step, MassSplit &tail, uint32_t pass);
+void apply_restitution(StepLaunches &step, MassSplit &tail);
 void warm_start_rolling(StepLaunches &step);
 void solve_rolling(StepLaunches &step);
 

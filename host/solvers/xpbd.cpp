@@ -1,4 +1,5 @@
 /* xpbd.cpp - positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
+#include "host/solvers/mass_split.h"
 #include "host/solvers/solvers.h"
 
 namespace tandem {
@@ -21,7 +22,10 @@ void launch_xpbd(StepLaunches &step)
 {
   step.run(Kernel::xpbd_prepare);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
-  if (step.has(FEATURE_RESTITUTION)) step.for_each_color(Kernel::apply_restitution, Kernel::apply_restitution_tail);
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  apply_restitution(step, tail);
 }
 
 void commit_xpbd(StepLaunches &step) { step.run(Kernel::xpbd_cache); }

@@ -40,7 +40,7 @@ SHARED uint cell_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint 
                          GLOBAL const uint *counts, uint a, uint b)
 {
   uint body = is_moving(body_traits, a) ? a : b;
-  return cell_key(xyz(load_row(body_position, body)), (real)parameters->inverse_batch_cell, counts[COUNT_BATCH_CELLS]);
+  return cell_key(load_place(body_position, body).high, (real)parameters->inverse_batch_cell, counts[COUNT_BATCH_CELLS]);
 }
 
 SHARED void clear_cells_item(GLOBAL uint *body_cells, uint i)

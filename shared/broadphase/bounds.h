@@ -22,6 +22,14 @@ SHARED vec3 half_extents(natural shape, vec3 size, mat3 rotation)
   return choose3(shape == (natural)SHAPE_HALF_SPACE, everything, choose3(shape == (natural)SHAPE_SPHERE, sphere, box));
 }
 
+/* Of a shape that has a pose: as far on both sides of the body's centre as the box around the shape reaches on one. */
+SHARED vec3 posed_half_extents(GLOBAL const row *body_shape_pose, natural body, mat3 rotation)
+{
+  vec3 center = rotate(rotation, xyz(load_row(body_shape_pose, body * 4u + 2u))), size = xyz(load_row(body_shape_pose, body * 4u + 3u));
+  vec3 extent = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size), inner(absolute(rotation.z), size));
+  return add(absolute(center), extent);
+}
+
 /* A turning shape stays within its bounding sphere. */
 SHARED real turned_extent(real extent, real radius, real turn)
 {
@@ -29,20 +37,23 @@ SHARED real turned_extent(real extent, real radius, real turn)
 }
 
 SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
-                                GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
+                                GLOBAL const row *body_shape_pose, GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
                                 GLOBAL const row *body_velocity, GLOBAL row *bounds, item_index i)
 {
   vec4 size = load_row(body_shape, i);
-  vec3 center = xyz(load_row(body_position, i));
+  vec3 center = load_place(body_position, i).high;
   motion m = load_motion(body_velocity, i);
   mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
-  vec3 extent = half_extents(shape_of(load_natural(body_traits, i)), xyz(size), rotation);
+  natural shape = shape_of(load_natural(body_traits, i));
+  vec3 extent = half_extents(shape, xyz(size), rotation);
+  if (HAS_FEATURE(parameters, FEATURE_CONVEX)) extent = choose3(shape == (natural)SHAPE_OTHER, posed_half_extents(body_shape_pose, i, rotation), extent);
 
   real step = parameters->step;
   real turn = length_of(m.angular) * step;
   real margin = parameters->bounds_margin;
-  extent = make_vec3(turned_extent(extent.x, size.w, turn) + margin, turned_extent(extent.y, size.w, turn) + margin,
-                     turned_extent(extent.z, size.w, turn) + margin);
+  vec3 rounding = scale(absolute(center), R(2.4e-7)); /* of the centre and of the sums below: two ulps */
+  extent = make_vec3(turned_extent(extent.x, size.w, turn) + margin + rounding.x, turned_extent(extent.y, size.w, turn) + margin + rounding.y,
+                     turned_extent(extent.z, size.w, turn) + margin + rounding.z);
 
   real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
   vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);

@@ -33,7 +33,7 @@ SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row 
 {
   motion m = load_motion(solver_velocity, i);
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
-  vec3 position = add(xyz(load_row(body_position, i)), xyz(load_row(solver_delta, i * 2u)));
+  vec3 position = moved_place(load_place(body_position, i), xyz(load_row(solver_delta, i * 2u))).high;
   note_nonfinite(is_finite(position) & quaternion_is_finite(load_row(solver_orientation, i)), counts, i, NONFINITE_IN_INTEGRATE);
 }
 
@@ -57,8 +57,7 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
                                GLOBAL row *body_position, GLOBAL row *body_orientation, GLOBAL row *body_velocity, item_index i)
 {
-  vec3 position = add(xyz(load_row(body_position, i)), xyz(load_row(solver_delta, i * 2u)));
-  store_row(body_position, i, extend(position, R(0.0)));
+  store_place(body_position, i, moved_place(load_place(body_position, i), xyz(load_row(solver_delta, i * 2u))));
   store_row(body_orientation, i, load_row(solver_orientation, i));
   store_motion(body_velocity, i, load_motion(solver_velocity, i));
 }

@@ -56,8 +56,6 @@ SHARED quat turned_about_z(quat q, real angle)
   return make_quat(q.x * f.cosine + q.y * f.sine, q.y * f.cosine - q.x * f.sine, q.z * f.cosine + q.w * f.sine, q.w * f.cosine - q.z * f.sine);
 }
 
-SHARED real middle_of(vec3 v) { return maximum(minimum(v.x, v.y), minimum(maximum(v.x, v.y), v.z)); }
-
 /* Moment of momentum about the body's axes. */
 SHARED vec3 momentum_in_body(quat q, vec3 momentum) { return rotate_back(rotation_of(q), momentum); }
 

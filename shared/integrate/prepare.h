@@ -24,9 +24,9 @@ SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *b
 {
   motion m = load_motion(body_velocity, i);
   vec4 orientation = load_row(body_orientation, i);
-  vec3 position = xyz(load_row(body_position, i));
+  place position = load_place(body_position, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position) & quaternion_is_finite(orientation), counts, i,
+  note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) & quaternion_is_finite(orientation), counts, i,
                  NONFINITE_AT_START);
   store_motion(solver_velocity, i, m);
   store_row(solver_delta, i * 2u, zero);

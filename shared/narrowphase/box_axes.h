@@ -10,6 +10,15 @@
  *
  * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
  * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
+ *
+ * Boxes rest in one another by the slop. So one that slides over a floor of tiles would meet the side of the next tile, and
+ * one in a grid its neighbours' neighbours:
+ *
+ *       +---------+ -->                    Where two boxes overlap by no more than the slop along one face axis of a
+ *       |         |                        box, and are apart or overlap no more along another, only a bar that thin
+ *    ---|--+------|-+---------  <- slop    of their edges can touch. Edges count as rounded off by that much: such boxes
+ *       +--|------+ |                      are apart. A ledge lower than the slop is slid over, in every direction.
+ *     tile |   tile |   tile
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
@@ -63,8 +72,25 @@ SHARED vec3 in_axes_of(oriented_box box, vec3 v)
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
 
-/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place, metres. */
-SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop)
+/* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
+SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }
+
+/* The slop and what a contact sags more than that, as a share of the slop. */
+#define ROUNDED_EDGE R(1.25)
+/* The separation of boxes of which only rounded edges meet. */
+#define FAR_APART R(1e30)
+
+/* gap: along the three face axes of one box; the middle one is the second largest. Where both show a gap the boxes are
+ * apart in any case, and what comes ahead is for the other axes to say. lead: by how much gaps are compared. */
+SHARED mask only_edges_meet(vec3 gap, real rounded, real lead)
+{
+  real second = middle_of(gap);
+  return (maximum(gap.x, maximum(gap.y, gap.z)) > -rounded) & (second > -(rounded + R(2.0) * lead)) & (second < lead);
+}
+
+/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of their edges
+ * counts as rounded off; metres. */
+SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded)
 {
   vec3 to_b = in_axes_of(a, offset);
   vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
@@ -78,7 +104,7 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
 
   real span = sum_of(absolute(to_b)) + sum_of(a.extent) + sum_of(b.extent);
   real noise = span * R(5e-7);
-  real lead = minimum(slop * R(0.1), minimum(least_of(a.extent), least_of(b.extent)) * R(0.01)) + noise * R(2.0);
+  real lead = lead_of(slop, minimum(least_of(a.extent), least_of(b.extent))) + noise * R(2.0);
 
   separating_axis best;
   best.separation = gap_a.x;
@@ -98,6 +124,8 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   mask on_edges = edges.separation > best.separation + lead;
   best.separation = choose(on_edges, edges.separation, best.separation);
   best.code = choose(on_edges, edges.code, best.code);
+  mask rounded_off = (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
+  best.separation = choose(rounded_off, (real)FAR_APART, best.separation);
   return best;
 }
 

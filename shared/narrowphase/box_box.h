@@ -157,6 +157,15 @@ SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair)
   return choose_manifold(wanted, edge_contact(pair), m);
 }
 
+/* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis must lead by. */
+SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natural b)
+{
+  real little = least * R(0.001);
+  mask in_one_place = length_squared(offset) < little * little;
+  if (!any_of(in_one_place)) return offset;
+  return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
+}
+
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                  GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
                                  GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
@@ -172,10 +181,13 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   box_pair pair;
   pair.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
   pair.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
-  pair.offset = subtract(xyz(load_row(positions, b)), xyz(load_row(positions, a)));
-  separating_axis axis = separating_axis_of(pair.a, pair.b, pair.offset, parameters->slop);
+  pair.offset = offset_between(positions, a, b);
+  real least = minimum(least_of(pair.a.extent), least_of(pair.b.extent));
+  vec3 toward = parting_offset(pair.offset, parameters->slop, least, a, b);
+  separating_axis axis = separating_axis_of(pair.a, pair.b, toward, parameters->slop,
+                                            ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * least));
   pair.code = axis.code;
-  pair.normal = normal_of_axis(pair.a, pair.b, pair.offset, axis.code);
+  pair.normal = normal_of_axis(pair.a, pair.b, toward, axis.code);
 
   real reach = reach_of(parameters, load_motion(velocities, a), shape_a.w, load_motion(velocities, b), shape_b.w,
                         pair.normal);

@@ -50,7 +50,7 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   vec4 shape = load_row(shapes, body);
   oriented_box box = oriented_box_of(load_row(orientations, body), xyz(shape));
   vec3 outward = axis_y(rotation_of(quat_from(load_row(orientations, plane))));
-  vec3 center = subtract(xyz(load_row(positions, body)), xyz(load_row(positions, plane)));
+  vec3 center = offset_between(positions, plane, body);
   vec3 here = make_vec3(R(0.0), R(0.0), R(0.0));
   vec3 normal = choose3(box_first, negate(outward), outward);
   real zero = R(0.0);

@@ -42,7 +42,25 @@ SHARED manifold single_contact(vec3 normal, vec3 offset, real separation, mask k
   return m;
 }
 
-/* How far ahead of touching a contact is made: no gap is closed within the step unseen. */
+/* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the others
+ * towards it: were all pairs parted along one line, a thousand bodies would make a thousand layers, whose speeds add up. Sideways,
+ * so that nothing is lifted. */
+SHARED vec3 place_of_its_own(natural body)
+{
+  natural hash = (body + 1u) * 0x9e3779b1u;
+  hash = (hash ^ (hash >> 15u)) * 0x85ebca77u;
+  hash = hash ^ (hash >> 13u);
+  return make_vec3(to_real(hash & 0xffffu), R(0.0), to_real(hash >> 16u));
+}
+SHARED vec3 parting_direction(natural a, natural b)
+{
+  vec3 between = subtract(place_of_its_own(b), place_of_its_own(a));
+  real length = length_of(between);
+  mask differ = length > R(0.0);
+  return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))), make_vec3(R(1.0), R(0.0), R(0.0)));
+}
+
+/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing round; 0 for a sphere. */
 SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
 {
   real closing = inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a +

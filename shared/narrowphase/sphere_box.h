@@ -55,7 +55,7 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   real radius = load_row(shapes, sphere).x;
   vec4 shape = load_row(shapes, box);
   mat3 rotation = rotation_of(quat_from(load_row(orientations, box)));
-  vec3 center = subtract(xyz(load_row(positions, sphere)), xyz(load_row(positions, box)));
+  vec3 center = offset_between(positions, box, sphere);
   box_distance nearest = distance_to_box(rotate_back(rotation, center), xyz(shape));
   vec3 outward = rotate(rotation, nearest.normal);
   vec3 normal = choose3(sphere_first, negate(outward), outward);
@@ -63,8 +63,8 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
 
   vec3 from_sphere = scale(outward, -(radius + separation * R(0.5)));
   vec3 offset = choose3(sphere_first, from_sphere, add(center, from_sphere));
-  real reach = reach_of(parameters, load_motion(velocities, a), choose(sphere_first, radius, shape.w),
-                        load_motion(velocities, b), choose(sphere_first, shape.w, radius), normal);
+  real reach = reach_of(parameters, load_motion(velocities, a), choose(sphere_first, (real)R(0.0), shape.w),
+                        load_motion(velocities, b), choose(sphere_first, shape.w, (real)R(0.0)), normal);
   manifold m = single_contact(normal, offset, separation, separation < reach);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }

@@ -21,16 +21,15 @@ SHARED void collide_sphere_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   if (!any_of(mine)) return;
 
   natural sphere = choose(sphere_first, a, b), plane = choose(sphere_first, b, a);
-  real radius = load_row(shapes, sphere).x, zero = R(0.0);
+  real radius = load_row(shapes, sphere).x;
   vec3 outward = axis_y(rotation_of(quat_from(load_row(orientations, plane))));
-  vec3 center = subtract(xyz(load_row(positions, sphere)), xyz(load_row(positions, plane)));
+  vec3 center = offset_between(positions, plane, sphere);
   vec3 normal = choose3(sphere_first, negate(outward), outward);
   real separation = inner(center, outward) - radius;
 
   vec3 from_sphere = scale(outward, -(radius + separation * R(0.5)));
   vec3 offset = choose3(sphere_first, from_sphere, add(center, from_sphere));
-  real reach = reach_of(parameters, load_motion(velocities, a), choose(sphere_first, radius, zero),
-                        load_motion(velocities, b), choose(sphere_first, zero, radius), normal);
+  real reach = reach_of(parameters, load_motion(velocities, a), R(0.0), load_motion(velocities, b), R(0.0), normal);
   manifold m = single_contact(normal, offset, separation, separation < reach);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }

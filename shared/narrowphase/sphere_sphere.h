@@ -16,14 +16,13 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   if (!any_of(mine)) return;
 
   real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x;
-  vec3 between = subtract(xyz(load_row(positions, b)), xyz(load_row(positions, a)));
+  vec3 between = offset_between(positions, a, b);
   real distance = length_of(between);
   mask apart = distance > R(1e-12);
-  vec3 up = make_vec3(R(0.0), R(1.0), R(0.0));
-  vec3 normal = choose3(apart, scale(between, R(1.0) / choose(apart, distance, (real)R(1.0))), up);
+  vec3 normal = choose3(apart, scale(between, R(1.0) / choose(apart, distance, (real)R(1.0))), parting_direction(a, b));
   real separation = distance - radius_a - radius_b;
 
-  real reach = reach_of(parameters, load_motion(velocities, a), radius_a, load_motion(velocities, b), radius_b, normal);
+  real reach = reach_of(parameters, load_motion(velocities, a), R(0.0), load_motion(velocities, b), R(0.0), normal);
   manifold m = single_contact(normal, scale(normal, radius_a + separation * R(0.5)), separation, separation < reach);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }

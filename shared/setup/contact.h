@@ -115,7 +115,7 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
   bodies.motion_b = load_motion(solver_velocity, bodies.b);
   bodies.inertia_a = load_inertia(solver_inertia, bodies.a);
   bodies.inertia_b = load_inertia(solver_inertia, bodies.b);
-  bodies.offset = subtract(xyz(load_row(body_position, bodies.b)), xyz(load_row(body_position, bodies.a)));
+  bodies.offset = offset_between(body_position, bodies.a, bodies.b);
   return bodies;
 }
 
@@ -152,13 +152,31 @@ SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, 
   return patch;
 }
 
-/* Penetration left in place so that contacts persist; small bodies would vanish in it. */
-SHARED real slop_between(GLOBAL const Parameters *parameters, GLOBAL const row *body_shape, body_pair bodies)
+/* The smallest half extent of a pair. */
+SHARED real size_between(GLOBAL const row *body_shape, body_pair bodies)
 {
   vec4 a = load_row(body_shape, bodies.a), b = load_row(body_shape, bodies.b);
   real size_a = minimum(a.x, minimum(a.y, a.z)), size_b = minimum(b.x, minimum(b.y, b.z));
-  real size = choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b); /* a half-space has none */
-  return minimum(parameters->slop, parameters->slop_share * size);
+  return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b); /* a half-space has none */
+}
+
+/* What constraint_slop holds: penetration left in place so that contacts persist (small bodies would vanish in it), or
+ * DEEP where a point starts the step deeper than DEEP_SHARE of the pair's size. No impact brings bodies there, only a
+ * start that should not be, or a load beyond what the settings carry. */
+#define DEEP R(-1.0)
+#define DEEP_SHARE R(0.1)
+SHARED real slop_or_deep(GLOBAL const Parameters *parameters, real size, real deepest)
+{
+  return choose(deepest < -DEEP_SHARE * size, (real)DEEP, minimum(parameters->slop, parameters->slop_share * size));
+}
+SHARED real slop_of(real slop_or_deep) { return maximum(slop_or_deep, R(0.0)); }
+
+/* Penetration is never removed faster than this. Push speeds of layers of bodies add up, and what relaxing cannot take out of
+ * a long chain in one pass stays as energy, which grows with their square: bodies deep in one another are parted slowly. */
+#define DEEP_PUSH R(0.1)
+SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
+{
+  return parameters->push_speed * choose(slop_or_deep < R(0.0), (real)DEEP_PUSH, (real)R(1.0));
 }
 
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
@@ -187,13 +205,14 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   natural old_feature = load_natural(cached_feature, from);
   vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
 
-  real impulse[4], wished[4];
+  real impulse[4], wished[4], deepest = R(0.0);
   for (uint k = 0; k < 4u; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     mask used = points > (natural)k;
     vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
     real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
     store_row(constraint_points, stride * k + i, extend(arm_a, choose(used, point.w, (real)R(0.0))));
+    deepest = choose(used, minimum(deepest, point.w), deepest);
     store_row(constraint_points, stride * (k + 4u) + i, extend(arm_b, mass));
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
     wished[k] = choose(used, wished_speed(parameters, between.restitution, inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
@@ -219,7 +238,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_row(constraint_friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
                       patch.radius));
-  store_real(constraint_slop, i, slop_between(parameters, body_shape, bodies));
+  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies), deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));

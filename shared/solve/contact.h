@@ -208,10 +208,11 @@ SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
 /* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
  * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it would
  * limit comes later. Returns the new accumulated impulse. */
-SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop, real separation, real speed, real mass, real old, uint biased)
+SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop_or_deep, real separation, real speed, real mass, real old,
+                           uint biased)
 {
   mask ahead = separation > R(0.0);
-  real push = maximum(soft.rate * minimum(separation + slop, R(0.0)), -parameters->push_speed);
+  real push = maximum(soft.rate * minimum(separation + slop_of(slop_or_deep), R(0.0)), -push_limit(parameters, slop_or_deep));
   mask rigid = ahead | (push == R(0.0));
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);

@@ -28,11 +28,11 @@
 
 /* The new accumulated impulse of a normal row. Without bias a point still ahead that has carried nothing stays so, for
  * the motion it would limit comes later. */
-SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop, real separation, real speed, real mass, real old, uint biased)
+SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, real separation, real speed, real mass, real old, uint biased)
 {
   mask ahead = separation > R(0.0);
-  real overlap = minimum(separation + slop, R(0.0));
-  real push = maximum(PGS_BIAS_SHARE * parameters->inverse_substep * overlap, -parameters->push_speed);
+  real overlap = minimum(separation + slop_of(slop_or_deep), R(0.0));
+  real push = maximum(PGS_BIAS_SHARE * parameters->inverse_substep * overlap, -push_limit(parameters, slop_or_deep));
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real impulse = maximum(old - mass * (speed + bias), R(0.0));
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);

@@ -1,0 +1,90 @@
+/* hull_buffers.cpp - see hull_buffers.h. */
+#include "host/hull_buffers.h"
+
+#include <algorithm>
+
+#include "host/geometry/convex_hull.h"
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+/* In the order of the first shape that has them. */
+std::vector<const ConvexHull *> distinct_hulls(const Scene &scene)
+{
+  std::vector<const ConvexHull *> hulls;
+  for (const Shape &shape : scene.shapes)
+    if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end()) hulls.push_back(shape.hull.get());
+  return hulls;
+}
+
+uint32_t corners_of(const ConvexHull &hull)
+{
+  size_t corners = 0;
+  for (const auto &face : hull.faces) corners += face.size();
+  return static_cast<uint32_t>(corners);
+}
+
+struct Tables {
+  std::vector<uint32_t> headers, face_starts, corners, edges;
+  std::vector<row> vertices, planes;
+
+  void add(const ConvexHull &hull)
+  {
+    const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
+    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges), size(corners), corners_of(hull)})
+      headers.push_back(word);
+    for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
+    for (const HullPlane &p : hull.planes)
+      planes.push_back({float(p.normal[0]), float(p.normal[1]), float(p.normal[2]), float(p.distance)});
+    for (const auto &face : hull.faces) {
+      face_starts.push_back(size(corners));
+      corners.insert(corners.end(), face.begin(), face.end());
+    }
+    for (const HullEdge &e : hull.edges) edges.insert(edges.end(), {e.v0, e.v1, e.face_left, e.face_right});
+  }
+};
+
+template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
+{
+  if (memory.bytes(buffer) > 0) memory.upload(buffer, values.data(), values.size() * sizeof(T));
+}
+
+} // namespace
+
+HullSizes hull_sizes(const Scene &scene)
+{
+  HullSizes sizes;
+  for (const ConvexHull *hull : distinct_hulls(scene)) {
+    ++sizes.hulls;
+    sizes.vertices += static_cast<uint32_t>(hull->vertices.size());
+    sizes.faces += static_cast<uint32_t>(hull->faces.size());
+    sizes.edges += static_cast<uint32_t>(hull->edges.size());
+    sizes.corners += corners_of(*hull);
+  }
+  return sizes;
+}
+
+std::vector<uint32_t> hull_numbers(const Scene &scene)
+{
+  const std::vector<const ConvexHull *> hulls = distinct_hulls(scene);
+  std::vector<uint32_t> numbers;
+  for (const Shape &shape : scene.shapes)
+    numbers.push_back(shape.hull ? static_cast<uint32_t>(std::find(hulls.begin(), hulls.end(), shape.hull.get()) - hulls.begin()) : 0);
+  return numbers;
+}
+
+void upload_hulls(Memory &memory, const Scene &scene)
+{
+  Tables tables;
+  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull);
+  tables.face_starts.push_back(static_cast<uint32_t>(tables.corners.size()));
+  upload_all(memory, Buffer::hull_header, tables.headers);
+  upload_all(memory, Buffer::hull_vertex, tables.vertices);
+  upload_all(memory, Buffer::hull_plane, tables.planes);
+  upload_all(memory, Buffer::hull_face_start, tables.face_starts);
+  upload_all(memory, Buffer::hull_corner, tables.corners);
+  upload_all(memory, Buffer::hull_edge, tables.edges);
+}
+
+} // namespace tandem

@@ -1,0 +1,23 @@
+/* hull_buffers.h - the convex hulls of a scene as the tables that kernels read: shared/narrowphase/convex.h. */
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/memory.h"
+#include "host/scene.h"
+
+namespace tandem {
+
+/* How many of each the hulls of a scene have together. */
+struct HullSizes {
+  uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0;
+};
+HullSizes hull_sizes(const Scene &scene);
+
+/* For each shape the number of its hull, 0 for other shapes; shapes that share a hull share its number. */
+std::vector<uint32_t> hull_numbers(const Scene &scene);
+
+void upload_hulls(Memory &memory, const Scene &scene);
+
+} // namespace tandem

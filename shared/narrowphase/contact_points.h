@@ -1,0 +1,90 @@
+/* contact_points.h - at most four points of a stream of any length, that span nearly all it spans, and its deepest.
+ *
+ * The choice of point_reduction.h for points that pass by instead of lying in an array: the stream runs once a pass.
+ *
+ *   pass 0   the farthest along a fixed direction (slot 0), and the deepest
+ *   pass 1   the farthest from slot 0 (slot 2)
+ *   pass 2   the farthest to the right and left of the line between them (slots 1, 3)
+ *   pass 3   if one side is empty: the farthest outside the triangle of the other three
+ *
+ * The deepest, if not among them, then replaces the nearest. Not the deepest first: at rest all are nearly as deep as each
+ * other, noise would choose, and every slot would change its point from step to step. Ties go to the earlier point.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
+#define TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
+
+#include "shared/narrowphase/point_reduction.h"
+
+#define REDUCTION_PASSES 4
+
+typedef struct {
+  int pass;
+  real lead, narrow; /* what a point must lead by: along a length, in an area */
+  leader first, deepest, second, right, left, outermost;
+} reduction;
+
+SHARED void start_reduction(reduction *r, real span, real noise)
+{
+  clip_point nobody = {R(0.0), R(0.0), R(0.0), 0};
+  r->pass = 0;
+  r->lead = span * R(1e-4) + noise;
+  r->narrow = R(0.0);
+  r->first = r->deepest = leader_above(nobody, R(-1e30));
+  r->second = r->right = r->left = r->outermost = leader_above(nobody, R(0.0));
+}
+
+/* The side left empty, seen as the left one of the line start -> end past the tip on its right. */
+SHARED real outside_triangle(const reduction *r, clip_point candidate)
+{
+  mask right_only = r->right.point.valid;
+  clip_point tip = choose_point(right_only, r->right.point, r->left.point);
+  clip_point start = choose_point(right_only, r->first.point, r->second.point);
+  clip_point end = choose_point(right_only, r->second.point, r->first.point);
+  return maximum(area_left_of(start, candidate, tip), area_left_of(candidate, end, tip));
+}
+
+SHARED void reduce_step(reduction *r, clip_point candidate)
+{
+  if (r->pass == 0) {
+    r->first = challenged(r->first, candidate, candidate.u * R(0.93) + candidate.v * R(0.37), r->lead);
+    r->deepest = challenged(r->deepest, candidate, -candidate.separation, r->lead);
+  } else if (r->pass == 1) {
+    r->second = challenged(r->second, candidate, squared_distance(candidate, r->first.point), r->second.score * R(1e-3));
+  } else if (r->pass == 2) {
+    real across = area_left_of(r->first.point, r->second.point, candidate);
+    r->left = challenged(r->left, candidate, across, r->left.score * R(1e-3));
+    r->right = challenged(r->right, candidate, -across, r->right.score * R(1e-3));
+  } else {
+    r->outermost = challenged(r->outermost, candidate, outside_triangle(r, candidate), r->outermost.score * R(1e-3));
+  }
+}
+
+/* Between two passes. False where no further pass is needed. */
+SHARED mask next_pass(reduction *r)
+{
+  int done = r->pass;
+  r->pass = done + 1;
+  if (done == 0) {
+    r->second = leader_above(r->first.point, r->lead * r->lead);
+    return r->first.point.valid;
+  }
+  if (done == 1) {
+    r->narrow = square_root(squared_distance(r->first.point, r->second.point)) * r->lead;
+    r->left = r->right = leader_above(r->first.point, r->narrow);
+    return r->second.point.valid;
+  }
+  r->outermost = leader_above(r->first.point, r->narrow);
+  return done == 2 && r->left.point.valid != r->right.point.valid;
+}
+
+SHARED void finish_reduction(clip_point *four, const reduction *r)
+{
+  mask right_only = r->right.point.valid & (!r->left.point.valid), left_only = r->left.point.valid & (!r->right.point.valid);
+  four[0] = r->first.point;
+  four[1] = choose_point(left_only, r->outermost.point, r->right.point);
+  four[2] = r->second.point;
+  four[3] = choose_point(right_only, r->outermost.point, r->left.point);
+  keep_deepest(four, r->deepest.point, r->lead);
+}
+
+#endif

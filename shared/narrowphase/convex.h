@@ -1,0 +1,207 @@
+/* convex.h - any convex shape as the narrowphase sees it: a point farthest in a direction, and a radius around it.
+ *
+ *      core, sharp            core + radius           Sphere: a point.  Capsule: a segment along Y.  Box, cylinder, hull:
+ *      +---------+             .---------.            themselves, radius 0.  The tests work on the core and subtract the
+ *      |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
+ *      +---------+             `---------'            and keeps the full precision of its distance.
+ *
+ * A pair is moved into axes where precision lies (pair_of): those of the larger shape, whose faces are then exact, about
+ * the middle of the smaller one, so that the numbers near the contact are small. Support mappings after G. van den
+ * Bergen, "Collision Detection in Interactive 3D Environments", 2003.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_H
+#define TANDEM_SHARED_NARROWPHASE_CONVEX_H
+
+#include "shared/narrowphase/manifold.h"
+
+/* Largest relative error of one rounding. */
+#ifdef TANDEM_REFERENCE
+#define ROUNDING 1.2e-16
+#else
+#define ROUNDING 6.0e-8f
+#endif
+
+/* Hulls of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
+ * edges, first corner, corners. */
+typedef struct {
+  GLOBAL const uint *headers;     /* 8 a hull */
+  GLOBAL const row *vertices;     /* x y z: about the origin of the shape's axes */
+  GLOBAL const row *planes;       /* a face: outward unit normal, distance from the origin */
+  GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
+  GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
+  GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
+} hull_tables;
+
+typedef struct {
+  uint first_vertex, vertices, first_face, faces, first_edge, edges;
+} hull_ranges;
+
+/* size: sphere radius - -; box half extents; capsule and cylinder (bottom radius, half height, top radius) along Y;
+ * hull half extents of a box around it that is centred at the origin of its axes. */
+typedef struct {
+  natural kind;
+  vec3 size;
+  mat3 rotation; /* from the shape's axes to those it is seen in */
+  vec3 center;   /* origin of the shape's axes */
+  mask aligned;  /* the rotation is the identity */
+  hull_ranges hull;
+  hull_tables tables;
+} convex;
+
+/* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other than
+ * 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
+SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, natural hull, hull_tables tables)
+{
+  convex shape;
+  shape.kind = kind;
+  shape.size = size;
+  shape.rotation = rotation;
+  shape.center = add(offset, rotate(rotation, middle));
+  shape.aligned = 0;
+  shape.tables = tables;
+  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u};
+  shape.hull = none;
+  if (kind == (uint)SHAPE_HULL) {
+    GLOBAL const uint *header = tables.headers + hull * 8u;
+    hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5]};
+    shape.hull = ranges;
+  }
+  return shape;
+}
+
+SHARED vec3 to_shape_axes(const convex *shape, vec3 v) { return shape->aligned ? v : rotate_back(shape->rotation, v); }
+SHARED vec3 from_shape_axes(const convex *shape, vec3 v) { return shape->aligned ? v : rotate(shape->rotation, v); }
+SHARED vec3 point_of_shape(const convex *shape, vec3 own) { return add(from_shape_axes(shape, own), shape->center); }
+
+/* Radius around the core. */
+SHARED real core_radius(const convex *shape)
+{
+  if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
+  return shape->kind == (uint)SHAPE_CAPSULE ? minimum(shape->size.x, shape->size.z) : R(0.0);
+}
+
+/* From the origin of the shape's axes to its farthest point, or somewhat more. */
+SHARED real bounding_radius_of(const convex *shape)
+{
+  real widest = maximum(shape->size.x, shape->size.z);
+  if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
+  return shape->kind == (uint)SHAPE_CAPSULE || shape->kind == (uint)SHAPE_CYLINDER ? shape->size.y + widest : length_of(shape->size);
+}
+SHARED real least_size(const convex *shape)
+{
+  real widest = maximum(shape->size.x, shape->size.z);
+  if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
+  if (shape->kind == (uint)SHAPE_CAPSULE) return widest;
+  if (shape->kind == (uint)SHAPE_CYLINDER) return minimum(widest, shape->size.y);
+  return minimum(shape->size.x, minimum(shape->size.y, shape->size.z));
+}
+
+/* Direction of the horizontal part of v, x where it has none. */
+SHARED vec3 around_axis(vec3 v)
+{
+  real across = square_root(v.x * v.x + v.z * v.z);
+  if (across <= R(0.0)) return make_vec3(R(1.0), R(0.0), R(0.0));
+  return make_vec3(v.x / across, R(0.0), v.z / across);
+}
+
+/* The four supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom, to
+ * the lowest vertex. */
+SHARED vec3 support_of_box(vec3 extent, vec3 direction)
+{
+  return make_vec3(extent.x * sign_of(direction.x), extent.y * sign_of(direction.y), extent.z * sign_of(direction.z));
+}
+SHARED vec3 support_of_cylinder(vec3 size, vec3 direction)
+{
+  vec3 outward = around_axis(direction);
+  real across = outward.x * direction.x + outward.z * direction.z, up = direction.y * size.y;
+  mask top = size.z * across + up > size.x * across - up;
+  real radius = choose(top, size.z, size.x);
+  return make_vec3(outward.x * radius, choose(top, size.y, -size.y), outward.z * radius);
+}
+/* The ends of a tapered capsule are spheres: what the larger one has beyond the smaller belongs to the core. */
+SHARED vec3 support_of_capsule_core(vec3 size, vec3 direction)
+{
+  real least = minimum(size.x, size.z), up = direction.y * size.y;
+  mask top = (size.z - least) + up > (size.x - least) - up;
+  vec3 end = make_vec3(R(0.0), choose(top, size.y, -size.y), R(0.0));
+  return add_scaled(end, direction, choose(top, size.z, size.x) - least);
+}
+SHARED natural support_vertex(const convex *shape, vec3 direction)
+{
+  natural best = 0u;
+  real highest = R(0.0);
+  for (uint k = 0u; k < shape->hull.vertices; ++k) {
+    real height = inner(xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)), direction);
+    if (k == 0u || height > highest) {
+      highest = height;
+      best = k;
+    }
+  }
+  return best;
+}
+SHARED vec3 hull_vertex(const convex *shape, natural k) { return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)); }
+
+/* The point of the core farthest in a unit direction. */
+SHARED vec3 support_of(const convex *shape, vec3 direction)
+{
+  vec3 own = to_shape_axes(shape, direction), point = make_vec3(R(0.0), R(0.0), R(0.0));
+  if (shape->kind == (uint)SHAPE_BOX) point = support_of_box(shape->size, own);
+  else if (shape->kind == (uint)SHAPE_HULL) point = hull_vertex(shape, support_vertex(shape, own));
+  else if (shape->kind == (uint)SHAPE_CYLINDER) point = support_of_cylinder(shape->size, own);
+  else if (shape->kind == (uint)SHAPE_CAPSULE) point = support_of_capsule_core(shape->size, own);
+  return point_of_shape(shape, point);
+}
+
+/* Two shapes in the axes of the larger one, about the middle of the smaller one. */
+typedef struct {
+  convex a, b; /* a: the larger */
+  mat3 axes;   /* from these axes to the world's */
+  vec3 origin; /* of these axes, seen from the centre of body a, world axes */
+  vec3 up;     /* where to part what has no direction of its own: body b goes up in the world */
+  mask swapped; /* a here is b of the caller */
+} convex_pair;
+
+SHARED mat3 relative_rotation(mat3 to, mat3 from)
+{
+  vec3 x = rotate_back(to, axis_x(from)), y = rotate_back(to, axis_y(from)), z = rotate_back(to, axis_z(from));
+  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+  return m;
+}
+SHARED convex_pair pair_of(const convex *a, const convex *b)
+{
+  convex_pair pair;
+  pair.swapped = bounding_radius_of(b) > bounding_radius_of(a);
+  pair.a = pair.swapped ? *b : *a;
+  pair.b = pair.swapped ? *a : *b;
+  pair.axes = pair.a.rotation;
+  pair.origin = pair.b.center;
+  pair.a.center = rotate_back(pair.axes, subtract(pair.a.center, pair.b.center));
+  pair.a.aligned = 1;
+  pair.b.rotation = relative_rotation(pair.axes, pair.b.rotation);
+  pair.b.center = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 up = rotate_back(pair.axes, make_vec3(R(0.0), R(1.0), R(0.0)));
+  pair.up = pair.swapped ? negate(up) : up;
+  return pair;
+}
+
+/* The point of the Minkowski difference a - b farthest in a unit direction. Shapes overlap where the difference holds the
+ * origin. */
+SHARED vec3 support_of_difference(const convex *a, const convex *b, vec3 direction)
+{
+  return subtract(support_of(a, direction), support_of(b, negate(direction)));
+}
+
+/* The gap between the cores along a unit normal from a to b: negative where they overlap. No normal shows a larger gap
+ * than their distance, none a smaller overlap than their depth, so a normal that is a little wrong costs little. */
+SHARED real gap_along(const convex *a, const convex *b, vec3 normal)
+{
+  return -inner(support_of_difference(a, b, normal), normal);
+}
+
+/* What any of the tests below finds between two cores. */
+typedef struct {
+  vec3 normal; /* unit, from a to b */
+  real gap;    /* between the cores along it, negative where they overlap */
+} core_contact;
+
+#endif

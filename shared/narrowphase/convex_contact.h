@@ -1,0 +1,188 @@
+/* convex_contact.h - the manifold of any two convex shapes.
+ *
+ *   pair_of -> normal and gap by one of three methods -> a face's normal instead, if as good -> supporting features
+ *           -> their overlap seen along the normal -> four points
+ *
+ * Where cores are apart gjk.h has both; a separating axis that is not that of the closest points would have no contact on
+ * it. Where they overlap the method decides:
+ *
+ *   CONVEX_EXPANSION   epa.h: the least depth, 1.7 KiB private
+ *   CONVEX_SAMPLED     sampled_depth.h: near the least depth, little memory
+ *   CONVEX_AXES        hull_axes.h for boxes and hulls: the least depth, faces first; others as CONVEX_EXPANSION
+ *
+ * Contacts are made ahead of touching, up to `reach`; a normal is unit length always.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
+#define TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
+
+#include "shared/narrowphase/epa.h"
+#include "shared/narrowphase/hull_axes.h"
+#include "shared/narrowphase/polygon_clip.h"
+#include "shared/narrowphase/sampled_depth.h"
+
+enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2 };
+
+/* What a face must not be worse by than the best axis, to be it (box_axes.h). */
+SHARED real lead_of_faces(const convex *a, const convex *b, real slop)
+{
+  real noise = R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
+  return minimum(slop * R(0.1), minimum(least_size(a), least_size(b)) * R(0.01)) + noise;
+}
+
+/* Normal of the flat face that a shape turns to a direction; 0 if it has none. */
+SHARED vec3 flat_normal_toward(const convex *shape, vec3 direction)
+{
+  vec3 own = to_shape_axes(shape, direction), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  if (shape->kind == (uint)SHAPE_CYLINDER) {
+    mask has_cap = (own.y > R(0.0) ? shape->size.z : shape->size.x) > R(0.0);
+    return has_cap ? from_shape_axes(shape, make_vec3(R(0.0), sign_of(own.y), R(0.0))) : none;
+  }
+  if (!is_polytope(shape)) return none;
+  uint k = shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own);
+  return from_shape_axes(shape, xyz(plane_of_face(shape, k)));
+}
+
+/* A face carries up to four points; an axis that is hardly better carries fewer and changes with rounding. */
+SHARED core_contact prefer_faces(core_contact contact, const convex *a, const convex *b, real lead)
+{
+  vec3 face_a = flat_normal_toward(a, contact.normal), face_b = negate(flat_normal_toward(b, negate(contact.normal)));
+  real least = contact.gap - lead, gap_a = R(-1e30), gap_b = R(-1e30);
+  if (inner(face_a, contact.normal) > R(0.5)) gap_a = gap_along(a, b, face_a);
+  if (inner(face_b, contact.normal) > R(0.5)) gap_b = gap_along(a, b, face_b);
+  mask of_b = gap_b > gap_a + lead;
+  real gap = of_b ? gap_b : gap_a;
+  if (gap < least) return contact;
+  contact.normal = of_b ? face_b : face_a;
+  contact.gap = gap;
+  return contact;
+}
+
+/* Round shapes outlast the room of the polytope; a distance query then gives what it lacks. */
+SHARED core_contact expanded_and_refined(const convex *a, const convex *b, vec3 up, real tolerance)
+{
+  epa_result found = penetration_by_expansion(a, b, up, tolerance);
+  real exact = tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) + R(1e-5) * magnitude(found.contact.gap);
+  return found.error > exact ? refined_by_distance(found.contact, a, b) : found.contact;
+}
+
+/* limit: cores farther apart than this make no contact. on_b: their closest point, where they are apart. */
+SHARED core_contact core_contact_of(const convex_pair *pair, real limit, real lead, natural method, mask *apart, vec3 *on_b)
+{
+  const convex *a = &pair->a, *b = &pair->b;
+  gjk_result near = closest_points(a, b, limit);
+  *apart = !near.overlapping;
+  *on_b = b->center;
+  if (!near.overlapping) {
+    *on_b = near.on_b;
+    return near.contact;
+  }
+  if (method == (uint)CONVEX_SAMPLED) return sampled_penetration(a, b, pair->up, near.contact.normal);
+  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) return separating_hull_axis(a, b, lead).contact;
+  /* Between the cap of a cylinder and a face not quite parallel to it lies a rim that need not be resolved. */
+  return expanded_and_refined(a, b, pair->up, lead * R(0.25));
+}
+
+SHARED contact_axes contact_axes_of(vec3 normal)
+{
+  tangents t = tangents_of(normal);
+  contact_axes axes = {t.first, t.second, normal};
+  return axes;
+}
+
+/* The points of a contact in its axes, and the height of the surface of b above each. */
+typedef struct {
+  contact_axes axes;
+  clip_point point[4];
+  real height[4];
+  natural code;
+} contact_patch;
+
+/* Where the two supporting features overlap. False if the overlap misses the deepest point of the shapes: the contact then
+ * lies where no features meet face to face. */
+SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, real reach)
+{
+  patch->axes = contact_axes_of(contact.normal);
+  support_face face_a = support_face_of(a, contact.normal), face_b = support_face_of(b, negate(contact.normal));
+  patch->code = (face_a.feature & 0xfffu) | (face_b.feature & 0xfffu) << 12u;
+  if (face_a.corners == 1u || face_b.corners == 1u) return 0;
+  outline outline_a, outline_b;
+  make_outline(&outline_a, a, &face_a, &patch->axes);
+  make_outline(&outline_b, b, &face_b, &patch->axes);
+  real size = bounding_radius_of(b);
+  mask b_moves = face_b.corners <= face_a.corners;
+  clipping clip;
+  clip.moving = b_moves ? &outline_b : &outline_a;
+  clip.reference = b_moves ? &outline_a : &outline_b;
+  clip.sense = b_moves ? R(1.0) : R(-1.0);
+  clip.radii = core_radius(a) + core_radius(b);
+  clip.reach = reach;
+  clip.slack = R(32.0) * ROUNDING * size;
+  reduction r;
+  start_reduction(&r, size, clip.slack);
+  do stream_overlap(&r, &clip);
+  while (next_pass(&r));
+  if (!r.deepest.point.valid || r.deepest.point.separation > contact.gap - clip.radii + r.lead) return 0;
+  finish_reduction(patch->point, &r);
+  for (int slot = 0; slot < 4; ++slot) {
+    clip_point p = patch->point[slot];
+    real on_a = height_of(&outline_a, p.u, p.v) + core_radius(a), on_b = height_of(&outline_b, p.u, p.v) - core_radius(b);
+    patch->height[slot] = b_moves ? on_a + p.separation : on_b;
+  }
+  return 1;
+}
+
+/* A patch of one point of b. */
+SHARED void point_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, vec3 on_b)
+{
+  vec3 at = in_contact_axes(&patch->axes, on_b);
+  clip_point point = {at.x, at.y, contact.gap - core_radius(a) - core_radius(b), 1};
+  for (int slot = 0; slot < 4; ++slot) {
+    patch->point[slot] = point;
+    patch->point[slot].valid = slot == 0;
+    patch->height[slot] = at.z - core_radius(b);
+  }
+}
+
+/* From the pair's axes to the world's. */
+SHARED manifold placed_manifold(const convex_pair *pair, const contact_patch *patch)
+{
+  const contact_axes *axes = &patch->axes;
+  manifold m;
+  vec3 normal = rotate(pair->axes, axes->normal);
+  m.normal = pair->swapped ? negate(normal) : normal;
+  m.code = patch->code;
+  for (int slot = 0; slot < 4; ++slot) {
+    clip_point p = patch->point[slot];
+    vec3 at = add_scaled(scale(axes->u, p.u), axes->v, p.v);
+    at = add_scaled(at, axes->normal, patch->height[slot] - p.separation * R(0.5));
+    m.point[slot] = extend(add(pair->origin, rotate(pair->axes, at)), p.separation);
+    m.kept[slot] = p.valid;
+  }
+  return m;
+}
+
+/* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made. slop:
+ * penetration left in place. */
+SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, natural method)
+{
+  convex_pair pair = pair_of(first, second);
+  const convex *a = &pair.a, *b = &pair.b;
+  real radii = core_radius(a) + core_radius(b), noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
+  real lead = lead_of_faces(a, b, slop);
+  mask apart;
+  vec3 on_b;
+  core_contact contact = core_contact_of(&pair, reach + radii, lead, method, &apart, &on_b);
+  if (contact.gap - radii >= reach) {
+    vec3 normal = rotate(pair.axes, contact.normal);
+    return single_contact(pair.swapped ? negate(normal) : normal, pair.origin, contact.gap - radii, 0);
+  }
+  contact_patch patch;
+  if (!overlap_patch(&patch, a, b, prefer_faces(contact, a, b, lead), reach)) {
+    contact = prefer_faces(contact, a, b, noise);
+    if (!overlap_patch(&patch, a, b, contact, reach))
+      point_patch(&patch, a, b, contact, apart ? on_b : deepest_point_of_b(a, b, contact));
+  }
+  return kept_within(placed_manifold(&pair, &patch), reach);
+}
+
+#endif

@@ -1,0 +1,235 @@
+/* gjk.h - the distance of two convex cores, their closest points, or the verdict that they overlap.
+ *
+ * Gilbert, Johnson, Keerthi (1988): walk a simplex of points of a - b toward the origin, each new point being the support
+ * against the point v of the simplex that lies nearest.
+ *
+ *        w2 ---- w1            v: nearest point of the simplex, |v| an upper bound of the distance
+ *          \    /              w . v / |v|: the gap along v, a lower bound
+ *           \v /               The walk ends where both agree, where nothing new is found, or after GJK_ROUNDS: the
+ *            \/                largest gap seen and its direction are then the answer, still a true lower bound.
+ *            o origin
+ *
+ * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005, section 9.5)
+ * from differences of its points, never from determinants of their coordinates: these cancel for tiny against huge. Every
+ * face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no case of its own
+ * (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable distance queries
+ * between convex objects", ACM TOG 36(3), 2017).
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_GJK_H
+#define TANDEM_SHARED_NARROWPHASE_GJK_H
+
+#include "shared/narrowphase/convex.h"
+
+#define GJK_ROUNDS 48
+/* Rounds that may pass without v growing shorter. */
+#define GJK_STALLS 4
+
+/* A point of a - b, and the point of b it came from. */
+typedef struct { vec3 w, b; } difference_point;
+
+typedef struct {
+  difference_point point[4];
+  real weight[4]; /* of the nearest point */
+  int count;
+} simplex;
+
+/* The point of some feature of a simplex nearest to the origin. */
+typedef struct {
+  vec3 v;
+  real squared; /* length of v */
+  real weight[4];
+} nearest_point;
+
+typedef struct {
+  mask overlapping;     /* or nearer than rounding can tell: there are then no closest points */
+  core_contact contact; /* the largest gap seen */
+  vec3 on_a, on_b;      /* the closest points */
+  simplex last;
+} gjk_result;
+
+SHARED nearest_point nearest_of_vertex(const simplex *s, int i)
+{
+  nearest_point near;
+  near.v = s->point[i].w;
+  near.squared = length_squared(near.v);
+  for (int k = 0; k < 4; ++k) near.weight[k] = k == i ? R(1.0) : R(0.0);
+  return near;
+}
+SHARED nearest_point nearer_of(nearest_point p, nearest_point q) { return q.squared < p.squared ? q : p; }
+
+SHARED nearest_point nearest_of_edge(const simplex *s, int i, int j)
+{
+  vec3 from = s->point[i].w, edge = subtract(s->point[j].w, from);
+  real along = length_squared(edge), t = -inner(from, edge);
+  if (t <= R(0.0) || along <= R(0.0)) return nearest_of_vertex(s, i);
+  if (t >= along) return nearest_of_vertex(s, j);
+  t = t / along;
+  vec3 v = add_scaled(from, edge, t);
+  /* What rounding left along the edge is removed once more: v must be square to it. */
+  real rest = inner(v, edge) / along;
+  nearest_point near;
+  near.v = add_scaled(v, edge, -rest);
+  near.squared = length_squared(near.v);
+  for (int k = 0; k < 4; ++k) near.weight[k] = R(0.0);
+  near.weight[i] = R(1.0) - (t - rest);
+  near.weight[j] = t - rest;
+  return near;
+}
+
+SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
+{
+  vec3 a = s->point[i].w, b = s->point[j].w, c = s->point[k].w;
+  vec3 ab = subtract(b, a), ac = subtract(c, a), bc = subtract(c, b);
+  vec3 normal = outer(ab, ac);
+  real squared = length_squared(normal), flat = R(16.0) * ROUNDING;
+  mask degenerate = squared <= flat * flat * length_squared(ab) * length_squared(ac);
+  /* Twice the areas between the origin and the three sides, times the length of the normal. */
+  real of_c = inner(normal, outer(a, ab)), of_b = inner(normal, outer(ac, a)), of_a = inner(normal, outer(b, bc));
+  if (!degenerate && of_a > R(0.0) && of_b > R(0.0) && of_c > R(0.0)) {
+    nearest_point near;
+    real sum = of_a + of_b + of_c;
+    near.v = scale(normal, inner(normal, a) / squared);
+    near.squared = length_squared(near.v);
+    for (int n = 0; n < 4; ++n) near.weight[n] = R(0.0);
+    near.weight[i] = of_a / sum;
+    near.weight[j] = of_b / sum;
+    near.weight[k] = of_c / sum;
+    return near;
+  }
+  nearest_point best = nearest_of_edge(s, i, j);
+  if (degenerate || of_b <= R(0.0)) best = nearer_of(best, nearest_of_edge(s, i, k));
+  if (degenerate || of_a <= R(0.0)) best = nearer_of(best, nearest_of_edge(s, j, k));
+  return best;
+}
+
+/* The origin is not surely on the inner side of face i j k, the side of point l. */
+SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size)
+{
+  vec3 a = s->point[i].w;
+  vec3 normal = outer(subtract(s->point[j].w, a), subtract(s->point[k].w, a));
+  real inner_side = inner(normal, subtract(s->point[l].w, a)), side = -inner(normal, a);
+  real noise = R(8.0) * ROUNDING * size * length_of(normal);
+  if (magnitude(inner_side) <= noise) return 1;
+  return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
+}
+
+/* squared < 0: the tetrahedron holds the origin. size: of its coordinates. */
+SHARED nearest_point nearest_of_tetrahedron(const simplex *s, real size)
+{
+  nearest_point best = nearest_of_vertex(s, 3);
+  mask outside = 0;
+  for (int l = 0; l < 4; ++l) {
+    int i = l == 0 ? 1 : 0, j = l <= 1 ? 2 : 1, k = l <= 2 ? 3 : 2;
+    if (!outside_face(s, i, j, k, l, size)) continue;
+    nearest_point near = nearest_of_triangle(s, i, j, k);
+    best = outside ? nearer_of(best, near) : near;
+    outside = 1;
+  }
+  if (!outside) best.squared = R(-1.0);
+  return best;
+}
+
+SHARED nearest_point nearest_of_simplex(const simplex *s, real size)
+{
+  if (s->count == 1) return nearest_of_vertex(s, 0);
+  if (s->count == 2) return nearest_of_edge(s, 0, 1);
+  if (s->count == 3) return nearest_of_triangle(s, 0, 1, 2);
+  return nearest_of_tetrahedron(s, size);
+}
+
+/* Only the points that carry the nearest point stay. */
+SHARED void keep_carriers(simplex *s, const nearest_point *near)
+{
+  int kept = 0;
+  for (int k = 0; k < s->count; ++k)
+    if (near->weight[k] > R(0.0)) {
+      s->point[kept] = s->point[k];
+      s->weight[kept] = near->weight[k];
+      ++kept;
+    }
+  s->count = kept;
+}
+
+SHARED mask has_point(const simplex *s, vec3 w)
+{
+  for (int k = 0; k < s->count; ++k)
+    if (s->point[k].w.x == w.x && s->point[k].w.y == w.y && s->point[k].w.z == w.z) return 1;
+  return 0;
+}
+SHARED real size_of_simplex(const simplex *s)
+{
+  real squared = R(0.0);
+  for (int k = 0; k < s->count; ++k) squared = maximum(squared, length_squared(s->point[k].w));
+  return square_root(squared);
+}
+
+SHARED vec3 carried_point(const simplex *s)
+{
+  vec3 point = scale(s->point[0].b, s->weight[0]);
+  for (int k = 1; k < s->count; ++k) point = add_scaled(point, s->point[k].b, s->weight[k]);
+  return point;
+}
+
+/* limit: a gap beyond it need not be known any better. */
+SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)
+{
+  gjk_result result;
+  simplex *s = &result.last;
+  s->count = 0;
+  result.overlapping = 0;
+  vec3 v = subtract(a->center, b->center);
+  real distance = length_of(v), squared = R(0.0);
+  if (distance <= R(0.0)) v = make_vec3(distance = R(1.0), R(0.0), R(0.0));
+  result.contact.gap = R(-1e30);
+  int stalled = 0;
+  mask restarted = 0;
+  for (int round = 0; round < GJK_ROUNDS; ++round) {
+    vec3 direction = scale(v, R(-1.0) / distance);
+    difference_point next;
+    next.b = support_of(b, negate(direction));
+    next.w = subtract(support_of(a, direction), next.b);
+    real gap = -inner(next.w, direction);
+    if (gap > result.contact.gap) {
+      result.contact.gap = gap;
+      result.contact.normal = direction;
+    }
+    if (s->count > 0) {
+      real rounding = ROUNDING * (R(16.0) * distance + R(4.0) * size_of_simplex(s));
+      if (distance - gap <= rounding || gap > limit || has_point(s, next.w)) break;
+    }
+    simplex before = *s;
+    s->point[s->count] = next;
+    s->count = s->count + 1;
+    real size = size_of_simplex(s), noise = R(4.0) * ROUNDING * size;
+    nearest_point near = nearest_of_simplex(s, size);
+    /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has turned. */
+    mask holds = near.squared <= noise * noise, sliver = holds && before.count > 0 && result.contact.gap > noise;
+    if (holds && !sliver) {
+      result.overlapping = 1;
+      break;
+    }
+    /* A turn of v by a small angle shortens it by the square of that: rounding hides it, and the gap still grows. */
+    if (before.count > 0 && near.squared >= squared && (++stalled > GJK_STALLS || near.squared > squared * (R(1.0) + R(32.0) * ROUNDING))) sliver = 1;
+    if (sliver) {
+      *s = before;
+      if (restarted || round + 4 > GJK_ROUNDS || distance - result.contact.gap <= R(64.0) * ROUNDING * size) break;
+      /* It led nowhere: once more, from the best direction so far. */
+      restarted = 1;
+      stalled = s->count = 0;
+      v = negate(result.contact.normal);
+      distance = R(1.0);
+      continue;
+    }
+    keep_carriers(s, &near);
+    v = near.v;
+    squared = near.squared;
+    distance = square_root(squared);
+  }
+  if (!result.overlapping) {
+    result.on_b = carried_point(s);
+    result.on_a = add(result.on_b, v);
+  }
+  return result;
+}
+
+#endif
