@@ -8,6 +8,7 @@
 #include "host/scene_catalog.h"
 #include "host/world.h"
 #include "tools/bench_batching.h"
+#include "tools/bench_narrowphase.h"
 #include "tools/bench_primitives.h"
 #include "tools/command.h"
 #include "tools/measure.h"
@@ -73,6 +74,16 @@ int execute_batching(const BenchOptions &options)
   return right ? 0 : 1;
 }
 
+int execute_narrowphase(const BenchOptions &options)
+{
+  const uint64_t pairs = options.count.empty() ? 4096 : whole_number("--n", options.count, 1, most_bodies / 2);
+  options.json.check();
+  const std::vector<PairTime> times = bench_narrowphase(options.on, static_cast<uint32_t>(pairs), options.inexact);
+  if (!options.json.takes_standard_output()) fmt::print("{} on {}: {} pairs of each kind\n{}", options.what, options.on, pairs, narrowphase_text(times));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"n", pairs}, {"pairs", narrowphase_json(times)}});
+  return 0;
+}
+
 void print_result(const BenchOptions &options, const Result &result)
 {
   const Spread &time = result.milliseconds;
@@ -101,12 +112,13 @@ Json result_json(const BenchOptions &options, const Result &result)
 
 int execute(const BenchOptions &options)
 {
-  for (const char *later : {"broadphase", "narrowphase", "solve"})
-    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching or step", later));
+  for (const char *later : {"broadphase", "solve"})
+    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching, narrowphase or step", later));
   if (options.what == "batching") return execute_batching(options);
+  if (options.what == "narrowphase") return execute_narrowphase(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
-    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching or step", options.what));
+    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching, narrowphase or step", options.what));
   const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
   const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
   options.json.check();
@@ -120,11 +132,11 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, step");
+  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, narrowphase, step");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), step (box-grid)")->required()->type_name("");
+  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
-  command->add_option("--n", options->count, "how many: 1048576 keys, 1000 bodies unless given")->type_name("N");
+  command->add_option("--n", options->count, "how many: 1048576 keys, 4096 pairs of each kind, 1000 bodies unless given")->type_name("N");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")->type_name("FILE");
   return {command, [options] { return execute(*options); }};

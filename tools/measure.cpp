@@ -9,16 +9,6 @@ namespace {
 
 constexpr uint64_t profile_every = 8;
 
-double timed_step(World &world)
-{
-  using Clock = std::chrono::steady_clock;
-  world.finish();
-  const Clock::time_point start = Clock::now();
-  world.step();
-  world.finish();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 /* Of a last half shorter than 8 steps the last step is profiled; a single step is both timed and profiled. */
 bool is_profiled(uint64_t step, uint64_t steps)
 {
@@ -70,6 +60,16 @@ double profiled_step(World &world, StageTimes &stages)
 }
 
 } // namespace
+
+double timed_step(World &world)
+{
+  using Clock = std::chrono::steady_clock;
+  world.finish();
+  const Clock::time_point start = Clock::now();
+  world.step();
+  world.finish();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
 
 Spread spread_of(std::vector<double> values)
 {

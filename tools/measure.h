@@ -34,6 +34,9 @@ struct Measurement {
   uint64_t timed_steps = 0, profiled_steps = 0;
 };
 
+/* One step, ms, the clock read with all devices finished. */
+double timed_step(World &world);
+
 /* `after_step(done)` is called outside of the timed span. */
 Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step);
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|times|widths|solvers|batchers|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|times|widths|solvers|batchers|report|stability|all]
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -24,6 +24,12 @@ if [ "$what" = parity ] || [ "$what" = all ]; then
   for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes mixed; do
     record "parity-${scene%%:*}" diff "$scene" --between "serial,tbb,cl:pocl,$gpu" --steps 300
   done
+fi
+if [ "$what" = shapes ] || [ "$what" = all ]; then
+  for scene in shapes:n=200 convex-hulls:n=300 rolling; do
+    record "shapes-${scene%%:*}" diff "$scene" --between "serial,tbb,$gpu" --steps 120
+  done
+  for backend in "$gpu" tbb; do record "convex-hulls-${backend%%:*}" run convex-hulls:n=1000 --on "$backend" --steps 300; done
 fi
 if [ "$what" = times ] || [ "$what" = all ]; then
   for size in 10,10,10 20,20,20 32,32,32 40,40,40 50,40,50 100,100,100; do
@@ -59,4 +65,19 @@ if [ "$what" = batchers ] || [ "$what" = all ]; then
     record "batching-$batching-parity" diff mixed:n=400 --batching "$batching" --check --between "serial,tbb,$gpu" --steps 60
   done
   for backend in "$gpu" tbb; do record "bench-batching-${backend%%:*}" bench batching --on "$backend"; done
+fi
+# Error against time, and stiff cases: in pieces of a few minutes, each with a page of its own.
+LIMIT=${LIMIT:-600}
+if [ "$what" = report ] || [ "$what" = all ]; then
+  record report-small report --on "tbb,$gpu" --scenes free-flight,incline,bounce,pyramid,mass-ratio,mixed --out "$out/report-small"
+  record report-box-grid report --on "tbb,$gpu" --parts scenes --scenes box-grid --out "$out/report-box-grid"
+  record report-box-grid-large report --on "tbb,$gpu" --parts scenes --scenes box-grid-large --out "$out/report-box-grid-large"
+fi
+# The long pyramids on the device, except for direct, which works on the CPU: the bits are the same.
+if [ "$what" = stability ] || [ "$what" = all ]; then
+  pyramids=pyramid-80,pyramid-100
+  record stability-small stability --except $pyramids --out "$out/stability-small"
+  record stability-pyramids stability --only $pyramids --solvers soft-step,pgs,xpbd,avbd,jacobi --on "$gpu" --out "$out/stability-pyramids"
+  record stability-pyramids-nncg stability --only $pyramids --solvers nncg --on "$gpu" --out "$out/stability-pyramids-nncg"
+  record stability-pyramids-direct stability --only $pyramids --solvers direct --out "$out/stability-pyramids-direct"
 fi

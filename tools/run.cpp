@@ -59,7 +59,7 @@ public:
     std::vector<Vec3> positions;
     std::vector<Quat> orientations;
     for (const BodyState &body : world_.bodies()) {
-      positions.push_back(body.position);
+      positions.push_back(rounded(body.position));
       orientations.push_back(body.orientation);
     }
     writer_->add_frame(static_cast<double>(step) * static_cast<double>(world_.settings().step), positions, orientations);

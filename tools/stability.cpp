@@ -11,7 +11,9 @@
 #include "host/world.h"
 #include "tools/command.h"
 #include "tools/output.h"
+#include "tools/parallel.h"
 #include "tools/progress.h"
+#include "tools/stability/batch.h"
 #include "tools/stability/cases.h"
 #include "tools/stability/results.h"
 
@@ -22,7 +24,8 @@ using stability::Case;
 using stability::Length;
 
 struct StabilityOptions {
-  std::string only, solvers, on = "tbb", out, between;
+  std::string only, except, solvers, on = "tbb", out, between;
+  size_t at_once = 0; /* 0: one for each processor */
   bool quick = false, list = false, inexact = false;
   JsonOutput json;
 };
@@ -35,21 +38,26 @@ std::vector<std::string> split(const std::string &text)
   return parts;
 }
 
+/* InputError unless each is the name of a case. */
+std::vector<std::string> case_names_in(const char *option, const std::string &text)
+{
+  std::vector<std::string> known;
+  for (const Case &each : stability::all_cases()) known.push_back(each.name);
+  const std::vector<std::string> names = split(text);
+  for (const std::string &name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw InputError(fmt::format("{}: no case '{}'; the cases are {}", option, name, fmt::join(known, ", ")));
+  return names;
+}
+
 std::vector<const Case *> chosen_cases(const StabilityOptions &options)
 {
+  const std::vector<std::string> wanted = case_names_in("--only", options.only), unwanted = case_names_in("--except", options.except);
+  const auto named = [](const std::vector<std::string> &names, const Case &each) { return std::find(names.begin(), names.end(), each.name) != names.end(); };
   std::vector<const Case *> chosen;
-  std::vector<std::string> wanted = split(options.only);
-  for (const Case &each : stability::all_cases()) {
-    const auto named = std::find(wanted.begin(), wanted.end(), each.name);
-    if (!options.only.empty() && named == wanted.end()) continue;
-    chosen.push_back(&each);
-    if (named != wanted.end()) wanted.erase(named);
-  }
-  if (!wanted.empty()) {
-    std::vector<std::string> names;
-    for (const Case &each : stability::all_cases()) names.push_back(each.name);
-    throw InputError(fmt::format("--only: no case '{}'; the cases are {}", wanted.front(), fmt::join(names, ", ")));
-  }
+  for (const Case &each : stability::all_cases())
+    if ((options.only.empty() || named(wanted, each)) && !named(unwanted, each)) chosen.push_back(&each);
+  if (chosen.empty()) throw InputError("--except: no case is left");
   return chosen;
 }
 
@@ -76,8 +84,9 @@ void prepare_folder(const std::string &folder)
 std::string verdict(const stability::Outcome &outcome)
 {
   const stability::CheckResult &headline = outcome.headline;
-  return fmt::format("{:24} {:10} {}  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver, outcome.passed ? "pass" : "FAIL", headline.figure,
-                     headline.unit, headline.what, headline.bound, outcome.note.empty() ? "" : "; " + outcome.note);
+  return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver, outcome.passed ? "pass" : "FAIL",
+                     1e-3 * outcome.milliseconds, headline.figure, headline.unit, headline.what, headline.bound,
+                     outcome.note.empty() ? "" : "; " + outcome.note);
 }
 
 /* A backend that does not exist, or solvers it cannot run, is bad use: found before the first case. */
@@ -102,8 +111,10 @@ std::string command_text(const StabilityOptions &options)
     if (!value.empty()) text += fmt::format(" {} {}", name, value);
   };
   add("--only", options.only);
+  add("--except", options.except);
   add("--solvers", options.solvers);
   add("--on", options.on == "tbb" ? "" : options.on);
+  if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
   add("--out", options.out);
   return text + (options.quick ? " --quick" : "");
 }
@@ -120,6 +131,30 @@ int conclude(const stability::Results &results)
   return 1;
 }
 
+/* Devices share one queue of work, and their worlds go one at a time. */
+size_t runs_at_once(const StabilityOptions &options)
+{
+  const bool device = options.on.starts_with("cl");
+  if (device && options.at_once > 1) throw InputError(fmt::format("--cases-in-parallel {}: on {} cases run one at a time", options.at_once, options.on));
+  if (options.at_once > 0) return options.at_once;
+  return device ? 1 : processor_count();
+}
+
+/* Whole or not at all, so that a run that is cut off leaves what it has found. */
+void save(const StabilityOptions &options, const Json &json)
+{
+  const std::string path = options.out + "/stability.json", beside = path + ".new";
+  write_file("--out", beside, json.dump(1) + "\n");
+  std::filesystem::rename(beside, path);
+}
+
+/* In their fixed order: what ends before an earlier one waits for it. `told` is how many were. */
+void tell(const stability::Results &so_far, size_t &told)
+{
+  for (; told < so_far.results.size() && so_far.results[told].place == told; ++told) fmt::print("{}\n", verdict(so_far.results[told].outcome));
+  std::fflush(stdout);
+}
+
 int run_cases(const StabilityOptions &options)
 {
   const std::vector<const Case *> cases = chosen_cases(options);
@@ -130,16 +165,12 @@ int run_cases(const StabilityOptions &options)
   options.json.check();
   check_backend(placement);
   prepare_folder(options.out);
-  stability::Results results{options.on, solvers, length, {}};
-  for (const Case *each : cases)
-    for (const std::string &solver : solvers) {
-      stability::Outcome outcome = run_with_progress(*each, solver, placement, length);
-      if (!options.json.takes_standard_output()) fmt::print("{}\n", verdict(outcome));
-      std::fflush(stdout);
-      results.add(*each, each->build(length).scene, std::move(outcome));
-    }
+  size_t told = 0;
+  const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)}, [&](const stability::Results &so_far) {
+    save(options, stability::results_json(so_far));
+    if (!options.json.takes_standard_output()) tell(so_far, told);
+  });
   const Json json = stability::results_json(results);
-  write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
   if (!options.json.takes_standard_output()) fmt::print("{}/index.html\n", options.out);
@@ -203,11 +234,15 @@ Command stability_command(CLI::App &parser)
   CLI::App *command = parser.add_subcommand("stability", "stiff and extreme cases, each with a figure and a bound");
   auto options = std::make_shared<StabilityOptions>();
   command->add_option("--only", options->only, "these cases alone")->type_name("CASE,...");
+  command->add_option("--except", options->except, "all but these cases")->type_name("CASE,...");
   command->add_option("--solvers", options->solvers, "these solvers alone")->type_name("NAME,...");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--out", options->out, "write the results into this folder")->type_name("DIR");
   command->add_option("--json", options->json.path, "write the results as JSON; - for standard output")->type_name("FILE");
   command->add_option("--between", options->between, "no figures: every case, shortened, on each of these backends must end in the same bits")->type_name("B,B,...");
+  command->add_option("--cases-in-parallel", options->at_once, "runs side by side (default: one for each processor; on devices one)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--list", options->list, "name the cases");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not, 2 for bad use.");

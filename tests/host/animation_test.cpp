@@ -2,6 +2,7 @@
  * independent reader, and holds the poses that were recorded. */
 #include "host/animation.h"
 #include "host/animation_geometry.h"
+#include "host/geometry/shape_mass.h"
 #include "host/random.h"
 #include "host/scene_catalog.h"
 #include "tests/catch.h"
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tiny_gltf.h>
@@ -51,7 +53,7 @@ Frame frame_of(const Scene &scene, int frame)
   Frame result;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     bool moves = scene.bodies[i].motion != Motion::fixed;
-    result.positions.push_back(moves ? position_of(i, frame) : scene.bodies[i].position);
+    result.positions.push_back(moves ? position_of(i, frame) : rounded(scene.bodies[i].position));
     result.orientations.push_back(moves ? orientation_of(i, frame) : scene.bodies[i].orientation);
   }
   return result;
@@ -256,23 +258,148 @@ TEST_CASE("nodes have their body's size and colours tell bodies apart")
     }
 }
 
-TEST_CASE("unit meshes are closed, face outwards and have the right volume")
+namespace {
+
+double volume_of(const DisplayMesh &mesh)
 {
-  for (ShapeType type : {ShapeType::box, ShapeType::sphere}) {
-    TriangleMesh mesh = unit_mesh(type);
-    double volume = 0;
-    for (size_t i = 0; i < mesh.indices.size(); i += 3) {
-      Eigen::Vector3d corner[3], normal;
-      for (size_t c = 0; c < 3; ++c)
-        corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
-      normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-      CHECK(normal.norm() > 1e-4);
-      CHECK(normal.dot(Eigen::Vector3f(mesh.normals[mesh.indices[i]].data()).cast<double>()) > 0);
-      volume += corner[0].dot(corner[1].cross(corner[2])) / 6;
-    }
-    CHECK(volume == Approx(type == ShapeType::box ? 8 : 4.0 / 3.0 * M_PI).epsilon(0.04));
+  double volume = 0;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    Eigen::Vector3d corner[3];
+    for (size_t c = 0; c < 3; ++c) corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
+    volume += corner[0].dot(corner[1].cross(corner[2])) / 6;
   }
-  for (const Vec3 &normal : unit_mesh(ShapeType::half_space).normals) CHECK(normal == Vec3{0, 1, 0});
+  return volume;
+}
+
+void check_faces_outwards(const DisplayMesh &mesh)
+{
+  for (size_t i = 0; i < mesh.indices.size(); i += 3) {
+    Eigen::Vector3d corner[3];
+    for (size_t c = 0; c < 3; ++c) corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
+    const Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+    CHECK(normal.norm() > 1e-4);
+    for (size_t c = 0; c < 3; ++c) CHECK(normal.dot(Eigen::Vector3f(mesh.normals[mesh.indices[i + c]].data()).cast<double>()) > 0);
+  }
+  for (const Vec3 &normal : mesh.normals) CHECK(Eigen::Vector3f(normal.data()).norm() == Approx(1));
+}
+
+/* Each edge between two places is run along once in each direction. Places that differ by roundings of a sine are one. */
+void check_closed(const DisplayMesh &mesh)
+{
+  auto place = [&](uint32_t vertex) {
+    std::array<long, 3> rounded;
+    for (size_t axis = 0; axis < 3; ++axis) rounded[axis] = std::lround(double(mesh.positions[vertex][axis]) * 1e5);
+    return rounded;
+  };
+  std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int> edges;
+  for (size_t i = 0; i < mesh.indices.size(); i += 3)
+    for (size_t c = 0; c < 3; ++c) ++edges[{place(mesh.indices[i + c]), place(mesh.indices[i + (c + 1) % 3])}];
+  for (const auto &[edge, count] : edges) {
+    CHECK(count == 1);
+    CHECK(edges.count({edge.second, edge.first}) == 1);
+  }
+}
+
+const std::vector<Vec3> wedge_points{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {3, 2, 0}, {0, 0, 1}, {3, 0, 1}};
+
+} // namespace
+
+TEST_CASE("meshes are closed, face outwards and have the right volume")
+{
+  const Shape round[] = {capsule_shape(0.5f, 1), {ShapeType::capsule, {0.3f, 0.4f, 0.9f}}, {ShapeType::capsule, {0.9f, 0.4f, 0.3f}},
+                         cylinder_shape(0.5f, 1), {ShapeType::cylinder, {0.3f, 0.4f, 0.9f}}, cone_shape(0.6f, 0.5f), {ShapeType::cylinder, {0, 1, 0.5f}}};
+  for (const Shape &shape : round) {
+    INFO("shape type " << int(shape.type) << " size " << shape.size[0] << " " << shape.size[1] << " " << shape.size[2]);
+    const DisplayMesh mesh = display_mesh(shape);
+    check_faces_outwards(mesh);
+    check_closed(mesh);
+    const double volume = volume_of(mesh), whole = mass_properties_of(shape).mass;
+    CHECK(volume < whole); /* corners lie on the surface */
+    CHECK(volume > 0.96 * whole);
+  }
+  const Shape wedge = hull_shape(wedge_points, "wedge");
+  for (const Shape &shape : {box_shape(1, 1, 1), wedge}) {
+    check_faces_outwards(display_mesh(shape));
+    check_closed(display_mesh(shape));
+    CHECK(volume_of(display_mesh(shape)) == Approx(mass_properties_of(shape).mass));
+  }
+  CHECK(display_mesh(wedge).positions.size() == 3 + 3 + 4 + 4 + 4); /* each face has corners, and a normal, of its own */
+  check_faces_outwards(display_mesh(sphere_shape(1)));
+  check_closed(display_mesh(sphere_shape(1)));
+  CHECK(volume_of(display_mesh(sphere_shape(1))) == Approx(4.0 / 3.0 * M_PI).epsilon(0.04));
+  for (const Vec3 &normal : display_mesh(half_space_shape()).normals) CHECK(normal == Vec3{0, 1, 0});
+}
+
+TEST_CASE("outlines lie on their shape and reach its ends")
+{
+  auto bounds = [](const Shape &shape) { return bounds_of(outline_points(shape)); };
+  CHECK(bounds(sphere_shape(2)).upper[1] == 2);
+  CHECK(bounds(box_shape(1, 2, 3)).lower == Vec3{-1, -2, -3});
+  CHECK(bounds({ShapeType::capsule, {0.5f, 1, 0.25f}}).upper[1] == 1.25f);
+  CHECK(bounds({ShapeType::capsule, {0.5f, 1, 0.25f}}).lower[1] == -1.5f);
+  CHECK(bounds(cone_shape(0.5f, 1)).upper == Vec3{0.5f, 1, 0.5f});
+  CHECK(outline_points(hull_shape(wedge_points, "wedge")).size() == 6);
+  CHECK(outline_points(half_space_shape()).empty());
+}
+
+TEST_CASE("a shape with a pose in its body is drawn there")
+{
+  RemoveAtEnd remove;
+  Scene scene;
+  scene.shapes = {cone_shape(0.5f, 1), hull_shape(wedge_points, "wedge"), capsule_shape(0.2f, 0.3f), cone_shape(0.5f, 1), cone_shape(0.5f, 2)};
+  scene.materials.resize(2); /* coloured by material: bodies alike share a mesh */
+  scene.bodies.resize(6);
+  for (uint32_t i = 0; i < 5; ++i) scene.bodies[i].shape = i;
+  scene.bodies[5].shape = 1;
+  for (Body &body : scene.bodies) take_mass_properties(scene, body);
+  record(scene, 3);
+  Glb glb = read_container();
+  check_storage(glb);
+  check_animation(glb, 3);
+  const tinygltf::Model model = reread();
+  REQUIRE(model.nodes.size() == 6 + 5); /* the capsule's frame is its body's */
+  CHECK(model.scenes[0].nodes.size() == 6);
+  CHECK(model.meshes.size() == 4); /* equal cones share one, as the hull's two bodies do; another cone has its own */
+  std::set<int> drawn;
+  for (size_t i = 0; i < 6; ++i) {
+    const Body &body = scene.bodies[i];
+    const tinygltf::Node &node = model.nodes[i];
+    if (i == 2) {
+      CHECK(node.children.empty());
+      drawn.insert(node.mesh);
+      continue;
+    }
+    CHECK(node.mesh == -1);
+    REQUIRE(node.children.size() == 1);
+    const tinygltf::Node &shape = model.nodes[size_t(node.children[0])];
+    drawn.insert(shape.mesh);
+    CHECK(shape.scale == std::vector<double>{1, 1, 1});
+    for (size_t axis = 0; axis < 3; ++axis) CHECK(float(shape.translation[axis]) == body.shape_position[axis]);
+    for (size_t k = 0; k < 4; ++k) CHECK(shape.rotation[k] == Approx(body.shape_orientation[k]));
+  }
+  CHECK(drawn.size() == 4);
+}
+
+TEST_CASE("a hull with more corners than 16 bits count has wider indices")
+{
+  RemoveAtEnd remove;
+  Random random(3);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 14000; ++i) { /* three corners each of some 28,000 faces */
+    double p[3], length = 0;
+    for (double &x : p) x = random.uniform(-1, 1), length += x * x;
+    points.push_back({float(p[0] / std::sqrt(length)), float(p[1] / std::sqrt(length)), float(p[2] / std::sqrt(length))});
+  }
+  Scene scene;
+  scene.shapes = {hull_shape(points, "ball"), box_shape(1, 1, 1)};
+  scene.bodies.resize(2);
+  scene.bodies[1].shape = 1;
+  REQUIRE(display_mesh(scene.shapes[0]).positions.size() > 65535);
+  record(scene, 2);
+  const tinygltf::Model model = reread();
+  auto indices_of = [&](size_t node) { return model.accessors[size_t(model.meshes[size_t(model.nodes[node].mesh)].primitives[0].indices)]; };
+  CHECK(indices_of(0).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+  CHECK(indices_of(1).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
 }
 
 TEST_CASE("the stride keeps every n-th frame")
@@ -292,7 +419,7 @@ TEST_CASE("what never moves has no channels, and nothing at all is still a file"
   Scene scene = load_scene("pyramid:rows=3");
   Frame still;
   for (const Body &body : scene.bodies)
-    still.positions.push_back(body.position), still.orientations.push_back(body.orientation);
+    still.positions.push_back(rounded(body.position)), still.orientations.push_back(body.orientation);
   {
     AnimationWriter writer(scene, path);
     writer.add_frame(0, still.positions, still.orientations);

@@ -44,7 +44,7 @@ Solid solid(const Scene &scene, const Body &body)
 {
   const Shape &shape = scene.shapes[body.shape];
   Eigen::Quaterniond q(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2]);
-  return {shape.type, vector(body.position), vector(shape.size), q.toRotationMatrix(), body.motion == Motion::dynamic};
+  return {shape.type, Vector(body.position[0], body.position[1], body.position[2]), vector(shape.size), q.toRotationMatrix(), body.motion == Motion::dynamic};
 }
 
 std::vector<Vector> candidate_axes(const Solid &a, const Solid &b)
@@ -130,7 +130,7 @@ TEST_CASE("box-grid stands as published")
   const Body &ground = scene.bodies[0];
   CHECK(ground.motion == Motion::fixed);
   CHECK(scene.shapes[ground.shape].size == Vec3{400, 400, 400});
-  CHECK(ground.position == Vec3{0, -400, 0});
+  CHECK(ground.position == Point{0, -400, 0});
   CHECK(scene.gravity == Vec3{0, -10, 0});
   size_t next = 1;
   for (int i = 0; i < nx; ++i)

@@ -130,6 +130,61 @@ TEST_CASE("validation refuses what the solver could not bear")
         }).empty());
 }
 
+TEST_CASE("validation of capsules, cylinders, hulls and of shapes with a pose")
+{
+  auto shape = [](const Shape &given) {
+    return complaint([&](Scene &s) { s.shapes[0] = given; });
+  };
+  CHECK(shape(capsule_shape(0.5f, 1)).empty());
+  CHECK(shape({ShapeType::capsule, {0.5f, 1, 2.49f}}).empty());
+  CHECK_THAT(shape({ShapeType::capsule, {0.5f, 1, 2.5f}}), ContainsSubstring("holds the other; a sphere of radius 2.5 is the same"));
+  CHECK_THAT(shape({ShapeType::capsule, {0, 1, 0.5f}}), ContainsSubstring("shape 0: radius_bottom is 0"));
+  CHECK_THAT(shape({ShapeType::capsule, {0.5f, 1, -1}}), ContainsSubstring("shape 0: radius_top is -1"));
+  CHECK_THAT(shape(capsule_shape(0.5f, 0)), ContainsSubstring("shape 0: half_height is 0"));
+  CHECK(shape(cylinder_shape(0.5f, 1)).empty());
+  CHECK(shape(cone_shape(0.5f, 1)).empty());
+  CHECK(shape({ShapeType::cylinder, {0, 1, 0.5f}}).empty());
+  CHECK_THAT(shape({ShapeType::cylinder, {0, 1, 0}}), ContainsSubstring("the larger radius is 0"));
+  CHECK_THAT(shape({ShapeType::cylinder, {-1, 1, 1}}), ContainsSubstring("radius_bottom is -1"));
+  CHECK_THAT(shape({ShapeType::cylinder, {1, nan_value, 1}}), ContainsSubstring("size"));
+  CHECK_THAT(shape({ShapeType::hull, {0, 0, 0}}), ContainsSubstring("shape 0: a hull without points"));
+
+  auto pose = [](const Vec3 &position, const Quat &orientation, size_t body) {
+    return complaint([&](Scene &s) { s.bodies[body].shape_position = position, s.bodies[body].shape_orientation = orientation; });
+  };
+  CHECK(pose({1, 2, 3}, {0, 0, 0, 1}, 0).empty());
+  CHECK(pose({1, 2, 3}, {0.6f, 0, 0, 0.8f}, 1).empty()); /* all axes of a sphere are principal ones */
+  CHECK_THAT(pose({0, nan_value, 0}, {0, 0, 0, 1}, 0), ContainsSubstring("shape_position is [0, nan, 0]"));
+  CHECK_THAT(pose({0, 0, 0}, {0, 0, 0, 2}, 0), ContainsSubstring("shape_orientation is [0, 0, 0, 2]; a quaternion of length 1"));
+  CHECK_THAT(pose({0, 1, 0}, {0, 0, 0, 1}, 2), ContainsSubstring("body 2 'floor': a half_space has no pose"));
+  CHECK_THAT(pose({0, 0, 0}, {0.6f, 0, 0, 0.8f}, 2), ContainsSubstring("a half_space has no pose"));
+}
+
+/* Three moments say nothing of axes that are not the body's. */
+TEST_CASE("validation refuses moments from a shape that is turned in its body")
+{
+  const Quat slanted{0.6f, 0, 0, 0.8f}, upended{0, 0, 0.70710678f, 0.70710678f};
+  auto turned = [](const Shape &shape, const Quat &orientation, const Vec3 &inertia = {0, 0, 0}) {
+    return complaint([&](Scene &s) {
+      s.shapes[0] = shape;
+      s.bodies[0].shape_orientation = orientation;
+      s.bodies[0].inertia = inertia;
+    });
+  };
+  CHECK_THAT(turned(box_shape(1, 2, 3), slanted), ContainsSubstring("body 0: inertia from shape and mass is about the shape's principal axes"));
+  CHECK_FALSE(turned(box_shape(1, 2, 3), upended).empty()); /* principal axes, under other names */
+  CHECK(turned(box_shape(1, 2, 3), slanted, {1, 1, 1}).empty());
+  CHECK(turned(box_shape(1, 1, 1), slanted).empty());
+  CHECK(turned(cylinder_shape(1, 2), {0, 0.6f, 0, 0.8f}).empty()); /* about its axis */
+  CHECK_FALSE(turned(cylinder_shape(1, 2), slanted).empty());
+  const std::vector<Vec3> wedge{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
+  CHECK_FALSE(turned(hull_shape(wedge, "wedge"), {0, 0, 0, 1}).empty());
+  CHECK(complaint([&](Scene &s) {
+          s.shapes[0] = hull_shape(wedge, "wedge");
+          take_mass_properties(s, s.bodies[0]);
+        }).empty());
+}
+
 TEST_CASE("inertia agrees with summed volume elements")
 {
   for (const Shape &shape : {box_shape(1, 2, 3), box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.7f)}) {

@@ -10,6 +10,21 @@ TEST_CASE("parity on CPU: box-stack") { require_parity(small_scenes()[2], cpu_ba
 TEST_CASE("parity on CPU: pyramid") { require_parity(small_scenes()[3], cpu_backends(), 40); }
 TEST_CASE("parity on CPU: spheres") { require_parity(small_scenes()[4], cpu_backends(), 60); }
 TEST_CASE("parity on CPU: mixed") { require_parity(small_scenes()[5], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: shapes") { require_parity(small_scenes()[6], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: convex-hulls") { require_parity(small_scenes()[7], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
+
+TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
+{
+  for (const std::string &narrowphase : narrowphase_names())
+    for (const std::string &broadphase : broadphase_names()) {
+      Settings settings;
+      settings.narrowphase = narrowphase;
+      settings.broadphase = broadphase;
+      CAPTURE(narrowphase);
+      require_parity(every_shape(), cpu_backends(), 30, settings);
+    }
+}
 
 /* Broadphases find the same pairs in different ways, batchings colour them differently: each must be exact by itself. */
 TEST_CASE("parity on CPU: every broadphase and batching")
@@ -50,10 +65,11 @@ TEST_CASE("parity on CPU: broadphases lead to one state")
   }
 }
 
-TEST_CASE("parity on CPU: a few boxes and spheres", "[sanitizer]")
+TEST_CASE("parity on CPU: a few bodies of every shape", "[sanitizer]")
 {
   const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
-  for (const char *scene : {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30"}) require_parity(scene, backends, 5);
+  const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30", every_shape()};
+  for (const std::string &scene : scenes) require_parity(scene, backends, 5);
 }
 
 /* Large enough that every kernel is split over several threads. */

@@ -39,6 +39,18 @@ TEST_CASE("parity on OpenCL: every broadphase and batching")
     }
 }
 
+TEST_CASE("parity on OpenCL: every narrowphase")
+{
+  if (!has_pocl()) return;
+  for (const std::string &narrowphase : narrowphase_names()) {
+    Settings settings = all_features();
+    settings.narrowphase = narrowphase;
+    CAPTURE(narrowphase);
+    require_parity(every_shape(), {"serial", "cl:pocl"}, 20, settings);
+    require_parity("shapes:n=60", {"serial", "cl:pocl"}, 60, settings);
+  }
+}
+
 /* More bodies than a tile has items, so that groups of every size stride over several tiles. */
 TEST_CASE("parity on OpenCL: every size of work-groups")
 {

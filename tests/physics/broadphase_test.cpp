@@ -18,7 +18,7 @@ Scene many_sizes()
   for (int i = 0; i < 200; ++i) {
     const float size = float(0.01 * std::pow(1000.0, random.uniform()));
     const float reach = 15;
-    const Vec3 place{float(random.uniform(-reach, reach)), 0.5f + float(random.uniform(0, 2 * reach)), float(random.uniform(-reach, reach))};
+    const Point place{random.uniform(-reach, reach), 0.5 + random.uniform(0, 2 * reach), random.uniform(-reach, reach)};
     Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.3f * size, 0.6f * size), place);
     body.mass = 1000 * size * size * size;
     body.orientation = random.orientation();
@@ -32,7 +32,7 @@ Scene flat(bool one_point)
 {
   Scene scene = empty_scene({0, 0, 0});
   for (int i = 0; i < 40; ++i) {
-    const Vec3 place = one_point ? Vec3{1, 2, 3} : Vec3{0.9f * float(i % 8), 0, 0.9f * float(i / 8)};
+    const Point place = one_point ? Point{1, 2, 3} : Point{0.9f * float(i % 8), 0, 0.9f * float(i / 8)};
     add_body(scene, Motion::dynamic, i % 3 ? box_shape(0.5f, 0.4f, 0.5f) : sphere_shape(0.5f), place);
   }
   return scene;

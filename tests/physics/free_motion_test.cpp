@@ -2,6 +2,7 @@
 #include "tests/catch.h"
 
 #include "tests/physics/physics.h"
+#include "tools/stability/flip.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -10,51 +11,6 @@ namespace {
 
 /* The relative spacing of floats. */
 constexpr double epsilon = 0x1p-23;
-
-/* Twice the complete elliptic integral of the first kind, K(k), by the arithmetic-geometric mean. */
-double twice_complete_elliptic(double modulus_squared)
-{
-  double a = 1, b = std::sqrt(1 - modulus_squared);
-  while (std::abs(a - b) > 1e-15 * a) {
-    const double mean = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return pi / a;
-}
-
-/* Time between two flips: from one zero of the spin about the middle axis to the next.
- * Landau and Lifshitz, Mechanics, section 37. moments ascending. */
-double flip_interval(const Vector &moments, const Vector &spin)
-{
-  const double energy2 = moments.dot(spin.cwiseProduct(spin)), momentum2 = moments.cwiseProduct(spin).squaredNorm();
-  double i1 = moments[0], i2 = moments[1], i3 = moments[2];
-  if (momentum2 < energy2 * i2) std::swap(i1, i3);
-  const double rate = std::sqrt((i3 - i2) * (momentum2 - energy2 * i1) / (i1 * i2 * i3));
-  const double modulus_squared = (i2 - i1) * (energy2 * i3 - momentum2) / ((i3 - i2) * (momentum2 - energy2 * i1));
-  return twice_complete_elliptic(modulus_squared) / rate;
-}
-
-/* Mean time between sign changes of one body-axis component of the spin. */
-class FlipClock {
-public:
-  void note(double time, double spin)
-  {
-    if (before_ != 0 && spin * before_ < 0) {
-      last_ = time - step_of(time) * spin / (spin - before_);
-      if (flips_++ == 0) first_ = last_;
-    }
-    before_ = spin;
-    time_ = time;
-  }
-  int flips() const { return flips_; }
-  double interval() const { return (last_ - first_) / (flips_ - 1); }
-
-private:
-  double step_of(double time) const { return time - time_; }
-  double before_ = 0, time_ = 0, first_ = 0, last_ = 0;
-  int flips_ = 0;
-};
 
 } // namespace
 

@@ -16,7 +16,7 @@ void add_incline(Scene &scene, uint32_t material, double angle, float z)
   ramp.orientation = tilt;
   ramp.material = material;
   const Vector up(-std::sin(angle), std::cos(angle), 0);
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), vec3_of(0.65 * up + Vector(0, 0, z)));
+  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)));
   box.orientation = tilt;
   box.material = material;
 }

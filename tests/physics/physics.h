@@ -25,6 +25,8 @@ inline constexpr double radians = pi / 180;
 inline constexpr double gravity = 10; /* m/s^2, that of Scene */
 
 inline Vector vector_of(const Vec3 &v) { return {v[0], v[1], v[2]}; }
+inline Vector vector_of(const Point &p) { return {p[0], p[1], p[2]}; }
+inline Point point_of(const Vector &v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 vec3_of(const Vector &v) { return {float(v.x()), float(v.y()), float(v.z())}; }
 
 inline Matrix axes_of(const Quat &q)
@@ -47,7 +49,7 @@ inline Scene empty_scene(const Vec3 &gravity = {0, -10, 0})
 }
 
 /* A body with a shape of its own; what else it needs is set on the reference, before the next is added. */
-inline Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Vec3 &position)
+inline Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position)
 {
   scene.shapes.push_back(shape);
   Body body;

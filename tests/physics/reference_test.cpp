@@ -11,7 +11,6 @@ namespace {
 
 const Placement in_double{"reference", {}, false};
 
-Vector vector_of(const std::array<double, 3> &v) { return {v[0], v[1], v[2]}; }
 
 /* A tumbling brick after half a second. */
 std::array<double, 4> tumbled(uint32_t substeps)

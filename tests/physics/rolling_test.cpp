@@ -77,7 +77,7 @@ TEST_CASE("a ball stays on a slope below atan of coefficient over radius, and ro
       const float z = 3.0f * float(scene.bodies.size());
       Body &ramp = add_body(scene, Motion::fixed, box_shape(20, 0.5f, 1), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
-      add_body(scene, Motion::dynamic, sphere_shape(radius), vec3_of((0.5 + radius) * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
+      add_body(scene, Motion::dynamic, sphere_shape(radius), point_of((0.5 + radius) * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
     }
     World world(scene, settings_for(solver));
     const std::vector<BodyState> start = world.bodies();

@@ -258,7 +258,7 @@ TEST_CASE("direct: a box on an incline slips past atan mu, and slides as theory 
     const float z = 3.0f * float(angles.size());
     add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z}).orientation = tilt;
     const Vector up(-std::sin(angle), std::cos(angle), 0);
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), vec3_of(0.65 * up + Vector(0, 0, z))).orientation = tilt;
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z))).orientation = tilt;
     angles.push_back(angle);
   }
   World world(scene, direct());
@@ -317,7 +317,7 @@ TEST_CASE("direct: a closed system keeps its momentum and gains no energy", "[ph
   for (int i = 0; i < 8; ++i) {
     const Vector place(1.4 * (i % 2) - 0.7, 1.4 * (i / 2 % 2) - 0.7, 1.4 * (i / 4) - 0.7);
     const float size = float(random.uniform(0.25, 0.4));
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), vec3_of(place));
+    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place);

@@ -30,7 +30,7 @@ Scene inclines(const std::vector<double> &coefficients, double beside_the_cone)
       ramp.orientation = turn_about({0, 0, 1}, angle);
       ramp.material = material;
       const Vector place = 0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z);
-      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), vec3_of(place));
+      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(place));
       box.orientation = turn_about({0, 0, 1}, angle);
       box.material = material;
     }
@@ -61,7 +61,7 @@ TEST_CASE("jacobi: a falling block of boxes stays bounded", "[physics]")
 {
   World world(load_scene("box-grid:nx=4,ny=8,nz=4"), jacobi());
   const auto highest = [&] {
-    float height = 0;
+    double height = 0;
     for (const BodyState &state : world.bodies()) height = std::max(height, state.position[1]);
     return height;
   };

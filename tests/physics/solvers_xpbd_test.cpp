@@ -51,7 +51,7 @@ void add_incline(Scene &scene, uint32_t material, double angle, float z)
   Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
   ramp.orientation = tilt;
   ramp.material = material;
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), vec3_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
+  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
   box.orientation = tilt;
   box.material = material;
 }
@@ -71,7 +71,7 @@ Drift collide(const Settings &settings, float friction, float restitution)
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), vec3_of(place));
+    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place);

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -385,6 +386,24 @@ TEST_CASE("command: bench batching", "[command]")
     CHECK(sum == scene["contacts"].get<uint32_t>());
     CHECK(batcher["right"] == true);
   }
+}
+
+TEST_CASE("command: bench narrowphase", "[command]")
+{
+  const Json bench = json_of("bench narrowphase --n 90 --on serial");
+  check_keys(bench, {"what", "backend", "n", "pairs"});
+  std::set<std::string> kinds;
+  for (const Json &row : bench["pairs"]) {
+    INFO(row.dump());
+    check_keys(row, {"pair", "kernel", "method", "n", "manifolds", "points", "ms", "manifolds_per_second"});
+    kinds.insert(row["pair"].get<std::string>());
+    CHECK(row["n"] == 90);
+    CHECK(row["manifolds"] == 90);
+    CHECK(row["points"] >= 90);
+    CHECK(row["ms"]["median"].get<double>() > 0);
+  }
+  CHECK(kinds.size() == 8);
+  check_refused("bench narrowphase --n 0", "--n");
 }
 
 TEST_CASE("command: bench", "[command]")

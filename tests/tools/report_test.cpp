@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <string>
 #include <sys/wait.h>
@@ -17,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/random.h"
+#include "host/scene_catalog.h"
 #include "tools/report/collect.h"
 
 using namespace tandem;
@@ -212,8 +214,8 @@ TEST_CASE("report: a smaller time step costs more for the same simulated time", 
 TEST_CASE("report: every solver has settings, also in the quick report, and all are valid", "[report]")
 {
   for (const std::string &solver : solver_names())
-    for (const bool quick : {true, false}) {
-      const std::vector<Settings> grid = settings_grid(solver, quick);
+    for (const Grid size : {Grid::quick, Grid::coarse, Grid::full}) {
+      const std::vector<Settings> grid = settings_grid(solver, size);
       CHECK(grid.size() >= 2);
       for (const Settings &settings : grid) {
         CHECK_NOTHROW(validate(settings));
@@ -233,6 +235,8 @@ TEST_CASE("report: bad input is one line and status 2", "[report][command]")
   check_refused("--solvers magic" + out, "magic");
   check_refused("--metric beauty" + out, "beauty");
   check_refused("--on gpu" + out, "gpu");
+  check_refused("--parts scenes,fun" + out, "fun");
+  check_refused("--quick --scenes box-grid-large" + out, "box-grid-large");
   check_refused("--problems missing.dat" + out, "missing.dat");
   check_refused("--quick --out /proc/nowhere/report", "/proc/nowhere/report");
   std::ofstream(folder.path / "file") << "taken";
@@ -254,8 +258,7 @@ TEST_CASE("report: CSV and JSON tell the same, and every backend the same error"
   std::vector<Json> runs;
   for (const Json &scene : json["scenes"])
     for (const Json &run : scene["runs"]) runs.push_back(run);
-  for (const Json &run : json["by_backend"]["runs"]) runs.push_back(run);
-  const size_t grid = settings_grid("soft-step", true).size();
+  const size_t grid = settings_grid("soft-step", Grid::quick).size();
   CHECK(runs.size() == 4 * grid); /* two scenes, two backends */
   for (const Json &run : runs) {
     REQUIRE(std::getline(csv, line));
@@ -275,11 +278,116 @@ TEST_CASE("report: CSV and JSON tell the same, and every backend the same error"
     CHECK(cells[column("body_hash")] == run["body_hash"]);
   }
   CHECK_FALSE(std::getline(csv, line));
-  const Json &compared = json["by_backend"]["runs"];
-  for (size_t k = 0; k < grid; ++k) {
-    CHECK(compared[k]["backend"] != compared[k + grid]["backend"]);
-    CHECK(compared[k]["body_hash"] == compared[k + grid]["body_hash"]);
-    CHECK(compared[k]["position"] == compared[k + grid]["position"]);
+  for (const Json &scene : json["scenes"]) {
+    const Json &compared = scene["runs"];
+    for (size_t k = 0; k < grid; ++k) {
+      CHECK(compared[k]["backend"] == "serial");
+      CHECK(compared[k + grid]["backend"] == "tbb:threads=1,lanes=4");
+      CHECK(compared[k]["errors_from"] == compared[k + grid]["errors_from"]);
+      CHECK(compared[k]["body_hash"] == compared[k + grid]["body_hash"]);
+      CHECK(compared[k]["position"] == compared[k + grid]["position"]);
+    }
+  }
+}
+
+TEST_CASE("report: errors taken over from another backend are those that it would have found itself", "[report]")
+{
+  const Scene scene = load_scene("pyramid:rows=3");
+  const double duration = 0.2;
+  const Truth truth = find_truth(scene, duration, 8);
+  for (const char *solver : {"soft-step", "direct"}) {
+    const Run observed = run_experiment(scene, duration, truth, settings_for(solver), "tbb:lanes=4");
+    const Run timed = time_experiment(scene, duration, truth, observed, "serial"), own = run_experiment(scene, duration, truth, settings_for(solver), "serial");
+    INFO(solver << " " << timed.failure);
+    CHECK(timed.backend == "serial");
+    CHECK(timed.observed_on == "tbb:lanes=4");
+    CHECK(own.observed_on == "serial");
+    CHECK_FALSE(timed.unequal);
+    CHECK(timed.hash == own.hash);
+    CHECK(timed.steps == own.steps);
+    CHECK(timed.step_milliseconds > 0);
+    for (const MetricName &metric : metric_names()) CHECK(timed.error(metric.metric) == own.error(metric.metric));
+    CHECK(timed.mean_height_error == own.mean_height_error);
+    Run planted = observed;
+    planted.hash ^= 1;
+    const Run unequal = time_experiment(scene, duration, truth, planted, "serial");
+    CHECK(unequal.unequal);
+    CHECK(std::isnan(unequal.error(Metric::position)));
+    CHECK(unequal.failure.find("tbb:lanes=4") != std::string::npos);
+  }
+}
+
+TEST_CASE("report: the reference is observed by itself, for its bits are its own", "[report]")
+{
+  const Scene scene = load_scene("incline");
+  const Truth truth = find_truth(scene, 0.1, 8);
+  const Run observed = run_experiment(scene, 0.1, truth, settings_for("soft-step"), "serial");
+  const Run reference = time_experiment(scene, 0.1, truth, observed, "reference");
+  CHECK(reference.observed_on == "reference");
+  CHECK_FALSE(reference.unequal);
+  CHECK(reference.error(Metric::position) != observed.error(Metric::position));
+}
+
+TEST_CASE("report: a scene too large for a truth is judged by what needs none", "[report]")
+{
+  const Run run = run_experiment(load_scene("box-grid:nx=2,ny=2,nz=2"), 0.2, Truth{}, settings_for("soft-step"), "serial");
+  CHECK(run.failure.empty());
+  CHECK(run.steps == 12);
+  CHECK(run.error(Metric::max_penetration) > 0);
+  CHECK(std::isnan(run.error(Metric::position)));
+  CHECK(std::isnan(run.error(Metric::energy)));
+}
+
+TEST_CASE("report: at equal error the cheapest of each solver on each backend, by brute force", "[report]")
+{
+  Random random(11);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<std::vector<Run>> by_backend(2);
+    std::vector<double> errors;
+    for (uint32_t k = 2 + random.below(10); k > 0; --k) errors.push_back(std::pow(10.0, random.uniform(-8, 1)));
+    for (std::vector<Run> &runs : by_backend)
+      for (size_t k = 0; k < errors.size(); ++k) runs.push_back(run_of(k % 2 ? "pgs" : "xpbd", random.uniform(1, 100), errors[k]));
+    const double finest = trial % 2 ? 1e-5 : 0;
+    std::set<double> levels;
+    for (const EqualError &row : equal_errors(by_backend, Metric::position, finest)) {
+      levels.insert(row.error);
+      CHECK(row.error >= finest);
+      CHECK(std::log10(row.error) == Approx(std::round(std::log10(row.error))).margin(1e-9));
+      REQUIRE(row.runs.size() == 2);
+      for (size_t backend = 0; backend < 2; ++backend) {
+        const std::vector<Run> &runs = by_backend[backend];
+        std::optional<double> cheapest;
+        for (const Run &run : runs)
+          if (run.solver == row.solver && run.error(Metric::position) <= row.error) cheapest = std::min(cheapest.value_or(run.cost()), run.cost());
+        REQUIRE(row.runs[backend].has_value() == cheapest.has_value());
+        if (cheapest) CHECK(runs[*row.runs[backend]].cost() == *cheapest);
+        if (cheapest) CHECK(runs[*row.runs[backend]].solver == row.solver);
+      }
+    }
+    CHECK(levels.size() <= 5);
+    if (finest == 0) { /* from what costs least to the best that any reaches */
+      REQUIRE_FALSE(levels.empty());
+      const double best = *std::min_element(errors.begin(), errors.end());
+      CHECK(*levels.begin() >= best);
+      CHECK(*levels.begin() < 10 * best * (1 + 1e-9));
+    }
+  }
+}
+
+TEST_CASE("report: the table of equal error holds no setting that keeps less, or costs more than another", "[report][command]")
+{
+  const Json json = Json::parse(contents(tiny_report() / "report.json"));
+  for (const Json &scene : json["scenes"]) {
+    const std::string metric = scene["metric"];
+    REQUIRE(scene["equal_error"].size() >= 2);
+    for (const Json &row : scene["equal_error"]) {
+      std::optional<double> cheapest;
+      for (const Json &run : scene["runs"])
+        if (run["backend"] == row["backend"] && run["solver"] == row["solver"] && run[metric].get<double>() <= row["error"].get<double>())
+          cheapest = std::min(cheapest.value_or(run["ms_per_60th"]), run["ms_per_60th"].get<double>());
+      REQUIRE(row["ms_per_60th"].is_null() == !cheapest.has_value());
+      if (cheapest) CHECK(row["ms_per_60th"].get<double>() == *cheapest);
+    }
   }
 }
 
@@ -291,8 +399,11 @@ TEST_CASE("report: the truth converges, and more work brings less error", "[repo
     CHECK(refinement[1]["position"] < refinement[0]["position"]);
     CHECK(scene["truth"]["order"].get<double>() > 0.8);
     CHECK(scene["runs"][2]["position"].get<double>() < 0.5 * scene["runs"][0]["position"].get<double>());
-    CHECK(scene["picks"].size() >= 1);
-    CHECK(scene["sentence"].get<std::string>().find("soft-step") != std::string::npos);
+    REQUIRE(scene["backends"].size() == 2);
+    for (const Json &backend : scene["backends"]) {
+      CHECK(backend["picks"].size() >= 1);
+      CHECK(backend["sentence"].get<std::string>().find("soft-step") != std::string::npos);
+    }
   }
   CHECK(json["rounding"]["near"]["launches"].get<int>() > 100);
 }
@@ -318,14 +429,16 @@ TEST_CASE("report: the page stands alone and shows charts and tables in a browse
     WARN("no Chromium: the page was not looked at");
     return;
   }
-  const std::string dom = page_in_browser("?sort=1.4&sort=2.4&sort=2.4");
-  CHECK(count_of(dom, "<svg") == 4); /* two scenes, backends, a contact problem */
-  CHECK(count_of(dom, "<g class=\"point") > 4 * settings_grid("soft-step", true).size());
+  const std::string dom = page_in_browser("?sort=2.5&sort=4.5&sort=4.5");
+  const size_t runs = 2 * settings_grid("soft-step", Grid::quick).size(); /* of a scene, on two backends */
+  CHECK(count_of(dom, "<svg") == 5);                                      /* two scenes on two backends, a contact problem */
+  CHECK(count_of(dom, "ms per step at equal error") == 2);
+  CHECK(count_of(dom, "<g class=\"point") > 2 * runs);
   CHECK(count_of(dom, "<table") >= 6);
   CHECK(count_of(dom, "aria-sort=\"ascending\"") == 1);
   CHECK(count_of(dom, "aria-sort=\"descending\"") == 1);
-  const std::vector<double> up = column_of(dom, 1, 4), down = column_of(dom, 2, 4);
-  REQUIRE(up.size() == settings_grid("soft-step", true).size());
+  const std::vector<double> up = column_of(dom, 2, 5), down = column_of(dom, 4, 5);
+  REQUIRE(up.size() == runs);
   REQUIRE(down.size() == up.size());
   CHECK(std::is_sorted(up.begin(), up.end()));
   CHECK(std::is_sorted(down.rbegin(), down.rend()));

@@ -11,7 +11,9 @@
 
 #include "host/scene_catalog.h"
 #include "host/scene_catalog_structures.h"
+#include "tools/stability/batch.h"
 #include "tools/stability/cases.h"
+#include "tools/stability/flip.h"
 #include "tools/stability/picture.h"
 #include "tools/stability/results.h"
 
@@ -251,6 +253,69 @@ TEST_CASE("stability: documented settings are tried only where the default ones 
   CHECK(beyond.note.find("fails with substeps 50 too") != std::string::npos);
 }
 
+TEST_CASE("stability: a documented solver is tried where the default solver fails, and nowhere else", "[stability]")
+{
+  const std::string standard = solver_names().front();
+  const auto depth = [](const std::string &solver, const std::string &documented) {
+    Case made{"doubled", "test", "a column that doubles", "carried", {}};
+    made.build = [=](Length length) {
+      Trial trial = case_named("doubling-up").build(length);
+      trial.steps = 60;
+      trial.documented_solver = documented;
+      return trial;
+    };
+    return run_case(made, Length::quick, solver, Placement{"serial", {}, false});
+  };
+  const Outcome alone = depth(standard, ""), helped = depth(standard, "direct"), other = depth("pgs", "direct"), wrong = depth(standard, "pgs");
+  CHECK_FALSE(alone.passed);
+  CHECK(helped.passed);
+  CHECK_FALSE(helped.default_passed);
+  CHECK(helped.solver == standard);
+  CHECK(helped.settings == "solver direct");
+  CHECK(helped.body_hash == depth("direct", "").body_hash);
+  CHECK(helped.note.find("with solver direct; by default") != std::string::npos);
+  CHECK(helped.milliseconds > 60 * helped.milliseconds_per_step);
+  CHECK_FALSE(other.passed);
+  CHECK(other.note.find("direct") == std::string::npos);
+  CHECK_FALSE(wrong.passed);
+  CHECK(wrong.settings == "default");
+  CHECK(wrong.note.find("fails with solver pgs too") != std::string::npos);
+  CHECK(case_named("doubling-up").build(Length::full).documented_solver == "direct");
+}
+
+TEST_CASE("stability: cases side by side give what they give one at a time, in the same order", "[stability]")
+{
+  Batch batch;
+  for (const char *name : {"dominoes", "flip", "heavy-on-light-1000", "boxes-in-one-place", "far-1-km", "rolling-ball"}) batch.cases.push_back(&case_named(name));
+  batch.solvers = {"soft-step", "direct", "jacobi"};
+  batch.length = Length::brief;
+  std::vector<size_t> sizes;
+  const auto json_of = [&](size_t at_once, const char *backend) {
+    batch.at_once = at_once;
+    batch.placement.on = backend;
+    sizes.clear();
+    Json json = results_json(run_batch(batch, [&](const Results &so_far) {
+      sizes.push_back(so_far.results.size());
+      CHECK(so_far.complete() == (so_far.results.size() == 18));
+      CHECK(results_json(so_far)["complete"] == so_far.complete());
+      CHECK(std::is_sorted(so_far.results.begin(), so_far.results.end(), [](const Result &a, const Result &b) { return a.place < b.place; }));
+    }));
+    CHECK(json["ms"].get<double>() > 0);
+    json.erase("ms");
+    json.erase("backend");
+    for (Json &each : json["cases"])
+      for (const char *time : {"ms", "ms_per_step"}) each.erase(time);
+    REQUIRE(sizes.size() == 18);
+    for (size_t k = 0; k < sizes.size(); ++k) CHECK(sizes[k] == k + 1);
+    return json;
+  };
+  const Json one_by_one = json_of(1, "serial");
+  CHECK(one_by_one["cases"][1]["name"] == "dominoes-brief");
+  CHECK(one_by_one["cases"][1]["solver"] == "direct");
+  CHECK(json_of(4, "serial") == one_by_one);
+  CHECK(json_of(4, "tbb") == one_by_one);
+}
+
 /* Theory against theory: the small-amplitude limit of steady precession, m g d / (I W), and the integral's known value. */
 TEST_CASE("stability: theory of the top and of the flip", "[stability]")
 {
@@ -265,12 +330,13 @@ TEST_CASE("stability: the page and the JSON hold every case", "[stability]")
 {
   Results results{"serial", {solver_names().front()}, Length::brief, {}};
   for (const char *name : {"heavy-on-light-10", "boxes-in-one-place", "far-1000-km"}) {
-    results.add(case_named(name), case_named(name).build(Length::brief).scene, run_case(case_named(name), Length::brief, results.solvers.front(), {}));
+    results.add(case_named(name), case_named(name).build(Length::brief).scene, run_case(case_named(name), Length::brief, results.solvers.front(), {}),
+                results.results.size());
   }
   const Json json = results_json(results);
   REQUIRE(json["cases"].size() == 3);
   for (const Json &each : json["cases"])
-    for (const char *key : {"name", "solver", "passed", "figure", "bound", "unit"}) CHECK(each.contains(key));
+    for (const char *key : {"name", "solver", "passed", "figure", "bound", "unit", "ms"}) CHECK(each.contains(key));
   const std::string page = results_page(results, "tandem stability");
   for (const char *said : {"heavy-on-light-10", "far-1000-km", "<polygon", "bound", "tandem stability"}) CHECK(page.find(said) != std::string::npos);
   CHECK(page.find("nan") == std::string::npos);
@@ -295,6 +361,24 @@ TEST_CASE("stability: pictures show a box as a hexagon and a ball as a circle, a
   CHECK(svg.find("class=\"ground\"") != std::string::npos);
   states[1].position[0] = std::numeric_limits<float>::quiet_NaN();
   CHECK(svg_of(scene.shapes, scene.bodies, states, window, "end").find("<polygon") == std::string::npos);
+}
+
+TEST_CASE("stability: pictures show cylinders and hulls by their outline, where the body has its shape", "[stability]")
+{
+  Scene scene = empty_scene();
+  const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 0.5f}};
+  add_body(scene, Motion::dynamic, hull_shape(points, "wedge"), {0, 0, 0});
+  const Window window = window_of(scene.shapes, scene.bodies, states_of(scene.bodies));
+  const std::string svg = svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), window, "hull");
+  const size_t polygon = svg.find("points=\"");
+  REQUIRE(polygon != std::string::npos);
+  const std::string drawn = svg.substr(polygon, svg.find('"', polygon + 8) - polygon);
+  CHECK(std::count(drawn.begin(), drawn.end(), ',') == 4); /* the tip, in front, hides a corner of the base */
+  scene.bodies[0].shape_position = {100, 0, 0};
+  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), window, "moved").find("<polygon") == std::string::npos);
+  const Window after = window_of(scene.shapes, scene.bodies, states_of(scene.bodies));
+  CHECK(after.left > 90);
+  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), after, "seen").find("<polygon") != std::string::npos);
 }
 
 /* Parity holds in every case, also where a solver fails it: here the first case of each group with every solver, all with the

@@ -23,7 +23,7 @@ constexpr std::array<MetricName, 8> metrics = {{
     {Metric::energy, "energy", "energy error", "J"},
 }};
 
-constexpr std::array<ReportCase, 7> cases = {{
+constexpr std::array<ReportCase, 8> cases = {{
     {"free-flight", "boxes thrown, spinning about no principal axis; the centres of mass fly on parabolas, known exactly",
      "free-flight:n=16", "free-flight:n=4", 1.0, 0.5, Metric::rotation, 64},
     {"incline", "a box slides down a slope: x = (g/2) (sin - friction cos) t^2", "incline", "incline", 1.0, 0.5, Metric::position, 64},
@@ -33,6 +33,8 @@ constexpr std::array<ReportCase, 7> cases = {{
      Metric::position, 64},
     {"box-grid", "layers of boxes, each resting on four: the scene of the published comparisons", "box-grid:nx=6,ny=6,nz=6",
      "box-grid:nx=3,ny=3,nz=3", 2.0, 1.0, Metric::mean_penetration, 16},
+    {"box-grid-large", "the same with 8,000 boxes, enough to fill a GPU", "box-grid:nx=20,ny=20,nz=20", nullptr, 1.0, 0, Metric::mean_penetration,
+     0, Grid::coarse},
     {"mass-ratio", "five cubes, each four times as heavy as the one below: it must stay where it is", "mass-ratio:n=5,ratio=4",
      "mass-ratio:n=4,ratio=4", 1.0, 0.5, Metric::position, 64},
     {"mixed", "a pile of boxes and spheres of seven sizes and four materials; chaotic", "mixed:n=150", "mixed:n=20", 2.0, 1.0,
@@ -103,10 +105,15 @@ const ReportCase &report_case_named(const std::string &name)
   throw InputError(fmt::format("the report has no scene '{}'; its scenes: {}", name, names_in(cases)));
 }
 
-std::vector<Settings> settings_grid(const std::string &solver, bool quick)
+std::vector<Settings> settings_grid(const std::string &solver, Grid size)
 {
-  if (quick) return without_repetition({with_work(solver, 0.25), with_work(solver, 1), with_work(solver, 4), with_other_knob(solver, 4)});
   std::vector<Settings> grid;
+  if (size != Grid::full) {
+    for (const double factor : {0.25, 0.5, 1.0, 2.0, 4.0})
+      if (size == Grid::coarse || (factor != 0.5 && factor != 2.0)) grid.push_back(with_work(solver, factor));
+    grid.push_back(with_other_knob(solver, 4));
+    return without_repetition(grid);
+  }
   for (const double factor : {0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0}) grid.push_back(with_work(solver, factor));
   for (const uint32_t count : {2u, 4u}) grid.push_back(with_other_knob(solver, count));
   for (const float factor : {2.0f, 0.5f, 0.25f}) grid.push_back(with_work(solver, 1, base_step * factor));

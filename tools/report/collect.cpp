@@ -11,8 +11,10 @@
 #include <tbb/info.h>
 
 #include "host/scene_catalog.h"
+#include "tools/parallel.h"
 #include "tools/progress.h"
 #include "tools/report/contact_curves.h"
+#include "tools/report/estimate.h"
 
 namespace tandem {
 namespace {
@@ -36,81 +38,143 @@ std::string date_text()
   return text;
 }
 
-/* Counts runs and frames of truths; a frame of the truth weighs about as much as a run. */
+/* Counts what is done in estimated milliseconds, so that the bar knows a long run from a short one. */
 class Work {
 public:
-  explicit Work(uint64_t total) : progress_("reporting", total) {}
-  void done() { progress_.update(++done_); }
+  explicit Work(double seconds) : progress_("reporting", milliseconds(seconds)) {}
+  void done(double seconds) { progress_.update(done_ += milliseconds(seconds)); }
 
 private:
+  static uint64_t milliseconds(double seconds) { return static_cast<uint64_t>(1000 * seconds) + 1; }
+
   Progress progress_;
   uint64_t done_ = 0;
 };
 
-double duration_of(const ReportCase &source, bool quick) { return quick ? source.quick_duration : source.duration; }
-uint32_t refinement_of(const ReportCase &source, bool quick) { return quick ? 16 : source.refinement; }
+uint32_t refinement_of(const ReportCase &source, bool quick) { return quick ? std::min(source.refinement, 16u) : source.refinement; }
 
-std::vector<Settings> all_settings(const ReportRequest &request)
-{
-  std::vector<Settings> all;
-  for (const std::string &solver : request.solvers)
-    for (const Settings &settings : settings_grid(solver, request.quick)) all.push_back(settings);
-  return all;
-}
-
-/* The scene that compares backends: the last of those reported with many contacts, else the last. */
-const SceneReport *scene_for_backends(const std::vector<SceneReport> &scenes)
-{
-  for (const char *wanted : {"box-grid", "pyramid", "mixed"})
-    for (const SceneReport &scene : scenes)
-      if (scene.source->name == std::string(wanted)) return &scene;
-  return scenes.empty() ? nullptr : &scenes.back();
-}
-
-uint64_t work_of(const ReportRequest &request)
-{
-  uint64_t work = request.backends.size() * settings_grid(request.solvers.front(), request.quick).size() + 2;
-  for (const ReportCase *source : request.cases) work += 4 * frames_in(duration_of(*source, request.quick)) + all_settings(request).size();
-  return work;
-}
-
-SceneReport collect_scene(const ReportCase &source, const ReportRequest &request, Work &work)
-{
+/* A scene that waits to be run, with what its runs will cost. */
+struct Planned {
   SceneReport report;
+  uint32_t refinement;
+  std::vector<Settings> settings;
+  SceneEstimate estimate;
+
+  double run_seconds() const
+  {
+    double sum = 0;
+    for (size_t backend = 0; backend < estimate.backends.size(); ++backend)
+      for (const Settings &each : settings) sum += estimate.run_seconds(backend, each, report.duration);
+    return sum;
+  }
+};
+
+Planned plan_scene(const ReportCase &source, const ReportRequest &request)
+{
+  Planned plan;
+  SceneReport &report = plan.report;
   report.source = &source;
   report.specification = request.quick ? source.quick_scene : source.scene;
   report.scene = load_scene(report.specification);
-  report.duration = duration_of(source, request.quick);
+  report.duration = request.quick ? source.quick_duration : source.duration;
   report.metric = request.metric.value_or(source.metric);
-  report.truth = find_truth(report.scene, report.duration, refinement_of(source, request.quick), [&] { work.done(); });
-  for (const Settings &settings : all_settings(request)) {
-    report.runs.push_back(run_experiment(report.scene, report.duration, report.truth, settings, request.backends.front()));
-    work.done();
-  }
-  report.picks = pick_settings(report.runs, report.metric, report.uncertainty());
-  return report;
+  plan.refinement = refinement_of(source, request.quick);
+  for (const std::string &solver : request.solvers)
+    for (const Settings &settings : settings_grid(solver, request.quick ? Grid::quick : source.grid)) plan.settings.push_back(settings);
+  plan.estimate = estimate_scene(report.scene, report.duration, plan.refinement, request.backends, request.solvers);
+  return plan;
 }
 
-void collect_backends(Report &report, Work &work)
+std::vector<Planned> plan_scenes(const ReportRequest &request)
 {
-  const SceneReport *scene = scene_for_backends(report.scenes);
-  if (!scene || report.request.backends.size() < 2) return;
-  report.backend_scene = scene->specification;
-  report.backend_metric = scene->metric;
-  for (const std::string &backend : report.request.backends)
-    for (const Settings &settings : settings_grid(report.request.solvers.front(), report.request.quick)) {
-      report.by_backend.push_back(run_experiment(scene->scene, scene->duration, scene->truth, settings, backend));
-      work.done();
+  std::vector<Planned> plans;
+  for (const ReportCase *source : request.cases) plans.push_back(plan_scene(*source, request));
+  return plans;
+}
+
+/* Nothing is timed meanwhile, so all truths go at once. */
+double truth_seconds(const std::vector<Planned> &plans)
+{
+  double sum = 0, longest = 0;
+  for (const Planned &plan : plans) {
+    sum += plan.estimate.truth_seconds;
+    longest = std::max(longest, plan.estimate.longest_truth_seconds);
+  }
+  return std::max(longest, sum / static_cast<double>(processor_count()));
+}
+
+double total_seconds(const std::vector<Planned> &plans)
+{
+  double sum = truth_seconds(plans);
+  for (const Planned &plan : plans) sum += plan.run_seconds();
+  return sum;
+}
+
+void find_truths(std::vector<Planned> &plans)
+{
+  in_parallel(plans.size(), processor_count(), [&](size_t k) {
+    SceneReport &report = plans[k].report;
+    if (plans[k].refinement > 0) report.truth = find_truth(report.scene, report.duration, plans[k].refinement);
+  });
+}
+
+/* The errors on the fastest backend, the time on each. */
+void run_scene(Planned &plan, const ReportRequest &request, Work &work)
+{
+  SceneReport &report = plan.report;
+  for (const std::string &backend : request.backends) report.backends.push_back({backend, {}, {}});
+  const size_t observer = plan.estimate.fastest_backend();
+  for (const Settings &settings : plan.settings) {
+    const Run observed = run_experiment(report.scene, report.duration, report.truth, settings, request.backends[observer]);
+    for (size_t k = 0; k < request.backends.size(); ++k) {
+      report.backends[k].runs.push_back(
+          k == observer ? observed : time_experiment(report.scene, report.duration, report.truth, observed, request.backends[k]));
+      work.done(plan.estimate.run_seconds(k, settings, report.duration));
     }
+  }
+}
+
+void evaluate(SceneReport &report)
+{
+  std::vector<std::vector<Run>> by_backend;
+  for (BackendRuns &each : report.backends) {
+    each.picks = pick_settings(each.runs, report.metric, report.uncertainty());
+    by_backend.push_back(each.runs);
+  }
+  report.equal_errors = equal_errors(by_backend, report.metric, report.uncertainty());
+}
+
+std::vector<SceneReport> run_scenes(std::vector<Planned> plans, const ReportRequest &request)
+{
+  Work work(total_seconds(plans));
+  find_truths(plans);
+  work.done(truth_seconds(plans));
+  std::vector<SceneReport> scenes;
+  for (Planned &plan : plans) {
+    run_scene(plan, request, work);
+    evaluate(plan.report);
+    scenes.push_back(std::move(plan.report));
+  }
+  return scenes;
+}
+
+std::string estimate_text(const std::vector<Planned> &plans, const ReportRequest &request)
+{
+  size_t runs = 0;
+  for (const Planned &plan : plans) runs += plan.settings.size() * request.backends.size();
+  std::string text = fmt::format("{} runs of {} scenes on {}: about {}", runs, plans.size(), fmt::join(request.backends, ", "),
+                                 duration_text(total_seconds(plans)));
+  for (const Planned &plan : plans) text += fmt::format(", {} {}", plan.report.source->name, duration_text(plan.run_seconds()));
+  return text + fmt::format(", truths {}", duration_text(truth_seconds(plans)));
 }
 
 Scene moved(Scene scene, double far)
 {
-  for (Body &body : scene.bodies) body.position[0] = static_cast<float>(double{body.position[0]} + far);
+  for (Body &body : scene.bodies) body.position[0] += far;
   return scene;
 }
 
-void collect_rounding(Report &report, Work &work)
+void collect_rounding(Report &report)
 {
   RoundingReport &rounding = report.rounding;
   rounding.scene = report.request.quick ? "mixed:n=20" : "mixed:n=100";
@@ -120,9 +184,7 @@ void collect_rounding(Report &report, Work &work)
   request.every = report.request.quick ? 30 : 20;
   const Scene scene = load_scene(rounding.scene);
   rounding.near_table = measure_rounding(scene, request);
-  work.done();
   rounding.far_table = measure_rounding(moved(scene, rounding.far), request);
-  work.done();
 }
 
 /* "1 mm", "0.001 rad", "1e-06": a wished error as one says it. */
@@ -184,6 +246,16 @@ std::string run_command_of(const SceneReport &scene, const Run &run)
   return run.settings.step == base_step ? command : command + " --dt " + step_text(run.settings);
 }
 
+size_t Report::unequal() const
+{
+  size_t count = 0;
+  for (const SceneReport &scene : scenes)
+    for (const BackendRuns &each : scene.backends) count += static_cast<size_t>(std::ranges::count_if(each.runs, &Run::unequal));
+  return count;
+}
+
+std::vector<SceneReport> collect_scenes(const ReportRequest &request) { return run_scenes(plan_scenes(request), request); }
+
 Report collect_report(const ReportRequest &request)
 {
   Report report;
@@ -191,11 +263,12 @@ Report collect_report(const ReportRequest &request)
   report.machine = machine_text();
   report.date = date_text();
   for (const std::string &backend : request.backends) make_backend(backend); /* a bad name is said before anything runs */
-  Work work(work_of(request));
-  for (const ReportCase *source : request.cases) report.scenes.push_back(collect_scene(*source, request, work));
-  collect_backends(report, work);
-  report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
-  collect_rounding(report, work);
+  std::vector<Planned> plans = plan_scenes(request);
+  report.estimate = estimate_text(plans, request);
+  if (!plans.empty()) fmt::print(stderr, "{}\n", report.estimate);
+  report.scenes = run_scenes(std::move(plans), request);
+  if (request.with_problems) report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
+  if (request.with_rounding) collect_rounding(report);
   return report;
 }
 

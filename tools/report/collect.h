@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/rounding.h"
+#include "tools/report/equal_error.h"
 #include "tools/report/experiment.h"
 #include "tools/report/pareto.h"
 
@@ -14,9 +15,10 @@ struct ReportRequest {
   bool quick = false;
   std::vector<const ReportCase *> cases;
   std::vector<std::string> solvers;
-  std::vector<std::string> backends; /* all scenes run on the first; one chart compares all of them */
+  std::vector<std::string> backends; /* every scene on each; contact problems on the first */
   std::optional<Metric> metric;      /* instead of each scene's own */
   std::vector<std::string> problems; /* files of contact problems */
+  bool with_problems = true, with_rounding = true;
   std::string command;               /* as it was typed */
 };
 
@@ -26,6 +28,13 @@ struct Pick {
   size_t run;
 };
 
+/* One diagram: every solver with every setting on one backend. */
+struct BackendRuns {
+  std::string backend;
+  std::vector<Run> runs; /* the same settings in the same order on every backend */
+  std::vector<Pick> picks;
+};
+
 struct SceneReport {
   const ReportCase *source = nullptr;
   std::string specification;
@@ -33,8 +42,8 @@ struct SceneReport {
   double duration = 0;
   Metric metric{};
   Truth truth;
-  std::vector<Run> runs;
-  std::vector<Pick> picks;
+  std::vector<BackendRuns> backends;
+  std::vector<EqualError> equal_errors;
 
   /* Errors below this say nothing: the truth itself is not known better. */
   double uncertainty() const;
@@ -59,16 +68,19 @@ struct RoundingReport {
 struct Report {
   ReportRequest request;
   std::vector<SceneReport> scenes;
-  std::string backend_scene; /* of `by_backend`; empty without one */
-  Metric backend_metric{};
-  std::vector<Run> by_backend;
   std::vector<ContactCurve> contact_curves;
   RoundingReport rounding;
   std::string machine, date;
+  std::string estimate; /* what was said of the time before it started */
+
+  size_t unequal() const; /* runs that do not end in the bits of the backend that was observed */
 };
 
-/* InputError for what a user got wrong. Shows a progress bar. */
+/* InputError for what a user got wrong. Says first on standard error how long it will take, and shows a progress bar. */
 Report collect_report(const ReportRequest &request);
+
+/* Scenes with all their runs, in the request's order; what collect_report does of it, without a word. */
+std::vector<SceneReport> collect_scenes(const ReportRequest &request);
 
 /* Marks the runs on the Pareto front of cost against `metric`, and finds what to pick; wishes finer than `uncertainty` are left out. */
 std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double uncertainty);

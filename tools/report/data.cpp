@@ -46,14 +46,44 @@ Json run_json(const Run &run)
   json["nonfinite"] = run.quarantined;
   json["body_hash"] = hash_text(run.hash);
   json["front"] = run.front;
+  json["errors_from"] = run.observed_on.empty() ? Json(nullptr) : Json(run.observed_on);
+  json["unequal"] = run.unequal;
   json["failure"] = run.failure.empty() ? Json(nullptr) : Json(run.failure);
   return json;
 }
 
-Json runs_json(const std::vector<Run> &runs)
+/* Backend by backend in one list; `picks` count within their backend. */
+Json runs_json(const SceneReport &scene)
 {
   Json list = Json::array();
-  for (const Run &run : runs) list.push_back(run_json(run));
+  for (const BackendRuns &each : scene.backends)
+    for (const Run &run : each.runs) list.push_back(run_json(run));
+  return list;
+}
+
+Json picks_json(const SceneReport &scene)
+{
+  Json list = Json::array();
+  for (const BackendRuns &each : scene.backends) {
+    Json picks = Json::array();
+    for (const Pick &pick : each.picks) picks.push_back({{"wished", pick.wished}, {"run", pick.run}});
+    list.push_back({{"backend", each.backend}, {"sentence", pick_sentence(each.runs, each.picks, scene.metric)}, {"picks", picks}});
+  }
+  return list;
+}
+
+Json equal_error_json(const SceneReport &scene)
+{
+  Json list = Json::array();
+  for (const EqualError &row : scene.equal_errors)
+    for (size_t k = 0; k < row.runs.size(); ++k) {
+      const Run *run = row.runs[k] ? &scene.backends[k].runs[*row.runs[k]] : nullptr;
+      list.push_back({{"error", row.error},
+                      {"solver", row.solver},
+                      {"backend", scene.backends[k].backend},
+                      {"ms_per_60th", run ? json_number(run->cost()) : Json(nullptr)},
+                      {"setting", run ? Json(short_text(run->settings)) : Json(nullptr)}});
+    }
   return list;
 }
 
@@ -71,18 +101,16 @@ Json truth_json(const Truth &truth)
 
 Json scene_json(const SceneReport &scene)
 {
-  Json picks = Json::array();
-  for (const Pick &pick : scene.picks) picks.push_back({{"wished", pick.wished}, {"run", pick.run}});
   return {{"name", scene.source->name},
           {"scene", scene.specification},
           {"duration", scene.duration},
           {"metric", name_of(scene.metric).name},
           {"unit", name_of(scene.metric).unit},
           {"uncertainty", json_number(scene.uncertainty())},
-          {"truth", truth_json(scene.truth)},
-          {"picks", picks},
-          {"sentence", pick_sentence(scene.runs, scene.picks, scene.metric)},
-          {"runs", runs_json(scene.runs)}};
+          {"truth", scene.truth.known() ? truth_json(scene.truth) : Json(nullptr)},
+          {"backends", picks_json(scene)},
+          {"equal_error", equal_error_json(scene)},
+          {"runs", runs_json(scene)}};
 }
 
 Json rounding_json(const RoundingTable &table)
@@ -118,8 +146,8 @@ std::string report_csv(const Report &report)
   for (const MetricName &metric : metric_names()) text += fmt::format(",{}", metric.name);
   text += ",position_max,rotation_max,mean_height_error,momentum_drift,angular_momentum_drift,nonfinite,body_hash,front,failure\n";
   for (const SceneReport &scene : report.scenes)
-    for (const Run &run : scene.runs) text += csv_row(scene.specification, run);
-  for (const Run &run : report.by_backend) text += csv_row(report.backend_scene, run);
+    for (const BackendRuns &each : scene.backends)
+      for (const Run &run : each.runs) text += csv_row(scene.specification, run);
   return text;
 }
 
@@ -133,8 +161,8 @@ Json report_json(const Report &report)
           {"machine", report.machine},
           {"backends", report.request.backends},
           {"solvers", report.request.solvers},
+          {"estimate", report.estimate},
           {"scenes", scenes},
-          {"by_backend", {{"scene", report.backend_scene}, {"runs", runs_json(report.by_backend)}}},
           {"contact_problems", curves_json(report.contact_curves)},
           {"rounding",
            {{"scene", report.rounding.scene},

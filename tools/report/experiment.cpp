@@ -2,9 +2,11 @@
 #include "tools/report/experiment.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "tools/measure.h"
 
@@ -14,16 +16,6 @@ namespace {
 using Array = std::array<double, 3>;
 
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
-
-double timed_step(World &world)
-{
-  using Clock = std::chrono::steady_clock;
-  world.finish();
-  const Clock::time_point start = Clock::now();
-  world.step();
-  world.finish();
-  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
 
 double norm(const Array &v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 Array minus(const Array &a, const Array &b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -66,9 +58,12 @@ public:
     set(Metric::natural_map, natural_map_ / count);
     set(Metric::fischer_burmeister, fischer_burmeister_ / count);
     set(Metric::cone_violation, cone_violation_);
-    const PreciseBodies &end = truth_.frames[frames_ - 1];
-    set(Metric::energy, std::abs(conserved_quantities(scene_, last_).energy() - conserved_quantities(scene_, end).energy()));
-    run.mean_height_error = std::abs(mean_height(scene_, last_) - mean_height(scene_, end));
+    run.mean_height_error = undefined;
+    if (truth_.known()) {
+      const PreciseBodies &end = truth_.frames[frames_ - 1];
+      set(Metric::energy, std::abs(conserved_quantities(scene_, last_).energy() - conserved_quantities(scene_, end).energy()));
+      run.mean_height_error = std::abs(mean_height(scene_, last_) - mean_height(scene_, end));
+    }
     write_drift(run);
   }
 
@@ -127,42 +122,94 @@ private:
   double natural_map_ = 0, fischer_burmeister_ = 0, cone_violation_ = 0;
 };
 
-void simulate(Run &run, const Scene &scene, double duration, const Truth &truth)
+/* Called after each frame, outside of the timed spans. */
+using AfterFrame = std::function<void(World &, size_t frame)>;
+
+void simulate(Run &run, World &world, double duration, const AfterFrame &after_frame)
 {
-  World world(scene, run.settings, Placement{run.backend, {}, false});
-  Observation observation(scene, truth);
   const uint64_t in_frame = steps_in_frame(run.settings);
-  const size_t frames = std::min(frames_in(duration), truth.frames.size());
+  const size_t frames = frames_in(duration);
   run.steps = in_frame * frames;
   std::vector<double> milliseconds;
   for (size_t k = 0; k < frames; ++k) {
     for (uint64_t step = 0; step < in_frame; ++step) milliseconds.push_back(timed_step(world));
-    observation.frame(world, k);
+    if (after_frame) after_frame(world, k);
   }
   milliseconds.erase(milliseconds.begin(), milliseconds.begin() + static_cast<std::ptrdiff_t>(milliseconds.size() / 4));
   run.step_milliseconds = spread_of(milliseconds).median;
+  run.hash = world.body_hash();
+}
+
+void observe(Run &run, const Scene &scene, double duration, const Truth &truth)
+{
+  World world(scene, run.settings, Placement{run.backend, {}, false});
+  Observation observation(scene, truth);
+  simulate(run, world, duration, [&](World &, size_t k) { observation.frame(world, k); });
   const Statistics statistics = world.statistics();
   run.quarantined = statistics.nonfinite;
-  run.hash = world.body_hash();
+  run.observed_on = run.backend;
   observation.write(run, statistics);
 }
 
-} // namespace
-
-Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings, const std::string &backend)
+Run empty_run(const Settings &settings, const std::string &backend)
 {
   Run run;
   run.solver = settings.solver;
   run.backend = backend;
   run.settings = settings;
   run.errors.fill(undefined);
+  run.position_max = run.rotation_max = run.mean_height_error = run.momentum_drift = run.angular_momentum_drift = undefined;
+  return run;
+}
+
+/* What goes wrong in a simulation is a finding of the report; what a user got wrong is not. */
+void run_or_fail(Run &run, const std::function<void()> &run_it)
+{
   try {
-    simulate(run, scene, duration, truth);
+    run_it();
   } catch (const InputError &) {
     throw;
   } catch (const std::exception &error) {
     run.failure = error.what();
   }
+}
+
+/* Time, backend and front are its own. */
+void take_errors(Run &run, const Run &observed)
+{
+  run.errors = observed.errors;
+  run.position_max = observed.position_max;
+  run.rotation_max = observed.rotation_max;
+  run.mean_height_error = observed.mean_height_error;
+  run.momentum_drift = observed.momentum_drift;
+  run.angular_momentum_drift = observed.angular_momentum_drift;
+  run.quarantined = observed.quarantined;
+  run.observed_on = observed.observed_on;
+}
+
+bool in_double(const std::string &backend) { return backend.starts_with("reference"); }
+
+} // namespace
+
+Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings, const std::string &backend)
+{
+  Run run = empty_run(settings, backend);
+  run_or_fail(run, [&] { observe(run, scene, duration, truth); });
+  return run;
+}
+
+Run time_experiment(const Scene &scene, double duration, const Truth &truth, const Run &observed, const std::string &backend)
+{
+  if (in_double(backend) || in_double(observed.backend) || !observed.failure.empty())
+    return run_experiment(scene, duration, truth, observed.settings, backend);
+  Run run = empty_run(observed.settings, backend);
+  run_or_fail(run, [&] {
+    World world(scene, run.settings, Placement{backend, {}, false});
+    simulate(run, world, duration, {});
+    run.unequal = run.hash != observed.hash;
+    if (!run.unequal) take_errors(run, observed);
+    else run.failure = fmt::format("ends with hash {:016x}, on {} with {:016x}", run.hash, observed.backend, observed.hash);
+  });
   return run;
 }
 

@@ -20,7 +20,9 @@ struct Run {
   double momentum_drift = 0, angular_momentum_drift = 0; /* relative; NaN unless nothing outside but gravity acts */
   uint32_t quarantined = 0;
   uint64_t hash = 0; /* of all bodies at the end */
-  std::string failure; /* what a backend that broke down said; the errors are then NaN */
+  std::string failure; /* what a backend that broke down said, or that it is unequal; the errors are then NaN */
+  bool unequal = false;    /* does not end in the bits of the backend on which the errors were computed: a defect */
+  std::string observed_on; /* the backend on which the errors were computed */
   bool front = false;
 
   double error(Metric metric) const { return errors[static_cast<size_t>(metric)]; }
@@ -30,5 +32,9 @@ struct Run {
 
 /* `solver` and `backend` of the settings and placement; never throws for a simulation that goes wrong. InputError for bad names. */
 Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings, const std::string &backend);
+
+/* The same simulation on another backend for its time alone: results have equal bits, so the errors are those of `observed` if the bodies
+ * end with its hash, and NaN, with a failure that says so, if not. The reference, which computes in double, is observed by itself. */
+Run time_experiment(const Scene &scene, double duration, const Truth &truth, const Run &observed, const std::string &backend);
 
 } // namespace tandem

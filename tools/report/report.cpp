@@ -20,9 +20,11 @@ namespace {
 
 struct ReportOptions {
   bool quick = false;
-  std::string scenes, solvers, on = "tbb,serial", metric, problems, out;
+  std::string scenes, solvers, parts, on = "tbb,serial", metric, problems, out;
   JsonOutput json;
 };
+
+constexpr const char *part_names[] = {"scenes", "problems", "rounding"};
 
 std::string case_names()
 {
@@ -44,7 +46,8 @@ void add_options(CLI::App &parser, ReportOptions &options)
   parser.add_flag("--quick", options.quick, "small scenes and few settings: under two minutes on two cores");
   parser.add_option("--scenes", options.scenes, "some of: " + case_names())->type_name("NAME,NAME,...");
   parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))->type_name("NAME,NAME,...");
-  parser.add_option("--on", options.on, "the first runs all scenes; one chart compares all of them")->type_name("B,B,...")->capture_default_str();
+  parser.add_option("--on", options.on, "every scene on each of these; contact problems on the first")->type_name("B,B,...")->capture_default_str();
+  parser.add_option("--parts", options.parts, fmt::format("some of: {} (default: all)", fmt::join(part_names, ", ")))->type_name("PART,PART,...");
   parser.add_option("--metric", options.metric, "one error for all scenes instead of each scene's own: " + metric_list())->type_name("NAME");
   parser.add_option("--problems", options.problems, "files for contact-problem (default: those of tests/scenes and data/siconos, if they are there)")
       ->type_name("FILE,FILE,...");
@@ -82,11 +85,39 @@ std::string typed(const ReportOptions &options)
   };
   add("--scenes", options.scenes);
   add("--solvers", options.solvers);
+  add("--parts", options.parts);
   add("--on", options.on);
   add("--metric", options.metric);
   add("--problems", options.problems);
   add("--out", options.out);
   return command;
+}
+
+std::vector<std::string> parts_of(const std::string &text)
+{
+  const std::vector<std::string> known(std::begin(part_names), std::end(part_names));
+  if (text.empty()) return known;
+  const std::vector<std::string> wanted = list_of("--parts", text);
+  for (const std::string &part : wanted)
+    if (std::find(known.begin(), known.end(), part) == known.end())
+      throw InputError(fmt::format("--parts: unknown part '{}'; parts: {}", part, fmt::join(known, ", ")));
+  return wanted;
+}
+
+std::vector<const ReportCase *> cases_of(const ReportOptions &options)
+{
+  std::vector<const ReportCase *> cases;
+  if (options.scenes.empty()) {
+    for (const ReportCase &report_case : report_cases())
+      if (!options.quick || report_case.quick_scene) cases.push_back(&report_case);
+    return cases;
+  }
+  for (const std::string &name : list_of("--scenes", options.scenes)) {
+    const ReportCase &report_case = report_case_named(name);
+    if (options.quick && !report_case.quick_scene) throw InputError(fmt::format("--scenes: {} is too large for --quick; leave one of them out", name));
+    cases.push_back(&report_case);
+  }
+  return cases;
 }
 
 ReportRequest request_of(const ReportOptions &options)
@@ -96,11 +127,12 @@ ReportRequest request_of(const ReportOptions &options)
   request.solvers = solvers_of(options.solvers);
   request.backends = split_backends(options.on);
   if (!options.metric.empty()) request.metric = metric_named(options.metric);
-  if (options.scenes.empty())
-    for (const ReportCase &report_case : report_cases()) request.cases.push_back(&report_case);
-  else
-    for (const std::string &name : list_of("--scenes", options.scenes)) request.cases.push_back(&report_case_named(name));
-  request.problems = options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
+  const std::vector<std::string> parts = parts_of(options.parts);
+  const auto wanted = [&](const char *part) { return std::find(parts.begin(), parts.end(), part) != parts.end(); };
+  if (wanted("scenes")) request.cases = cases_of(options);
+  request.with_problems = wanted("problems");
+  request.with_rounding = wanted("rounding");
+  if (request.with_problems) request.problems = options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
   for (const std::string &file : request.problems) read_contact_problem(file); /* a bad one is said before anything runs */
   request.command = typed(options);
   return request;
@@ -127,7 +159,8 @@ void write_report(const Report &report, const ReportOptions &options)
   options.json.write(json);
   if (options.json.takes_standard_output()) return;
   for (const SceneReport &scene : report.scenes)
-    fmt::print("{}: {}\n", scene.source->name, pick_sentence(scene.runs, scene.picks, scene.metric));
+    for (const BackendRuns &each : scene.backends)
+      fmt::print("{} on {}: {}\n", scene.source->name, each.backend, pick_sentence(each.runs, each.picks, scene.metric));
   fmt::print("\n{} (charts and tables), report.csv and report.json beside it\n", file("report.html"));
 }
 
@@ -136,8 +169,11 @@ int execute(const ReportOptions &options)
   const ReportRequest request = request_of(options);
   options.json.check();
   usable_folder(options.out);
-  write_report(collect_report(request), options);
-  return 0;
+  const Report report = collect_report(request);
+  write_report(report, options);
+  if (report.unequal() == 0) return 0;
+  fmt::print(stderr, "tandem: {} runs do not end in the bits of the backend they are compared with; report.html names them\n", report.unequal());
+  return 1;
 }
 
 } // namespace

@@ -1,8 +1,10 @@
 /* report_page.cpp - see report_page.h. */
 #include "tools/report/report_page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -51,44 +53,73 @@ template <class Key> std::vector<ChartSeries> series_by(const std::vector<Run> &
   return series;
 }
 
-Chart scene_chart(const SceneReport &scene)
+/* All diagrams of a scene have the same axis of time, so that backends can be compared by eye. */
+ChartAxis time_axis(const SceneReport &scene)
 {
-  Chart chart{scene.specification, {"ms for 1/60 s of simulated time", AxisScale::logarithmic}, {axis_text(scene.metric), AxisScale::logarithmic}};
-  chart.series = series_by(scene.runs, scene.metric, [](const Run &run) { return run.solver; });
+  ChartAxis axis{"ms for 1/60 s of simulated time", AxisScale::logarithmic};
+  for (const BackendRuns &each : scene.backends)
+    for (const Run &run : each.runs) {
+      if (!(run.cost() > 0) || !std::isfinite(run.error(scene.metric))) continue;
+      axis.lowest = std::min(axis.lowest.value_or(run.cost()), run.cost());
+      axis.highest = std::max(axis.highest.value_or(run.cost()), run.cost());
+    }
+  return axis;
+}
+
+Chart scene_chart(const SceneReport &scene, const BackendRuns &on)
+{
+  Chart chart{fmt::format("{} on {}", scene.specification, on.backend), time_axis(scene), {axis_text(scene.metric), AxisScale::logarithmic}};
+  chart.series = series_by(on.runs, scene.metric, [](const Run &run) { return run.solver; });
   if (scene.uncertainty() > 0) chart.levels.push_back({scene.uncertainty(), "the truth is known to this"});
   return chart;
 }
 
-PageCell hash_cell(const Run &run, bool equal)
-{
-  PageCell cell(hash_text(run.hash));
-  cell.mark = equal ? "good" : "bad";
-  return cell;
-}
-
 std::vector<PageCell> run_cells(const Run &run)
 {
-  std::vector<PageCell> cells = {run.solver, {fmt::format("{}", run.settings.substeps), double(run.settings.substeps)},
+  std::vector<PageCell> cells = {run.backend, run.solver, {fmt::format("{}", run.settings.substeps), double(run.settings.substeps)},
                                  {fmt::format("{}", run.settings.iterations), double(run.settings.iterations)},
                                  {step_text(run.settings), double{run.settings.step}}, run.step_milliseconds, run.cost()};
   for (const double error : run.errors) cells.emplace_back(error);
   cells.emplace_back(run.front ? "front" : "");
-  if (!run.failure.empty()) cells.back() = PageCell("broke down: " + run.failure);
+  if (run.unequal) cells.back() = PageCell("not the same bits: " + run.failure);
+  else if (!run.failure.empty()) cells.back() = PageCell("broke down: " + run.failure);
   else if (run.quarantined > 0) cells.back() = PageCell(fmt::format("{} bodies not finite", run.quarantined));
+  if (run.unequal) cells.back().mark = "bad";
   return cells;
 }
 
 std::vector<std::string> run_header()
 {
-  std::vector<std::string> header = {"solver", "substeps", "iterations", "dt, s", "ms per step", "ms per 1/60 s"};
+  std::vector<std::string> header = {"backend", "solver", "substeps", "iterations", "dt, s", "ms per step", "ms per 1/60 s"};
   for (const MetricName &metric : metric_names()) header.push_back(fmt::format("{}, {}", metric.label, metric.unit));
   header.push_back("note");
   return header;
 }
 
+PageTable equal_error_table(const SceneReport &scene)
+{
+  PageTable table{"ms per step at equal error: for 1/60 s, with the fastest setting that keeps it; - where none of those tried does",
+                  {fmt::format("{}, at most", axis_text(scene.metric)), "solver"}};
+  for (const BackendRuns &each : scene.backends) {
+    table.header.push_back("ms on " + each.backend);
+    table.header.push_back("with");
+  }
+  for (const EqualError &row : scene.equal_errors) {
+    std::vector<PageCell> cells = {row.error, row.solver};
+    for (size_t k = 0; k < row.runs.size(); ++k) {
+      const Run *run = row.runs[k] ? &scene.backends[k].runs[*row.runs[k]] : nullptr;
+      cells.push_back(run ? PageCell(run->cost()) : PageCell("-"));
+      cells.push_back(run ? short_text(run->settings) : "");
+    }
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
 std::string truth_text(const SceneReport &scene)
 {
   const Truth &truth = scene.truth;
+  if (!truth.known()) return "Too large for a reference in double: judged by what needs no truth.";
   std::string text = truth.closed_form ? "Truth: closed form for the positions; the rest is the reference in double" : "Truth: the reference in double";
   text += fmt::format(" at {} steps for each 1/60 s. ", truth.refinements[2]);
   if (truth.chaotic)
@@ -109,58 +140,56 @@ std::string truth_text(const SceneReport &scene)
   return text;
 }
 
+/* Where errors come from, and whether every other backend agrees. */
+std::string equality_text(const SceneReport &scene)
+{
+  size_t equal = 0, unequal = 0;
+  std::set<std::string> observers;
+  for (const BackendRuns &each : scene.backends)
+    for (const Run &run : each.runs) {
+      if (!run.observed_on.empty()) observers.insert(run.observed_on);
+      equal += !run.observed_on.empty() && run.observed_on != run.backend;
+      unequal += run.unequal;
+    }
+  std::string text = fmt::format("Errors are computed on {}", fmt::join(observers, ", "));
+  if (equal + unequal > 0) text += fmt::format("; of {} runs on other backends {} end with its hash of all bodies, bit for bit", equal + unequal, equal);
+  return text + (unequal > 0 ? fmt::format("; {} DO NOT: a defect, see the notes in the table", unequal) : "") + ".";
+}
+
 void add_scene(Page &page, const SceneReport &scene)
 {
   page.section(scene.source->name);
   page.paragraph(std::string(scene.source->what) + ".");
-  page.paragraph(pick_sentence(scene.runs, scene.picks, scene.metric), "pick");
-  page.chart(scene_chart(scene));
+  for (const BackendRuns &each : scene.backends) {
+    page.paragraph(fmt::format("On {}: {}", each.backend, pick_sentence(each.runs, each.picks, scene.metric)), "pick");
+    page.chart(scene_chart(scene, each));
+  }
+  page.paragraph(equality_text(scene));
+  page.table(equal_error_table(scene));
   page.paragraph(truth_text(scene));
-  PageTable table{fmt::format("{}, {:g} s, on {}", scene.specification, scene.duration, scene.runs.empty() ? "" : scene.runs.front().backend),
-                  run_header()};
-  for (const Run &run : scene.runs) table.rows.push_back(run_cells(run));
-  page.table(table);
+  PageTable table{fmt::format("{}, {:g} s", scene.specification, scene.duration), run_header()};
   std::vector<std::string> commands;
-  for (const Run &run : scene.runs)
-    if (run.front) commands.push_back(run_command_of(scene, run));
+  for (const BackendRuns &each : scene.backends)
+    for (const Run &run : each.runs) {
+      table.rows.push_back(run_cells(run));
+      if (run.front) commands.push_back(run_command_of(scene, run));
+    }
+  page.table(table);
   page.commands(commands);
 }
 
 void add_summary(Page &page, const Report &report)
 {
   page.section("What to pick");
-  PageTable table{"the cheapest setting that keeps a wished error", {"scene", "error", "wished", "solver", "setting", "error kept", "ms per 1/60 s"}};
+  PageTable table{"the cheapest setting that keeps a wished error",
+                  {"scene", "backend", "error", "wished", "solver", "setting", "error kept", "ms per 1/60 s"}};
   for (const SceneReport &scene : report.scenes)
-    for (const Pick &pick : scene.picks) {
-      const Run &run = scene.runs[pick.run];
-      table.rows.push_back({scene.source->name, axis_text(scene.metric), pick.wished, run.solver, short_text(run.settings), run.error(scene.metric),
-                            run.cost()});
-    }
-  page.table(table);
-}
-
-const Run *same_settings(const std::vector<Run> &runs, const Run &wanted)
-{
-  for (const Run &run : runs)
-    if (run.solver == wanted.solver && run.settings.substeps == wanted.settings.substeps && run.settings.iterations == wanted.settings.iterations &&
-        run.settings.step == wanted.settings.step)
-      return &run;
-  return nullptr;
-}
-
-void add_backends(Page &page, const Report &report)
-{
-  if (report.by_backend.empty()) return;
-  page.section("Backends");
-  page.paragraph("The same settings on every backend: the error is the same to the bit, and only the time moves. The hash is that of all bodies at the "
-                 "end; it is compared with the first backend's.");
-  Chart chart{report.backend_scene, {"ms for 1/60 s of simulated time", AxisScale::logarithmic}, {axis_text(report.backend_metric), AxisScale::logarithmic}};
-  chart.series = series_by(report.by_backend, report.backend_metric, [](const Run &run) { return run.backend; });
-  page.chart(chart);
-  PageTable table{report.backend_scene, {"backend", "setting", "ms per 1/60 s", axis_text(report.backend_metric), "hash"}};
-  for (const Run &run : report.by_backend)
-    table.rows.push_back({run.backend, short_text(run.settings), run.cost(), run.error(report.backend_metric),
-                          hash_cell(run, same_settings(report.by_backend, run)->hash == run.hash)});
+    for (const BackendRuns &each : scene.backends)
+      for (const Pick &pick : each.picks) {
+        const Run &run = each.runs[pick.run];
+        table.rows.push_back({scene.source->name, each.backend, axis_text(scene.metric), pick.wished, run.solver, short_text(run.settings),
+                              run.error(scene.metric), run.cost()});
+      }
   page.table(table);
 }
 
@@ -218,23 +247,38 @@ void add_rounding(Page &page, const RoundingReport &rounding)
   page.table(decisions);
 }
 
+/* The scenes, solvers and parts that the request leaves out: nothing goes missing unsaid. */
+std::vector<std::string> left_out_of(const ReportRequest &request)
+{
+  std::vector<std::string> names;
+  for (const ReportCase &known : report_cases())
+    if (std::find(request.cases.begin(), request.cases.end(), &known) == request.cases.end()) names.push_back(known.name);
+  for (const std::string &solver : solver_names())
+    if (std::find(request.solvers.begin(), request.solvers.end(), solver) == request.solvers.end()) names.push_back(solver);
+  if (!request.with_problems) names.push_back("contact problems");
+  if (!request.with_rounding) names.push_back("rounding");
+  return names;
+}
+
 } // namespace
 
 std::string report_page(const Report &report)
 {
   Page page("Tandem: error against run time",
-            fmt::format("{}. Made on {} with {}; scenes on {}; solvers: {}. Times are medians of whole steps, for 1/60 s of simulated time so that time steps "
+            fmt::format("{}. Made on {} with {}; backends: {}; solvers: {}. Times are medians of whole steps, for 1/60 s of simulated time so that time steps "
                         "of all sizes compare; the first quarter of each run is warm-up. Errors are defined in docs/metrics.md. Click a column to sort by it; "
                         "hold the pointer over a point to read it.",
                         report.request.quick ? "A quick look: small scenes, few settings" : "Work-precision diagrams", report.date, report.machine,
-                        report.request.backends.front(), fmt::join(report.request.solvers, ", ")));
-  add_summary(page, report);
+                        fmt::join(report.request.backends, ", "), fmt::join(report.request.solvers, ", ")));
+  if (!report.scenes.empty()) add_summary(page, report);
   for (const SceneReport &scene : report.scenes) add_scene(page, scene);
-  add_backends(page, report);
   add_contact_problems(page, report);
-  add_rounding(page, report.rounding);
+  if (report.request.with_rounding) add_rounding(page, report.rounding);
   page.section("Made by");
   page.commands({report.request.command});
+  if (!report.scenes.empty()) page.paragraph("Estimated before it started: " + report.estimate + ".");
+  const std::vector<std::string> left_out = left_out_of(report.request);
+  if (!left_out.empty()) page.paragraph(fmt::format("Not run: {}.", fmt::join(left_out, ", ")));
   return page.text();
 }
 

@@ -5,34 +5,32 @@
 #include <cmath>
 
 #include "host/scene_catalog_closed_forms.h"
+#include "tools/parallel.h"
 
 namespace tandem {
 namespace {
 
 constexpr uint32_t converged_iterations = 30;
 
-std::vector<PreciseBodies> run_reference(const Scene &scene, double duration, uint32_t refinement, const std::function<void()> &advance)
+std::vector<PreciseBodies> run_reference(const Scene &scene, double duration, uint32_t refinement)
 {
-  World world(scene, truth_settings(refinement), Placement{"reference:threads=1", {}, false});
+  World world(scene, truth_settings(refinement), Placement{truth_backend, {}, false});
   std::vector<PreciseBodies> frames;
   for (size_t k = 0; k < frames_in(duration); ++k) {
     for (uint32_t step = 0; step < 2 * refinement; ++step) world.step();
     frames.push_back(world.precise_bodies());
-    if (advance) advance();
   }
   return frames;
 }
 
-/* Moves the first dynamic body aside, along whichever of x and z its float is finer in; returns how far. */
+/* Moves the first dynamic body aside; returns how far. */
 double nudge(Scene &scene)
 {
   for (Body &body : scene.bodies) {
     if (body.motion != Motion::dynamic) continue;
-    float &coordinate = std::abs(body.position[0]) <= std::abs(body.position[2]) ? body.position[0] : body.position[2];
-    const double before = coordinate;
-    coordinate = static_cast<float>(before + least_nudge);
-    if (coordinate == static_cast<float>(before)) coordinate = std::nextafter(coordinate, INFINITY);
-    return double{coordinate} - before;
+    const double before = body.position[0];
+    body.position[0] += least_nudge;
+    return body.position[0] - before;
   }
   return 0;
 }
@@ -107,19 +105,19 @@ Settings truth_settings(uint32_t refinement)
   return settings;
 }
 
-Truth find_truth(const Scene &scene, double duration, uint32_t refinement, const std::function<void()> &advance)
+Truth find_truth(const Scene &scene, double duration, uint32_t refinement)
 {
   Truth truth;
   Scene nudged = scene;
   truth.nudge = nudge(nudged);
-  std::vector<PreciseBodies> runs[3];
-  for (int k = 0; k < 3; ++k) {
-    truth.refinements[k] = refinement >> (2 - k);
-    runs[k] = run_reference(scene, duration, truth.refinements[k], advance);
-  }
+  std::vector<PreciseBodies> runs[3], beside;
+  for (int k = 0; k < 3; ++k) truth.refinements[k] = refinement >> (2 - k);
+  in_parallel(4, 4, [&](size_t k) { /* the longest first */
+    if (k < 3) runs[2 - k] = run_reference(scene, duration, truth.refinements[2 - k]);
+    else beside = run_reference(nudged, duration, truth.refinements[0]);
+  });
   truth.frames = runs[2];
-  truth.comparable_frames =
-      frames_together(scene, runs[0], run_reference(nudged, duration, truth.refinements[0], advance), horizon_growth * truth.nudge);
+  truth.comparable_frames = frames_together(scene, runs[0], beside, horizon_growth * truth.nudge);
   truth.chaotic = truth.comparable_frames < truth.frames.size();
   const size_t resolved = frames_resolved(scene, runs[1], runs[2]);
   truth.horizon = truth.chaotic ? static_cast<double>(truth.comparable_frames) * frame_time : duration;

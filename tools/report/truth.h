@@ -9,7 +9,6 @@
  */
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -34,6 +33,7 @@ struct Truth {
   bool resolved = true;
   size_t comparable_frames = 0; /* frames up to the horizon, and resolved */
   bool closed_form = false;
+  bool known() const { return !frames.empty(); } /* false where a scene is judged without: by penetration, say */
 
   /* RMS distance of the reference from the truth over the comparable frames, at r / 4, r / 2 and r steps for each 1/60 s: from the closed form
    * where there is one, else from the finest (the last is then 0). */
@@ -45,11 +45,14 @@ struct Truth {
   double uncertainty_rotation() const { return refinement_errors[1].angle_rms(); }
 };
 
+/* On one thread: its runs go side by side. */
+inline constexpr const char *truth_backend = "reference:threads=1";
+
 /* Settings of the reference: one substep, many iterations, contacts as rigid as the step allows, no penetration left in place. */
 Settings truth_settings(uint32_t refinement);
 
-/* `refinement`: a power of two, at least 8. `advance` is called after each frame of each of the four runs. */
-Truth find_truth(const Scene &scene, double duration, uint32_t refinement, const std::function<void()> &advance = {});
+/* `refinement`: a power of two, at least 8. Its four runs go at once on as many threads. */
+Truth find_truth(const Scene &scene, double duration, uint32_t refinement);
 
 inline size_t frames_in(double duration) { return static_cast<size_t>(duration / frame_time + 0.5); }
 

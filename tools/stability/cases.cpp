@@ -25,7 +25,7 @@ Scene empty_scene(const Vec3 &gravity)
   return scene;
 }
 
-Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Vec3 &position, float mass)
+Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position, float mass)
 {
   scene.shapes.push_back(shape);
   Body body;

@@ -27,7 +27,7 @@ void add_degenerate_cases(std::vector<Case> &cases);
 
 Scene empty_scene(const Vec3 &gravity = {0, -10, 0});
 /* A body with a shape of its own; what else it needs is set on the reference, before the next is added. */
-Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Vec3 &position, float mass = 1);
+Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position, float mass = 1);
 Body &add_ground(Scene &scene); /* all points with y <= 0 */
 uint32_t add_material(Scene &scene, float friction, float restitution = 0);
 

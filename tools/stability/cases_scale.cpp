@@ -65,7 +65,7 @@ Trial masses_trial(Length length)
 Scene yard(double x)
 {
   Scene scene = empty_scene();
-  const auto at = [x](double dx, double y, double z) { return Vec3{float(x + dx), float(y), float(z)}; };
+  const auto at = [x](double dx, double y, double z) { return Point{x + dx, y, z}; };
   add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
   for (int i = 0; i < 5; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0, 0.5 + i, 0));
   add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.5f), at(-8, 0.25, 3)).linear_velocity = {5, 0, 0};

@@ -28,17 +28,20 @@ void watch_ball_and_column(Trial &trial, double depth, double lifted = 0.05)
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", 0.05, speed())));
 }
 
-/* Where springs of this frequency hold the column: the lowest two cubes (effective mass 1/2) carry four, beyond the slop. A
- * cube of 1 m must not pass through another whatever it is. */
-double rest_depth(double hertz)
+/* Where springs of this frequency hold a column of cubes of 1 kg: beyond the slop by (load / effective mass) g / w^2, where the
+ * lowest contact of two cubes (effective mass 1/2) carries `load` of them. */
+double rest_depth(double hertz, double load)
 {
-  const double w = 2 * pi * hertz, load = 4, effective_mass = 0.5, slop = 0.005;
-  return std::min(0.9, slop + 1.1 * load / effective_mass * 10 / (w * w));
+  const double w = 2 * pi * hertz, effective_mass = 0.5, slop = 0.005;
+  return slop + load / effective_mass * 10 / (w * w);
 }
+
+/* The lower of a column of five, and a tenth more; a cube of 1 m must not pass through another whatever the springs are. */
+double depth_of_five(double hertz) { return std::min(0.9, 0.005 + 1.1 * (rest_depth(hertz, 4) - 0.005)); }
 
 Case stiffness_case(double hertz)
 {
-  const double depth = std::max(0.02, rest_depth(hertz));
+  const double depth = std::max(0.02, depth_of_five(hertz));
   return {fmt::format("stiffness-{}", hertz), "settings", fmt::format("contacts of {} Hz: a column of five cubes that starts 2 cm in one another, and a ball that falls beside it", hertz),
           "nothing leaves sideways by 5 cm, energy grows by no more than pushing the cubes apart takes (0.6 J/kg), contacts after 5 s at most 2 cm deep, or where springs of that "
           "frequency hold the load, and slower than 0.05 m/s",
@@ -71,7 +74,7 @@ Case step_case(int rate, uint64_t steps)
 
 Case passes_case(const std::string &name, const std::string &what, uint32_t substeps, uint32_t iterations, int height, uint64_t steps, double depth = 0.02)
 {
-  return {name, "settings", what, fmt::format("nothing leaves sideways by 5 cm or turns by 0.05 rad, contacts at most {} m deep, at rest at the end", depth),
+  return {name, "settings", what, fmt::format("nothing leaves sideways by 5 cm or turns by 0.05 rad, contacts at most {:.3g} m deep, at rest at the end", depth),
           [=](Length length) {
             Trial trial = trial_of(column_of(equal(height)), steps_for(length, steps, steps));
             trial.own_passes = true;
@@ -113,7 +116,9 @@ void add_setting_cases(std::vector<Case> &cases)
   cases.push_back(step_case(10000, 10000));
   cases.push_back(passes_case("iterations-1", "one pass a substep: a column of ten cubes", 4, 1, 10, 600));
   cases.push_back(passes_case("iterations-1000", "1,000 passes a substep: a column of ten cubes, which a solver that adds energy would blow up", 4, 1000, 10, 30));
-  cases.push_back(passes_case("substeps-1", "one substep of one pass: a column of ten cubes, which springs of the 15 Hz that it allows carry 2.5 cm deep", 1, 1, 10, 600, 0.05));
+  /* A substep of 1/60 s allows springs of a fifth of its rate; overdamped, they reach their depth and no more. */
+  cases.push_back(passes_case("substeps-1", "one substep of one pass: a column of ten cubes, held by the springs of 12 Hz that it allows: load / effective mass x g / w^2 = 3.2 cm",
+                              1, 1, 10, 600, rest_depth(12, 9) + 1e-6)); /* floats of a height of 10 m are 1e-6 m apart */
   cases.push_back(passes_case("substeps-1000", "1,000 substeps: a column of ten cubes, 17 microseconds a substep", 1000, 1, 10, 30));
   cases.push_back({"gravity-0", "settings", "27 cubes that touch face to face, without gravity", "nothing moves by 10 micrometres or turns by 10 microradians in 10 s",
                    weightless_trial});

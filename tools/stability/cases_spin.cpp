@@ -4,6 +4,7 @@
 
 #include "host/scene_catalog_structures.h"
 #include "tools/stability/cases.h"
+#include "tools/stability/flip.h"
 
 namespace tandem::stability {
 namespace {

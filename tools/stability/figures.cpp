@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/specialise.h"
+#include "tools/stability/flip.h"
 
 namespace tandem::stability {
 namespace {
@@ -75,32 +76,6 @@ double total_kinetic(const Moment &moment)
   for (size_t i = 0; i < moment.bodies.size(); ++i) sum += kinetic_energy(moment.scene(), moment.scene().bodies[i], moment.bodies[i]);
   return sum;
 }
-
-/* Twice the complete elliptic integral of the first kind, by the arithmetic-geometric mean. */
-double twice_complete_elliptic(double modulus_squared)
-{
-  double a = 1, b = std::sqrt(1 - modulus_squared);
-  while (std::abs(a - b) > 1e-15 * a) {
-    const double mean = 0.5 * (a + b);
-    b = std::sqrt(a * b);
-    a = mean;
-  }
-  return pi / a;
-}
-
-struct FlipClock {
-  double before = 0, time = 0, first = 0, last = 0;
-  int flips = 0;
-  void note(double now, double spin)
-  {
-    if (before != 0 && spin * before < 0) {
-      last = now - (now - time) * spin / (spin - before);
-      if (flips++ == 0) first = last;
-    }
-    before = spin;
-    time = now;
-  }
-};
 
 } // namespace
 
@@ -234,24 +209,13 @@ Figure distance_from_path(uint32_t body, std::function<Vector(double time)> expe
   };
 }
 
-double flip_interval(const Vector &moments, const Vector &spin)
-{
-  const double energy2 = moments.dot(spin.cwiseProduct(spin)), momentum2 = moments.cwiseProduct(spin).squaredNorm();
-  double i1 = moments[0], i2 = moments[1], i3 = moments[2];
-  if (momentum2 < energy2 * i2) std::swap(i1, i3);
-  const double rate = std::sqrt((i3 - i2) * (momentum2 - energy2 * i1) / (i1 * i2 * i3));
-  const double modulus_squared = (i2 - i1) * (energy2 * i3 - momentum2) / ((i3 - i2) * (momentum2 - energy2 * i1));
-  return twice_complete_elliptic(modulus_squared) / rate;
-}
-
 Figure flip_error(uint32_t body, double expected)
 {
   auto clock = std::make_shared<FlipClock>();
   return [=](const Moment &moment) {
     const BodyState &state = moment.bodies[body];
     clock->note(moment.time, (axes_of(state.orientation).transpose() * vector_of(state.angular_velocity)).y());
-    if (clock->flips < 2) return 1.0;
-    return std::abs((clock->last - clock->first) / (clock->flips - 1) / expected - 1);
+    return clock->flips() < 2 ? 1.0 : std::abs(clock->interval() / expected - 1);
   };
 }
 

@@ -19,6 +19,8 @@ using Figure = std::function<double(const Moment &)>;
 inline constexpr double pi = 3.14159265358979323846;
 
 inline Vector vector_of(const Vec3 &v) { return {v[0], v[1], v[2]}; }
+inline Vector vector_of(const Point &p) { return {p[0], p[1], p[2]}; }
+inline Point point_of(const Vector &v) { return {v.x(), v.y(), v.z()}; }
 inline Vec3 vec3_of(const Vector &v) { return {float(v.x()), float(v.y()), float(v.z())}; }
 Matrix axes_of(const Quat &q);
 Quat turn_about(const Vector &axis, double angle);
@@ -50,10 +52,7 @@ Figure spin_energy_drift(uint32_t body);
 /* |position - expected(time)| of one body. */
 Figure distance_from_path(uint32_t body, std::function<Vector(double time)> expected);
 
-/* Time between two flips of a body about its middle axis, theory: Landau and Lifshitz, Mechanics, section 37.
- * moments ascending, spin in body axes. */
-double flip_interval(const Vector &moments, const Vector &spin);
-/* Relative difference of the mean time between sign changes of body-axis component 1 from `expected`; 1 before two flips. */
+/* Relative difference of the mean time between flips about body axis 1 (flip.h) from `expected`; 1 before two flips. */
 Figure flip_error(uint32_t body, double expected);
 
 } // namespace tandem::stability

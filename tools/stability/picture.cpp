@@ -2,12 +2,12 @@
 #include "tools/stability/picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
+#include "host/animation_geometry.h"
 #include "tools/stability/figures.h"
 
 namespace tandem::stability {
@@ -27,21 +27,36 @@ bool drawable(const BodyState &state)
   return vector_of(state.position).allFinite() && std::isfinite(state.orientation[0] + state.orientation[1] + state.orientation[2] + state.orientation[3]);
 }
 
-/* Corners of a box, projected. */
-std::array<Point, 8> corners_of(const Shape &shape, const BodyState &state, const Vector &origin)
+/* The shape's centre: not the body's where it has a pose there. */
+Vector centre_of(const Body &body, const BodyState &state, const Vector &origin)
 {
-  const Matrix axes = axes_of(state.orientation);
-  const Vector centre = vector_of(state.position) - origin;
-  std::array<Point, 8> corners;
-  for (int k = 0; k < 8; ++k)
-    corners[size_t(k)] = project(centre + axes * Vector(k & 1 ? shape.size[0] : -shape.size[0], k & 2 ? shape.size[1] : -shape.size[1], k & 4 ? shape.size[2] : -shape.size[2]));
-  return corners;
+  return vector_of(state.position) + axes_of(state.orientation) * vector_of(body.shape_position) - origin;
+}
+
+/* The outline's points, projected. */
+std::vector<Point> points_of(const Shape &shape, const Body &body, const BodyState &state, const Vector &origin)
+{
+  const Matrix axes = axes_of(state.orientation) * axes_of(body.shape_orientation);
+  const Vector centre = centre_of(body, state, origin);
+  std::vector<Point> points;
+  for (const Vec3 &p : outline_points(shape)) points.push_back(project(centre + axes * vector_of(p)));
+  return points;
+}
+
+/* How far a shape reaches from its own origin. */
+double reach_of(const Shape &shape)
+{
+  if (shape.type == ShapeType::sphere) return double(shape.size[0]);
+  if (shape.type == ShapeType::box) return vector_of(shape.size).norm();
+  double reach = 0;
+  for (const Vec3 &p : outline_points(shape)) reach = std::max(reach, vector_of(p).norm());
+  return reach;
 }
 
 double cross(const Point &o, const Point &a, const Point &b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
 
 /* Andrew's monotone chain. */
-std::vector<Point> hull_of(std::array<Point, 8> points)
+std::vector<Point> hull_of(std::vector<Point> points)
 {
   std::sort(points.begin(), points.end(), [](const Point &a, const Point &b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<Point> hull;
@@ -57,10 +72,10 @@ std::vector<Point> hull_of(std::array<Point, 8> points)
   return hull;
 }
 
-void widen(Window &window, const Shape &shape, const BodyState &state)
+void widen(Window &window, const Shape &shape, const Body &body, const BodyState &state)
 {
-  const double reach = shape.type == ShapeType::sphere ? double(shape.size[0]) : vector_of(shape.size).norm();
-  const Point at = project(vector_of(state.position) - vector_of(window.origin));
+  const double reach = reach_of(shape);
+  const Point at = project(centre_of(body, state, vector_of(window.origin)));
   window.left = std::min(window.left, at.x - reach);
   window.right = std::max(window.right, at.x + reach);
   window.bottom = std::min(window.bottom, at.y - reach);
@@ -83,16 +98,16 @@ bool outside(const Frame &frame, const Point &p, double reach)
   return p.x + reach < w.left || p.x - reach > w.right || p.y + reach < w.bottom || p.y - reach > w.top;
 }
 
-std::string drawing_of(const Shape &shape, const BodyState &state, const Frame &frame, const char *style)
+std::string drawing_of(const Shape &shape, const Body &body, const BodyState &state, const Frame &frame, const char *style)
 {
   const Vector origin = vector_of(frame.window.origin);
-  const Point centre = project(vector_of(state.position) - origin);
-  if (outside(frame, centre, shape.type == ShapeType::sphere ? double(shape.size[0]) : vector_of(shape.size).norm())) return "";
+  const Point centre = project(centre_of(body, state, origin));
+  if (outside(frame, centre, reach_of(shape))) return "";
   if (shape.type == ShapeType::sphere)
     return fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", style, (centre.x - frame.window.left) * frame.scale,
                        (frame.window.top - centre.y) * frame.scale, std::max(0.5, double(shape.size[0]) * frame.scale));
   std::string points;
-  for (const Point &p : hull_of(corners_of(shape, state, origin))) points += frame.at(p) + " ";
+  for (const Point &p : hull_of(points_of(shape, body, state, origin))) points += frame.at(p) + " ";
   return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, points);
 }
 
@@ -128,10 +143,10 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
   tight.right = tight.top = -HUGE_VAL;
   const std::vector<BodyState> before = states_of(start);
   for (size_t i = 0; i < start.size(); ++i)
-    if (start[i].motion == Motion::dynamic) widen(tight, shapes[start[i].shape], before[i]);
+    if (start[i].motion == Motion::dynamic) widen(tight, shapes[start[i].shape], start[i], before[i]);
   Window wide = tight;
   for (size_t i = 0; i < end.size(); ++i)
-    if (start[i].motion == Motion::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], end[i]);
+    if (start[i].motion == Motion::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], start[i], end[i]);
   const auto moving = std::count_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
   const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size, least_height = 0.3 * size, least_width = 0.1 * size;
   const double most_wide = moving <= 5 ? 10 * size : size; /* few bodies travel far, seen by their own size */
@@ -151,7 +166,7 @@ std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bo
                                 frame.width(), frame.height(), frame.width(), title, title);
   for (size_t i : drawing_order(bodies, states)) {
     const Shape &shape = shapes[bodies[i].shape];
-    if (shape.type != ShapeType::half_space) svg += drawing_of(shape, states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
+    if (shape.type != ShapeType::half_space) svg += drawing_of(shape, bodies[i], states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
     else {
       const double y = (window.top - double(states[i].position[1])) * frame.scale;
       svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", frame.width(), y, y);

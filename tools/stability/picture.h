@@ -16,7 +16,7 @@ namespace tandem::stability {
 /* What a picture shows, in metres: pictures of one case share it, so that they can be compared. */
 struct Window {
   double left = 0, right = 1, bottom = 0, top = 1;
-  Vec3 origin{0, 0, 0}; /* subtracted from positions first: far scenes */
+  Point origin{0, 0, 0}; /* subtracted from positions first: far scenes */
 };
 
 /* Holds what moves at the start, and what moves at the end as far as that leaves the bodies visible. */

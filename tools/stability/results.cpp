@@ -32,7 +32,8 @@ Json result_json(const Result &result)
           {"settings", outcome.settings},
           {"default_passed", outcome.default_passed},
           {"steps", outcome.steps},
-          {"ms", outcome.milliseconds_per_step},
+          {"ms", outcome.milliseconds},
+          {"ms_per_step", outcome.milliseconds_per_step},
           {"note", outcome.note},
           {"body_hash", hash_text(outcome.body_hash)},
           {"checks", checks}};
@@ -122,13 +123,14 @@ Chart chart_of(const CaseResults &results)
 
 PageTable checks_of(const CaseResults &results)
 {
-  PageTable table{"", {"solver", "figure", "value", "bound", "passed", "ms a step"}, {}};
+  PageTable table{"", {"solver", "figure", "value", "bound", "passed", "ms a step", "ms in all"}, {}};
   for (const Result *result : results)
     for (const CheckResult &check : result->outcome.checks) {
       PageCell passed(check.passed ? "yes" : "NO");
       passed.mark = check.passed ? "good" : "bad";
       table.rows.push_back({result->outcome.solver, check.what, PageCell(with_unit(check.figure, check.unit), check.figure),
-                            PageCell(with_unit(check.bound, check.unit), check.bound), passed, PageCell(result->outcome.milliseconds_per_step)});
+                            PageCell(with_unit(check.bound, check.unit), check.bound), passed, PageCell(result->outcome.milliseconds_per_step),
+                            PageCell(result->outcome.milliseconds)});
     }
   return table;
 }
@@ -165,16 +167,39 @@ svg.scene .ground { stroke: currentColor; stroke-width: 1; }
 </style>
 )";
 
+/* Where the time went: solver by solver, and the longest runs. */
+void add_times(Page &page, const Results &results)
+{
+  page.section("Time");
+  page.paragraph(fmt::format("{:.1f} s in all, summed over runs of which {} went side by side: worlds made, steps and figures.",
+                             1e-3 * results.total_milliseconds(), results.at_once));
+  PageTable table{"seconds by solver, and its longest case", {"solver", "s", "longest case", "s of it"}};
+  for (const std::string &solver : results.solvers) {
+    double sum = 0;
+    const Outcome *longest = nullptr;
+    for (const Result &result : results.results) {
+      if (result.outcome.solver != solver) continue;
+      sum += result.outcome.milliseconds;
+      if (!longest || result.outcome.milliseconds > longest->milliseconds) longest = &result.outcome;
+    }
+    if (longest) table.rows.push_back({solver, 1e-3 * sum, longest->name, 1e-3 * longest->milliseconds});
+  }
+  page.table(table);
+}
+
 } // namespace
 
 std::string results_page(const Results &results, const std::string &command)
 {
-  size_t passed = 0;
-  for (const Result &result : results.results) passed += result.outcome.passed;
+  size_t passed = 0, by_default = 0;
+  for (const Result &result : results.results) {
+    passed += result.outcome.passed;
+    by_default += result.outcome.default_passed;
+  }
   Page page("Stability: stiff and extreme cases",
-            fmt::format("{} runs on {}, {} passed. A case states what passing means in figures, with their bounds; what a figure is compared with is a closed "
+            fmt::format("{} runs on {}, {} passed, {} of them with the solver's default settings; the others with the setting that their cell names. A case states what passing means in figures, with their bounds; what a figure is compared with is a closed "
                         "form, a conserved quantity, the start of the scene or a bound on energy. docs/stability.md says how a case is defined.{}",
-                        results.results.size(), results.backend, passed,
+                        results.results.size(), results.backend, passed, by_default,
                         results.length == Length::quick ? " Quick run: cases named -short are shorter or smaller than the whole ones." : ""));
   page.html(picture_style);
   page.section("All cases");
@@ -184,14 +209,23 @@ std::string results_page(const Results &results, const std::string &command)
     if (each.front()->which.group != group) page.section(group = each.front()->which.group);
     add_case(page, each);
   }
+  add_times(page, results);
   page.section("How it was made");
   page.commands({command});
   return page.text();
 }
 
-void Results::add(const Case &which, const Scene &scene, Outcome outcome)
+double Results::total_milliseconds() const
 {
-  results.push_back({which, std::move(outcome), scene.bodies, scene.shapes});
+  double sum = 0;
+  for (const Result &result : results) sum += result.outcome.milliseconds;
+  return sum;
+}
+
+void Results::add(const Case &which, const Scene &scene, Outcome outcome, size_t place)
+{
+  const auto after = std::find_if(results.begin(), results.end(), [&](const Result &other) { return other.place > place; });
+  results.insert(after, {which, std::move(outcome), scene.bodies, scene.shapes, place});
 }
 
 std::string series_csv(const Results &results)
@@ -208,7 +242,12 @@ Json results_json(const Results &results)
 {
   Json cases = Json::array();
   for (const Result &result : results.results) cases.push_back(result_json(result));
-  return {{"backend", results.backend}, {"solvers", results.solvers}, {"quick", results.length == Length::quick}, {"cases", cases}};
+  return {{"backend", results.backend},
+          {"solvers", results.solvers},
+          {"quick", results.length == Length::quick},
+          {"complete", results.complete()},
+          {"ms", results.total_milliseconds()},
+          {"cases", cases}};
 }
 
 } // namespace tandem::stability

@@ -11,17 +11,23 @@ struct Result {
   Outcome outcome;
   std::vector<Body> start; /* for the pictures, with the shapes */
   std::vector<Shape> shapes;
+  size_t place = 0; /* among all that will be run */
 };
 
 struct Results {
   std::string backend;
   std::vector<std::string> solvers; /* the default first, if it ran */
   Length length;
-  std::vector<Result> results; /* case by case, within each solver by solver */
+  std::vector<Result> results; /* by their place: case by case, within each solver by solver */
+  size_t expected = 0;         /* how many there will be; 0: as many as there are */
+  size_t at_once = 1;          /* runs side by side: they slow each other's times */
 
-  void add(const Case &which, const Scene &scene, Outcome outcome);
+  void add(const Case &which, const Scene &scene, Outcome outcome, size_t place);
+  bool complete() const { return results.size() >= expected; }
+  double total_milliseconds() const; /* of all runs, as if one after the other */
 };
 
+/* "complete" is false while runs are missing. */
 Json results_json(const Results &results);
 /* The page: a table case by solver, then each case with its pictures and its figure over time. `command` made it. */
 std::string results_page(const Results &results, const std::string &command);

@@ -49,6 +49,7 @@ struct Trial {
   Scene scene;
   Settings settings;
   std::optional<Settings> documented; /* tried if the case fails: what it needs, where the default settings do not do */
+  std::string documented_solver;      /* or this solver with its own defaults, tried where the default solver fails */
   bool own_passes = false; /* substeps and iterations are the case's point: a solver's own defaults do not replace them */
   uint64_t steps = 600;
   uint64_t every = 1;       /* steps between two moments that are looked at; the last step always is */
@@ -91,7 +92,8 @@ struct Outcome {
   std::string settings;       /* settings_text() of the run */
   bool default_passed = false; /* false and passed: with the documented settings */
   std::string note;           /* why there is no figure, which body was lost, or what the default settings gave */
-  double milliseconds_per_step = 0;
+  double milliseconds_per_step = 0; /* of the run that `settings` names, without its figures */
+  double milliseconds = 0;          /* of all runs of the case: worlds made, steps, figures */
   uint64_t steps = 0; /* done */
   uint64_t body_hash = 0;
   std::vector<BodyState> end;
@@ -105,7 +107,8 @@ Settings settings_of(const Trial &trial, const std::string &solver);
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
-/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is returned. */
+/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is returned. A solver
+ * that a case documents is tried for the default solver alone: the others are judged by themselves. */
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
                  const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 

@@ -148,7 +148,10 @@ std::string fault_of_axis(const PairScene &scene, const Contact &contact, const 
   const ReferenceAxis best = best_axis(all_axes(box_a, box_b), error);
   if (std::abs(contact.normal.norm() - 1) > 1e-6) return "normal not unit";
   const double gap = gap_along(box_a, box_b, contact.normal);
-  if (gap < best.gap - error / best.sharpness - 2 * lead_of(scene, a, b)) return "not the axis of least overlap";
+  /* Boxes with one centre part by three leads to a side of their own. */
+  const double least = std::min(a.extent().minCoeff(), b.extent().minCoeff());
+  const double leads = (a.center() - b.center()).norm() < 1.01e-3 * least ? 5 : 2;
+  if (gap < best.gap - error / best.sharpness - leads * lead_of(scene, a, b)) return "not the axis of least overlap";
   return "";
 }
 
@@ -241,13 +244,40 @@ FaceCase match_faces(const Contact &contact, const TestBody &a, const TestBody &
   return result;
 }
 
+/* The second largest gap along the face axes of one box. */
+double second_gap(const ReferenceBox &of, const ReferenceBox &other)
+{
+  std::array<double, 3> gaps;
+  for (int k = 0; k < 3; ++k) gaps[size_t(k)] = std::max(gap_along(of, other, of.axes.col(k)), gap_along(of, other, -of.axes.col(k)));
+  std::sort(gaps.begin(), gaps.end());
+  return gaps[1];
+}
+
+/* How far edges count as rounded off: the slop and a quarter more. */
+double rounded_off(const PairScene &scene, const TestBody &a, const TestBody &b)
+{
+  const double least = std::min(a.extent().minCoeff(), b.extent().minCoeff());
+  return 1.25 * std::min(double(scene.parameters.slop), scene.parameters.slop_share * least);
+}
+
+/* Whether one of two boxes has such a gap in a range of which the ends are moved apart by a margin. */
+bool only_edges_meet(const PairScene &scene, const TestBody &a, const TestBody &b, double margin)
+{
+  const ReferenceBox box_a(a), box_b(b);
+  const double rounded = rounded_off(scene, a, b);
+  const auto meet = [&](double gap) { return gap > -rounded - margin && gap < margin; };
+  return meet(second_gap(box_a, box_b)) || meet(second_gap(box_b, box_a));
+}
+
 /* The whole of what one pair must satisfy. */
 std::string fault_of(const PairScene &scene, const Contact &contact, const TestBody &a, const TestBody &b,
                      FaceCase &face)
 {
   const ReferenceAxis best = best_axis(all_axes(ReferenceBox(a), ReferenceBox(b)), rounding(a, b));
   const double reach = scene.parameters.speculative_distance;
-  if (contact.points.empty()) return best.gap < 0 ? "overlap without a contact" : "";
+  const double lead = lead_of(scene, a, b), error = rounding(a, b);
+  if (contact.points.empty()) return best.gap < 0 && !only_edges_meet(scene, a, b, 2 * lead + error) ? "overlap without a contact" : "";
+  if (only_edges_meet(scene, a, b, -error)) return "a contact of rounded edges";
   if (best.gap > reach + rounding(a, b)) return "contact out of reach";
   for (const Point &point : contact.points)
     if (!(point.separation < reach)) return "point out of reach";
@@ -427,4 +457,66 @@ TEST_CASE("boxes with one centre have finite contacts and the axis of their leas
   REQUIRE(contact.points.size() == 4);
   CHECK(std::abs(contact.normal.y()) == 1);
   for (const Point &point : contact.points) CHECK(point.separation == Approx(-0.5));
+}
+
+TEST_CASE("cubes with one centre part sideways, some along each axis and to each side")
+{
+  PairScene scene;
+  const size_t pairs = 256;
+  while (scene.size() < pairs) scene.add(TestBody(), TestBody());
+  const Outputs outputs = scene.run({Kernel::collide_box_box});
+  std::map<int, size_t> times;
+  for (size_t pair = 0; pair < pairs; ++pair) {
+    const Contact contact = scene.contact(outputs, pair);
+    REQUIRE(contact.points.size() == 4);
+    REQUIRE(contact.normal.y() == 0);
+    REQUIRE(contact.points[0].separation == -2);
+    ++times[int(contact.normal.x()) + 3 * int(contact.normal.z())];
+  }
+  for (int side : {1, -1, 3, -3}) CHECK(times[side] > pairs / 8);
+}
+
+/* Two boxes of 2 m, b beside a at the first gap and above it at the second. */
+TEST_CASE("boxes of which only edges thinner than the slop meet are apart, in every direction")
+{
+  const auto points = [](double beside, double above, int side_axis, int up_axis, double angle) {
+    TestBody a, b;
+    b.position[side_axis] = float(2 + beside);
+    b.position[up_axis] = float(2 + above);
+    const Eigen::Quaternionf turn(Eigen::AngleAxisf(float(angle), Eigen::Vector3f(1, 2, 3).normalized()));
+    a.orientation = b.orientation = turn;
+    b.position = turn * b.position;
+    PairScene scene;
+    scene.add(a, b);
+    scene.add(b, a);
+    const Outputs outputs = scene.run({Kernel::collide_box_box});
+    CHECK(outputs.counts[0] == outputs.counts[1]);
+    return outputs.counts[0];
+  };
+  for (double angle : {0.0, 0.5})
+    for (int side = 0; side < 3; ++side)
+      for (int up = 0; up < 3; ++up) {
+        if (side == up) continue;
+        CAPTURE(side, up, angle);
+        for (double beside : {0.015, 1e-3, -1e-3, -0.004, -0.006}) CHECK(points(beside, -0.005, side, up, angle) == 0);
+        CHECK(points(-0.012, -0.005, side, up, angle) == 4); /* carried: 12 mm wide */
+        CHECK(points(0.015, -0.03, side, up, angle) == 4);   /* a step of 3 cm, ahead */
+        CHECK(points(-0.001, -0.03, side, up, angle) == 4);
+        CHECK(points(-1, -0.005, side, up, angle) == 4);
+        CHECK(points(-1, 0.005, side, up, angle) == 4);
+      }
+}
+
+TEST_CASE("small boxes have edges rounded off by less")
+{
+  TestBody a, b;
+  a.size = b.size = {0.02f, 0.02f, 0.02f}; /* so by 1.25 mm */
+  PairScene scene;
+  b.position = {0.038f, 0.039f, 0};
+  scene.add(a, b);
+  b.position = {0.039f, 0.0392f, 0};
+  scene.add(a, b);
+  const Outputs outputs = scene.run({Kernel::collide_box_box});
+  CHECK(outputs.counts[0] == 4);
+  CHECK(outputs.counts[1] == 0);
 }

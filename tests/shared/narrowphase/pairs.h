@@ -71,6 +71,7 @@ public:
     parameters.step = 1.0f / 60;
     parameters.speculative_distance = 0.02f;
     parameters.slop = 0.005f;
+    parameters.slop_share = 0.05f;
   }
 
   void add(const TestBody &a, const TestBody &b)
@@ -140,6 +141,7 @@ private:
     shapes_.push_back(to_row(body.size, body.bounding_radius()));
     traits_.push_back(body.shape | 2u << 3 | 7u << 8);
     positions_.push_back(to_row(body.position, 0));
+    positions_.push_back({0, 0, 0, 0});
     orientations_.push_back({body.orientation.x(), body.orientation.y(), body.orientation.z(), body.orientation.w()});
     velocities_.push_back(to_row(body.linear, 1));
     velocities_.push_back(to_row(body.angular, 0));

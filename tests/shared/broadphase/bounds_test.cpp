@@ -1,0 +1,65 @@
+/* Bounds of bodies with shapes of every kind, anywhere in their bodies: all that a body is at the start of a step lies inside by the
+ * margin, and all that it is at the end lies inside. */
+#include "tests/catch.h"
+
+#include "shared/platform.h"
+#include "tests/host/shape_points.h"
+
+using namespace tandem;
+using namespace tandem::shape_points;
+
+namespace {
+
+struct Reach {
+  Vector low, high;
+};
+
+Reach bounds_of(World &world, uint32_t index)
+{
+  const std::vector<row> rows = world.memory().read<row>(Buffer::bounds, 2, 2 * index);
+  return {{rows[0].x, rows[0].y, rows[0].z}, {rows[1].x, rows[1].y, rows[1].z}};
+}
+
+/* How far the points reach out of the bounds; negative: how far they stay inside. */
+double outside_by(const Reach &bounds, const std::vector<Vector> &points, const BodyState &state)
+{
+  const physics_tests::Matrix axes = physics_tests::axes_of(state.orientation);
+  const Vector place = physics_tests::vector_of(state.position);
+  double worst = -1e300;
+  for (const Vector &p : points) {
+    const Vector at = place + axes * p;
+    worst = std::max({worst, (bounds.low - at).maxCoeff(), (at - bounds.high).maxCoeff()});
+  }
+  return worst;
+}
+
+} // namespace
+
+TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning")
+{
+  const double speed = GENERATE(0.0, 8.0), spin = GENERATE(0.0, 10.0);
+  Random random(5);
+  Scene scene = physics_tests::empty_scene();
+  constexpr int side = 8;
+  for (int i = 0; i < side * side * side; ++i) {
+    Body &body = add_any(scene, random, {12.0 * (i % side) - 40, 12.0 * (i / side % side) - 40, 12.0 * (i / side / side) - 40});
+    body.linear_velocity = physics_tests::vec3_of(speed * direction(random));
+    body.angular_velocity = physics_tests::vec3_of(spin * direction(random));
+  }
+  World world(scene);
+  const std::vector<BodyState> start = world.bodies();
+  world.step();
+  REQUIRE(world.statistics().contacts == 0);
+  const std::vector<BodyState> end = world.bodies();
+  const double margin = 2 * world.settings().slop; /* half of the distance at which contacts are made */
+  for (uint32_t index = 0; index < scene.bodies.size(); ++index) {
+    const uint32_t i = world.scene_body(index);
+    const Body &body = scene.bodies[i];
+    const std::vector<Vector> points = points_of(scene, body, random);
+    const Reach bounds = bounds_of(world, index);
+    const double before = outside_by(bounds, points, start[i]) + margin, after = outside_by(bounds, points, end[i]);
+    CAPTURE(i, int(scene.shapes[body.shape].type), speed, spin, before, after);
+    REQUIRE(before < 1e-6);
+    REQUIRE(after < 0);
+  }
+}

@@ -1,0 +1,25 @@
+/* bench_narrowphase.h - `tandem bench narrowphase`: how many manifolds a second, by the shapes that meet and by method. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/measure.h"
+#include "tools/output.h"
+
+namespace tandem {
+
+struct PairTime {
+  std::string pair, kernel;
+  std::string method;     /* --narrowphase; empty for shapes with a test of their own */
+  uint32_t pairs = 0, manifolds = 0, points = 0; /* manifolds: pairs with a point */
+  Spread milliseconds;    /* of the kernel alone */
+};
+
+/* `pairs` separate pairs of each kind. InputError as make_backend. */
+std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, bool allow_inexact);
+
+std::string narrowphase_text(const std::vector<PairTime> &times);
+Json narrowphase_json(const std::vector<PairTime> &times);
+
+} // namespace tandem

@@ -1,0 +1,61 @@
+/* parallel.cpp - see parallel.h. */
+#include "tools/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <tbb/info.h>
+
+namespace tandem {
+namespace {
+
+class Failure {
+public:
+  bool any() const { return failed_; }
+  void note(size_t index, std::exception_ptr thrown)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (failed_ && index > index_) return;
+    index_ = index;
+    thrown_ = std::move(thrown);
+    failed_ = true;
+  }
+  void rethrow() const
+  {
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
+
+private:
+  std::mutex mutex_;
+  std::atomic<bool> failed_ = false;
+  size_t index_ = 0;
+  std::exception_ptr thrown_;
+};
+
+} // namespace
+
+void in_parallel(size_t count, size_t threads, const std::function<void(size_t)> &task)
+{
+  std::atomic<size_t> next = 0;
+  Failure failure;
+  const auto work = [&] {
+    for (size_t i = next++; i < count && !failure.any(); i = next++) try {
+        task(i);
+      } catch (...) {
+        failure.note(i, std::current_exception());
+      }
+  };
+  std::vector<std::thread> helpers;
+  for (size_t k = 1; k < std::min(threads, count); ++k) helpers.emplace_back(work);
+  work();
+  for (std::thread &helper : helpers) helper.join();
+  failure.rethrow();
+}
+
+size_t processor_count() { return static_cast<size_t>(std::max(1, tbb::info::default_concurrency())); }
+
+} // namespace tandem
