@@ -125,14 +125,14 @@ SHARED support_face capsule_feature(const convex *shape, vec3 own)
 }
 
 /* Unit normal of a triangle seen counter-clockwise; meshes hold none without (host/geometry/triangle_mesh.h). */
-SHARED vec3 triangle_normal(const convex *shape)
+SHARED vec3 normal_of_triangle(const convex *shape)
 {
   vec3 normal = outer(shape->second, shape->third);
   return scale(normal, R(1.0) / length_of(normal));
 }
 SHARED support_face triangle_feature(const convex *shape, vec3 own)
 {
-  vec3 normal = triangle_normal(shape);
+  vec3 normal = normal_of_triangle(shape);
   support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), 0u);
   face.corners = 3u;
   face.turned = inner(normal, own) < R(0.0);

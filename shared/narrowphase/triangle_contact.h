@@ -29,7 +29,7 @@ typedef struct {
 SHARED triangle_sides sides_of(const convex *shape)
 {
   triangle_sides t;
-  t.normal = from_shape_axes(shape, triangle_normal(shape));
+  t.normal = from_shape_axes(shape, normal_of_triangle(shape));
   for (uint k = 0u; k < 3u; ++k) t.corner[k] = point_of_shape(shape, triangle_corner(shape, k));
   for (uint k = 0u; k < 3u; ++k) {
     vec3 across = outer(subtract(t.corner[k == 2u ? 0u : k + 1u], t.corner[k]), t.normal);
