@@ -102,6 +102,8 @@ private:
   {
     run(Kernel::group_manifolds);
     run(Kernel::merge_manifolds);
+    run(Kernel::find_grazing);
+    run(Kernel::drop_grazing);
   }
 
   /* The matrix of shape pairs; a gap is a pair that the scene does not have. */

@@ -4,7 +4,7 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/midphase/leaf_pairs.h"
-#include "shared/midphase/merge.h"
+#include "shared/midphase/grazing.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"

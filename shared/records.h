@@ -57,6 +57,14 @@ SHARED vec3 offset_between(GLOBAL const row *body_position, natural from, natura
   return add(subtract(b.high, a.high), subtract(b.low, a.low));
 }
 
+/* The smallest half extent of a pair; of two that have none (half-spaces, flat meshes), 0. */
+SHARED real size_between(GLOBAL const row *body_shape, natural a, natural b)
+{
+  vec4 of_a = load_row(body_shape, a), of_b = load_row(body_shape, b);
+  real size_a = minimum(of_a.x, minimum(of_a.y, of_a.z)), size_b = minimum(of_b.x, minimum(of_b.y, of_b.z));
+  return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b);
+}
+
 /* Linear velocity and inverse mass, angular velocity: two rows, one 32-byte record. */
 typedef struct {
   vec3 linear, angular;

@@ -152,14 +152,6 @@ SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, 
   return patch;
 }
 
-/* The smallest half extent of a pair. */
-SHARED real size_between(GLOBAL const row *body_shape, body_pair bodies)
-{
-  vec4 a = load_row(body_shape, bodies.a), b = load_row(body_shape, bodies.b);
-  real size_a = minimum(a.x, minimum(a.y, a.z)), size_b = minimum(b.x, minimum(b.y, b.z));
-  return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b); /* a half-space has none */
-}
-
 /* What constraint_slop holds: penetration left in place so that contacts persist (small bodies would vanish in it), or
  * DEEP where a point starts the step deeper than DEEP_SHARE of the pair's size. No impact brings bodies there, only a
  * start that should not be, or a load beyond what the settings carry. */
@@ -239,7 +231,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_row(constraint_friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
                       patch.radius));
-  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies), deepest));
+  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies.a, bodies.b), deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
