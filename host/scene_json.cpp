@@ -38,6 +38,7 @@ template <typename Field> void each_field(const Body *, Field &&field)
 {
   field("name", &Body::name);
   field("motion", &Body::motion);
+  field("trigger", &Body::trigger);
   field("shape", &Body::shape);
   field("material", &Body::material);
   field("position", &Body::position);

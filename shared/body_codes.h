@@ -1,6 +1,6 @@
 /* body_codes.h - the numbers in body_traits and body_convex; kernels and the host both name them.
  *
- * body_traits: bits 0-2 shape, 3-4 motion, 8-31 material.
+ * body_traits: bits 0-2 shape, 3-4 motion, 5 trigger, 8-31 material.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
@@ -10,5 +10,8 @@ enum { SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2, SHAPE_CAPSULE = 3,
 
 /* Quarantined: taken out of the simulation, since it stopped being finite. */
 enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
+
+/* Found and reported by the pairs it is in, never solved. */
+enum { TRAIT_TRIGGER = 1 << 5 };
 
 #endif

@@ -13,6 +13,7 @@
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
+SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return traits >> 8u; }
 
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low` is what rounding
