@@ -55,13 +55,14 @@ private:
     int node;
     Transform parent;
     size_t body;   /* index into bodies_ of the motion above, or none */
+    size_t list;   /* the same of the trigger above that lists nodes */
     bool animated; /* it, or a node above */
   };
   std::vector<int> root_nodes() const;
   void visit(const Visit &at);
   void add(const JsonValue &physics, Visit &below);
-  void add_trigger(const JsonValue &trigger, const Visit &at);
-  void add_trigger_list(const JsonValue &trigger, const Visit &at);
+  void add_trigger(const JsonValue &trigger, Visit &at);
+  void add_trigger_list(const JsonValue &trigger, Visit &at);
   void settle_triggers();
 
   const GltfDocument &document_;
@@ -118,7 +119,7 @@ void Walk::add(const JsonValue &physics, Visit &below)
   else bodies_[below.body].colliders.push_back(here);
 }
 
-void Walk::add_trigger(const JsonValue &trigger, const Visit &at)
+void Walk::add_trigger(const JsonValue &trigger, Visit &at)
 {
   static constexpr const char *keys[] = {"geometry", "nodes", "collisionFilter", "extras", "extensions"};
   trigger.only_keys(keys);
@@ -126,24 +127,26 @@ void Walk::add_trigger(const JsonValue &trigger, const Visit &at)
   trigger.member("geometry");
   const PlacedNode here{at.node, at.parent};
   const auto listed = parts_.find(at.node);
-  const size_t whole = listed == parts_.end() ? none : listed->second;
-  if (whole != none) parts_.erase(listed);
+  const bool is_part = listed != parts_.end() && listed->second == at.list;
+  if (is_part) parts_.erase(listed);
   if (is_scaled_to_nothing(here.world)) return;
-  if (whole != none) bodies_[whole].colliders.push_back(here);
+  if (is_part) bodies_[at.list].colliders.push_back(here);
   else if (at.body != none) bodies_[at.body].carried.push_back(here);
   else bodies_.push_back({here, false, true, {here}});
 }
 
 /* Its parts come later in the walk, for they are below it. */
-void Walk::add_trigger_list(const JsonValue &trigger, const Visit &at)
+void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
 {
   for (const char *key : {"geometry", "collisionFilter"})
     if (trigger.find(key)) trigger.fail(fmt::format("nodes and {} exclude each other", key));
   if (at.body != none) trigger.fail("a compound trigger that moves with a body is not supported yet");
+  if (at.list != none) trigger.fail("a compound trigger below another is not supported yet");
   const JsonValue nodes = trigger.member("nodes");
   if (nodes.array_size() == 0) nodes.fail("is empty; at least one node is needed");
   for (size_t i = 0; i < nodes.array_size(); ++i)
     if (!parts_.emplace(int(nodes.element(i).unsigned_integer()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
+  at.list = bodies_.size();
   bodies_.push_back({{at.node, at.parent}, false, true});
 }
 
@@ -185,7 +188,7 @@ void Walk::visit(const Visit &at)
 std::vector<BodyNodes> Walk::bodies()
 {
   std::vector<int> roots = root_nodes();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, false});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, none, false});
   while (!pending_.empty()) {
     Visit next = pending_.back();
     pending_.pop_back();

@@ -47,7 +47,9 @@ private:
     const uint32_t n = world_.memory().read<uint32_t>(Buffer::counts, 1, COUNT_CONSTRAINTS)[0];
     const auto pairs = world_.memory().read<uint32_t>(Buffer::constraint_pair, n);
     const auto impulses = world_.memory().read<row>(Buffer::constraint_normal_impulse, n);
-    for (uint32_t i = 0; i < n; ++i) carried_[pairs[i]] += Eigen::Vector4d(impulses[i].x, impulses[i].y, impulses[i].z, impulses[i].w);
+    for (uint32_t i = 0; i < n; ++i)
+      carried_.try_emplace(pairs[i], Eigen::Vector4d::Zero()).first->second +=
+          Eigen::Vector4d(impulses[i].x, impulses[i].y, impulses[i].z, impulses[i].w);
   }
 
   void find_contacts()

@@ -168,7 +168,7 @@ TEST_CASE("the events of a smooth pile account for the momentum of every body in
       REQUIRE((pushed[k] - change).norm() < 2e-5);
     }
   }
-  CHECK(events > 60 * 20);
+  CHECK(events > 60 * 10);
 }
 
 TEST_CASE("a ball that slides over an edge ceases to touch where the edge is", "[physics]")
@@ -188,8 +188,9 @@ TEST_CASE("a ball that slides over an edge ceases to touch where the edge is", "
 
 TEST_CASE("a contact ends also where the pair is gone from the list: carried off, or taken out", "[physics]")
 {
-  Scene scene = ball_above_ground(0.5, 0);
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {5, 0.5, 0});
+  Scene scene = empty_scene();
+  add_body(scene, Motion::fixed, box_shape(10, 0.5f, 10), {0, -0.5, 0});
+  for (const double x : {0, 5}) add_body(scene, Motion::dynamic, sphere_shape(0.5f), {x, 0.5, 0});
   World world(scene, with_events(), {"serial", {}});
   run(world, 3);
   REQUIRE(world.contact_events().size() == 2);
@@ -237,17 +238,20 @@ TEST_CASE("every event of a random pile, against the oracle", "[physics]")
     }
 }
 
-/* Balls thrown at one place: pairs outgrow their buffers in the middle of the run, and colours their rounds. */
+/* Balls in a heap, and triggers that fly into it: all against all, so that pairs outgrow their buffers in the middle of the run. */
 TEST_CASE("a step that runs again with larger buffers tells its events once", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  scene.shapes = {sphere_shape(0.3f)};
+  scene.shapes = {sphere_shape(0.3f), sphere_shape(1)};
   Random random(5);
-  for (int i = 0; i < 150; ++i) {
-    const Vector from = 4 * Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  for (int i = 0; i < 120; ++i) {
+    const double distance = i % 2 ? 4 : 1;
+    const Vector from = distance * Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     Body body;
     body.position = point_of(from);
-    body.linear_velocity = vec3_of(-2 * from);
+    body.linear_velocity = vec3_of(i % 2 ? -2 * from : -0.2 * from);
+    body.trigger = i % 2;
+    body.shape = i % 2;
     scene.bodies.push_back(body);
   }
   World world(scene, with_events(), {"tbb", {}});
@@ -282,7 +286,7 @@ TEST_CASE("events change no motion, cost nothing unless asked for, and are refus
   }
 }
 
-TEST_CASE("a contact 1,000 km from the origin is told to the millimetre", "[physics]")
+TEST_CASE("a contact 1000 km from the origin is told to the millimetre", "[physics]")
 {
   Scene scene = empty_scene();
   add_body(scene, Motion::fixed, box_shape(1, 0.5f, 1), {1e6, -0.5, 2e5});
