@@ -38,7 +38,6 @@ template <typename Field> void each_field(const Body *, Field &&field)
 {
   field("name", &Body::name);
   field("motion", &Body::motion);
-  field("trigger", &Body::trigger);
   field("shape", &Body::shape);
   field("material", &Body::material);
   field("position", &Body::position);
@@ -55,6 +54,7 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("angular_damping", &Body::angular_damping);
   field("filter_group", &Body::filter_group);
   field("filter_mask", &Body::filter_mask);
+  field("trigger", &Body::trigger);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */

@@ -263,7 +263,7 @@ TEST_CASE("what is not supported is refused with the node's name")
   CHECK_THAT(complaint(physics(R"("collider":{"geometry":{}})")), ContainsSubstring(prefix + "collider.geometry: names 0 of shape"));
   CHECK_THAT(complaint(physics(R"("joint":{"connectedNode":1,"joint":0})")),
              ContainsSubstring(prefix + "a joint is not supported yet"));
-  CHECK_THAT(complaint(physics(R"("trigger":{})")), ContainsSubstring(prefix + "trigger.geometry"));
+  CHECK_THAT(complaint(physics(R"("trigger":{})")), ContainsSubstring(prefix + "trigger: \"geometry\" is missing"));
   CHECK_THAT(complaint(physics(R"("trigger":{"geometry":{"shape":0},"physicsMaterial":0})")),
              ContainsSubstring(prefix + "trigger.physicsMaterial: unknown key"));
   CHECK_THAT(complaint(physics(R"("motion":{})")), ContainsSubstring(prefix + "a motion without a collider"));
