@@ -2,6 +2,7 @@
 #include "host/contact_events.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "shared/events/event_codes.h"
 #include "shared/platform.h"
@@ -39,9 +40,15 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   const uint32_t n = memory.read<uint32_t>(Buffer::counts, 1, COUNT_EVENTS).front();
   const auto bodies = memory.read<uint32_t>(Buffer::event_bodies, 4 * size_t{n});
   const auto contacts = memory.read<row>(Buffer::event_contact, 3 * size_t{n});
+  std::vector<std::pair<uint64_t, uint32_t>> places(n); /* the two bodies as one number, and where: shorter to sort than events */
+  for (uint32_t i = 0; i < n; ++i) {
+    const auto [low, high] = std::minmax(order[bodies[4 * size_t{i} + 1]], order[bodies[4 * size_t{i} + 2]]);
+    places[i] = {uint64_t{low} << 32 | high, i};
+  }
+  std::sort(places.begin(), places.end());
   std::vector<ContactEvent> events;
-  for (size_t i = 0; i < n; ++i) events.push_back(event_of(&bodies[4 * i], &contacts[3 * i], scene, order));
-  std::sort(events.begin(), events.end(), [](const ContactEvent &x, const ContactEvent &y) { return std::pair{x.a, x.b} < std::pair{y.a, y.b}; });
+  events.reserve(n);
+  for (const auto &[pair, i] : places) events.push_back(event_of(&bodies[4 * size_t{i}], &contacts[3 * size_t{i}], scene, order));
   return events;
 }
 
