@@ -11,14 +11,16 @@
 #include "shared/batching/single_group.h"
 
 __kernel void match_pairs(__global const Parameters *parameters, __global const uint *pair_a,
-                          __global const uint *pair_b, __global const uint *manifold_count, __global const uint *body_traits,
+                          __global const uint *pair_b, __global const row *manifold_normal,
+                          __global const uint *manifold_count, __global const uint *body_traits,
                           __global const uint *cached_start, __global const uint *cached_b,
-                          __global const uint *cached_color, __global uint *counts, __global uint *pair_cached,
-                          __global uint *pair_color, __global uint *body_colors, uint keep, RANGE)
+                          __global const row *cached_normal, __global const uint *cached_color,
+                          __global uint *counts, __global uint *pair_cached, __global uint *pair_color,
+                          __global uint *body_colors, uint keep, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  match_pairs_item(parameters, pair_a, pair_b, manifold_count, body_traits, cached_start, cached_b, cached_color, counts,
-                   pair_cached, pair_color, body_colors, keep, i);
+  match_pairs_item(parameters, pair_a, pair_b, manifold_normal, manifold_count, body_traits, cached_start, cached_b,
+                   cached_normal, cached_color, counts, pair_cached, pair_color, body_colors, keep, i);
 }
 
 __kernel void color_bid(__global const uint *pair_a, __global const uint *pair_b,

@@ -70,6 +70,12 @@ __kernel void cache_starts(__global const uint *pair_start, __global uint *cache
   cache_starts_item(pair_start, cached_start, i);
 }
 
+__kernel void cache_normals(__global const row *manifold_normal, __global row *cached_normal, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  cache_normals_item(manifold_normal, cached_normal, i);
+}
+
 __kernel void cache_pairs(__global const uint *pair_b, __global const uint *pair_color,
                           __global const uint *manifold_feature, __global uint *cached_b,
                           __global uint *cached_color, __global uint *cached_feature,

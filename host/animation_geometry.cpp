@@ -2,12 +2,31 @@
 #include "host/animation_geometry.h"
 
 #include "host/geometry/convex_hull.h"
+#include "host/geometry/shape_mass.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tandem {
 namespace {
+
+/* Half extents of a unit mesh. Normals of stretched balls and boxes stay as they are: their sizes are alike, or their faces square. */
+void stretch(DisplayMesh &mesh, const Vec3 &size)
+{
+  for (Vec3 &p : mesh.positions)
+    for (size_t axis = 0; axis < 3; ++axis) p[axis] *= size[axis];
+}
+
+Vec3 unit_normal(const Vec3 &a, const Vec3 &b, const Vec3 &c)
+{
+  double u[3], v[3];
+  for (size_t k = 0; k < 3; ++k) {
+    u[k] = double(b[k]) - a[k];
+    v[k] = double(c[k]) - a[k];
+  }
+  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0], length = std::hypot(x, y, z);
+  return {float(x / length), float(y / length), float(z / length)};
+}
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int segments = 24; /* of a circle */
@@ -146,6 +165,40 @@ DisplayMesh hull_mesh(const ConvexHull &hull)
   return mesh;
 }
 
+/* Flat triangles: a mesh need not be smooth anywhere. */
+DisplayMesh surface_mesh(const TriangleMesh &surface)
+{
+  DisplayMesh mesh;
+  for (const Triangle &triangle : surface.triangles) {
+    const auto &[a, b, c] = triangle;
+    const Vec3 normal = unit_normal(surface.vertices[a], surface.vertices[b], surface.vertices[c]);
+    for (uint32_t corner : triangle) {
+      mesh.indices.push_back(uint32_t(mesh.positions.size()));
+      mesh.positions.push_back(surface.vertices[corner]);
+      mesh.normals.push_back(normal);
+    }
+  }
+  return mesh;
+}
+
+/* The child as it stands in its compound; a child with a unit mesh is stretched here. */
+void append_child(DisplayMesh &mesh, const Child &child)
+{
+  DisplayMesh own = display_mesh(child.shape);
+  if (has_unit_mesh(child.shape.type)) stretch(own, child.shape.size);
+  const auto first = uint32_t(mesh.positions.size());
+  for (uint32_t index : own.indices) mesh.indices.push_back(first + index);
+  for (const Vec3 &p : placed_points(own.positions, child.position, child.orientation)) mesh.positions.push_back(p);
+  for (const Vec3 &n : placed_points(own.normals, {0, 0, 0}, child.orientation)) mesh.normals.push_back(n);
+}
+
+DisplayMesh compound_mesh(const Compound &compound)
+{
+  DisplayMesh mesh;
+  for (const Child &child : compound.children) append_child(mesh, child);
+  return mesh;
+}
+
 DisplayMesh half_space_mesh()
 {
   DisplayMesh mesh;
@@ -166,6 +219,8 @@ DisplayMesh display_mesh(const Shape &shape)
   case ShapeType::capsule: return capsule_mesh(shape.size);
   case ShapeType::cylinder: return cylinder_mesh(shape.size);
   case ShapeType::hull: return hull_mesh(*shape.hull);
+  case ShapeType::mesh: return surface_mesh(*shape.mesh);
+  case ShapeType::compound: return compound_mesh(*shape.compound);
   }
   return {};
 }
@@ -174,11 +229,10 @@ std::vector<Vec3> outline_points(const Shape &shape)
 {
   if (shape.type == ShapeType::half_space) return {};
   if (shape.type == ShapeType::hull) return shape.hull->vertices;
-  std::vector<Vec3> points = display_mesh(shape).positions;
-  if (has_unit_mesh(shape.type))
-    for (Vec3 &p : points)
-      for (size_t axis = 0; axis < 3; ++axis) p[axis] *= shape.size[axis];
-  return points;
+  if (shape.type == ShapeType::mesh) return shape.mesh->vertices;
+  DisplayMesh mesh = display_mesh(shape);
+  if (has_unit_mesh(shape.type)) stretch(mesh, shape.size);
+  return mesh.positions;
 }
 
 } // namespace tandem

@@ -4,20 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/buffer_upload.h"
+#include "host/geometry/shape_mass.h"
 #include "host/hash.h"
 #include "host/hull_buffers.h"
 #include "host/shape_bounds.h"
 #include "host/specialise.h"
+#include "host/tree_tables.h"
 #include "shared/body_codes.h"
 #include "shared/platform.h"
 
 namespace tandem {
 namespace {
-
-template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
-{
-  if (memory.bytes(buffer) > 0) memory.upload(buffer, values.data(), values.size() * sizeof(T));
-}
 
 row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
 Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
@@ -33,10 +31,42 @@ Point point_of(const row *place)
   return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
 }
 
-uint32_t traits_of(const Scene &scene, const Body &body)
+/* A shape as it stands in a body: the body's own, or a child of its compound. */
+struct PlacedShape {
+  const Body *body;
+  const Shape *shape;
+  Vec3 position;
+  Quat orientation;
+  uint32_t material;
+  Filter filter;
+};
+
+/* Those of the bodies, then the children of each. */
+std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uint32_t> &order)
 {
-  const uint32_t shape = is_general(scene, body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(scene.shapes[body.shape].type);
-  return shape | static_cast<uint32_t>(body.motion) << 3 | (body.trigger ? uint32_t{TRAIT_TRIGGER} : 0u) | body.material << 8;
+  std::vector<PlacedShape> placed;
+  for (uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material, filter_of(scene, body)});
+  }
+  for (uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    const Shape &shape = scene.shapes[body.shape];
+    for (uint32_t k = 0; k < children_of(shape); ++k) {
+      const Child &child = shape.compound->children[k];
+      const ShapePlace place = place_of_child(body, child);
+      const auto &[x, y, z] = place.position;
+      const auto &[qx, qy, qz, qw] = place.orientation;
+      placed.push_back({&body, &child.shape, {float(x), float(y), float(z)}, {float(qx), float(qy), float(qz), float(qw)}, child.material.value_or(body.material), filter_of(body, child)});
+    }
+  }
+  return placed;
+}
+
+uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
+{
+  const uint32_t shape = is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
+  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) | placed.material << 8;
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
@@ -55,12 +85,10 @@ Quat unit(const Quat &q)
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  std::vector<row> shape(n), mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
-  std::vector<uint32_t> traits(n), filter(2 * n);
+  std::vector<row> mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
   for (size_t i = 0; i < n; ++i) {
     const Body &body = scene.bodies[order[i]];
     const Quat q = unit(body.orientation);
-    shape[i] = row_of_vec(kernel_size(scene.shapes[body.shape]), bounding_radius(scene, body));
     mass[2 * i] = row_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
     mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
     const auto place = place_of(body.position);
@@ -68,34 +96,31 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
     orientation[i] = {q[0], q[1], q[2], q[3]};
     velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
     velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), 0);
-    traits[i] = traits_of(scene, body);
-    filter[2 * i] = body.filter_group;
-    filter[2 * i + 1] = body.filter_mask;
   }
-  upload_all(memory, Buffer::body_shape, shape);
   upload_all(memory, Buffer::body_mass, mass);
   upload_all(memory, Buffer::body_position, position);
   upload_all(memory, Buffer::body_orientation, orientation);
   upload_all(memory, Buffer::body_velocity, velocity);
-  upload_all(memory, Buffer::body_traits, traits);
-  upload_all(memory, Buffer::body_filter, filter);
 }
 
-/* Of every body, also of those with tests of their own: any of them may meet a shape that has none. */
-void upload_shape_poses(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {
-  if (memory.bytes(Buffer::body_convex) == 0) return;
-  const std::vector<uint32_t> hulls = hull_numbers(scene);
-  std::vector<row> poses;
-  std::vector<uint32_t> convexes;
-  for (uint32_t index : order) {
-    const Body &body = scene.bodies[index];
-    const Shape &shape = scene.shapes[body.shape];
-    const Quat q = unit(body.shape_orientation);
-    const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(scene, body);
-    convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), hulls[body.shape]});
-    poses.insert(poses.end(), {row_of_vec(body.shape_position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0), row_of_vec(box.half_extents, 0)});
+  const std::map<const ConvexHull *, uint32_t> hulls = hull_numbers(scene);
+  std::vector<row> sizes, poses;
+  std::vector<uint32_t> traits, filters, convexes;
+  for (const PlacedShape &placed : placed_shapes(scene, order)) {
+    const Shape &shape = *placed.shape;
+    const Quat q = unit(placed.orientation);
+    const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
+    sizes.push_back(row_of_vec(kernel_size(shape), bounding_radius(scene, *placed.body)));
+    traits.push_back(traits_of(scene, placed));
+    filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
+    convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});
+    poses.insert(poses.end(), {row_of_vec(placed.position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0), row_of_vec(box.half_extents, 0)});
   }
+  upload_all(memory, Buffer::body_shape, sizes);
+  upload_all(memory, Buffer::body_traits, traits);
+  upload_all(memory, Buffer::body_filter, filters);
   upload_all(memory, Buffer::body_convex, convexes);
   upload_all(memory, Buffer::body_shape_pose, poses);
 }

@@ -3,18 +3,25 @@
 
 #include <algorithm>
 
+#include "host/buffer_upload.h"
 #include "host/geometry/convex_hull.h"
 #include "shared/platform.h"
 
 namespace tandem {
 namespace {
 
+void add_hull(std::vector<const ConvexHull *> &hulls, const Shape &shape)
+{
+  if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end()) hulls.push_back(shape.hull.get());
+  if (!shape.compound) return;
+  for (const Child &child : shape.compound->children) add_hull(hulls, child.shape);
+}
+
 /* In the order of the first shape that has them. */
 std::vector<const ConvexHull *> distinct_hulls(const Scene &scene)
 {
   std::vector<const ConvexHull *> hulls;
-  for (const Shape &shape : scene.shapes)
-    if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end()) hulls.push_back(shape.hull.get());
+  for (const Shape &shape : scene.shapes) add_hull(hulls, shape);
   return hulls;
 }
 
@@ -45,11 +52,6 @@ struct Tables {
   }
 };
 
-template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
-{
-  if (memory.bytes(buffer) > 0) memory.upload(buffer, values.data(), values.size() * sizeof(T));
-}
-
 } // namespace
 
 HullSizes hull_sizes(const Scene &scene)
@@ -65,12 +67,10 @@ HullSizes hull_sizes(const Scene &scene)
   return sizes;
 }
 
-std::vector<uint32_t> hull_numbers(const Scene &scene)
+std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene)
 {
-  const std::vector<const ConvexHull *> hulls = distinct_hulls(scene);
-  std::vector<uint32_t> numbers;
-  for (const Shape &shape : scene.shapes)
-    numbers.push_back(shape.hull ? static_cast<uint32_t>(std::find(hulls.begin(), hulls.end(), shape.hull.get()) - hulls.begin()) : 0);
+  std::map<const ConvexHull *, uint32_t> numbers;
+  for (const ConvexHull *hull : distinct_hulls(scene)) numbers.emplace(hull, static_cast<uint32_t>(numbers.size()));
   return numbers;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <map>
 
 #include "host/memory.h"
 #include "host/scene.h"
@@ -15,8 +15,8 @@ struct HullSizes {
 };
 HullSizes hull_sizes(const Scene &scene);
 
-/* For each shape the number of its hull, 0 for other shapes; shapes that share a hull share its number. */
-std::vector<uint32_t> hull_numbers(const Scene &scene);
+/* The place of each hull, also of those of children, in the tables. */
+std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene);
 
 void upload_hulls(Memory &memory, const Scene &scene);
 

@@ -23,10 +23,17 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::HULL_FACES: return size_t{sizes.hulls.faces} + 1;
   case Capacity::HULL_CORNERS: return sizes.hulls.corners;
   case Capacity::HULL_EDGES: return sizes.hulls.edges;
+  case Capacity::TREES: return sizes.trees.trees;
+  case Capacity::TREE_NODES: return sizes.trees.nodes;
+  case Capacity::TREE_LEAVES: return sizes.trees.leaves;
+  case Capacity::MESH_VERTICES: return sizes.trees.vertices;
+  case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
+  case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* no more than pairs of this step and of the last */
+  case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;

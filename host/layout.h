@@ -7,6 +7,7 @@
 #include "host/hull_buffers.h"
 #include "host/kernel_list.h"
 #include "host/settings.h"
+#include "host/tree_tables.h"
 
 namespace tandem {
 
@@ -14,6 +15,7 @@ struct Sizes {
   uint32_t bodies = 0;
   uint32_t materials = 0;
   HullSizes hulls;
+  TreeSizes trees;
   uint32_t pairs = 0; /* capacity */
   uint32_t cells = 0; /* capacity */
   uint32_t features = 0;

@@ -81,6 +81,35 @@ void check_hull(const Shape &shape, const Checker &check)
   for (const Vec3 &vertex : shape.hull->vertices) check.finite_vector("a vertex of the hull", vertex);
 }
 
+void check_shape(const Shape &shape, const Checker &check);
+
+void check_unit(const char *field, const Quat &q, const Checker &check)
+{
+  double length_squared = 0;
+  for (float x : q) length_squared += double(x) * x;
+  if (!(std::abs(length_squared - 1.0) < 2e-3)) /* also true for NaN */
+    check.fail(fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
+}
+
+void check_child(const Child &child, const Checker &check)
+{
+  if (child.shape.type == ShapeType::half_space || child.shape.type == ShapeType::compound)
+    check.fail("a half_space or compound cannot be a child; give a half_space a body of its own, and name a compound's children one by one");
+  check_shape(child.shape, check);
+  check.finite_vector("position", child.position);
+  check_unit("orientation", child.orientation, check);
+  check.positive("density", child.density);
+}
+
+void check_compound(const Shape &shape, const Checker &check)
+{
+  if (!shape.compound || shape.compound->children.empty()) check.fail("a compound without children; at least one is needed");
+  for (size_t k = 0; k < shape.compound->children.size(); ++k) {
+    const std::string kind = fmt::format("{} child", label(check.kind, check.index, check.name));
+    check_child(shape.compound->children[k], {check.where, kind.c_str(), k, ""});
+  }
+}
+
 void check_shape(const Shape &shape, const Checker &check)
 {
   check.finite_vector("size", shape.size);
@@ -93,8 +122,12 @@ void check_shape(const Shape &shape, const Checker &check)
   case ShapeType::capsule: check_capsule(shape, check); return;
   case ShapeType::cylinder: check_cylinder(shape, check); return;
   case ShapeType::hull: check_hull(shape, check); return;
+  case ShapeType::mesh:
+    if (!shape.mesh) check.fail("a mesh without triangles; mesh_shape makes one");
+    return;
+  case ShapeType::compound: check_compound(shape, check); return;
   }
-  check.fail("unknown shape type; sphere, box, half_space, capsule, cylinder and hull exist");
+  check.fail("unknown shape type; sphere, box, half_space, capsule, cylinder, hull, mesh and compound exist");
 }
 
 void check_material(const Material &material, const Checker &check)
@@ -107,14 +140,6 @@ void check_material(const Material &material, const Checker &check)
     check.fail(fmt::format("restitution is {}; a number from 0 to 1 is needed", material.restitution));
   if (material.friction_combine > Combine::geometric_mean || material.restitution_combine > Combine::geometric_mean)
     check.fail("unknown combine rule; average, minimum, maximum, multiply and geometric_mean exist");
-}
-
-void check_unit(const char *field, const Quat &q, const Checker &check)
-{
-  double length_squared = 0;
-  for (float x : q) length_squared += double(x) * x;
-  if (!(std::abs(length_squared - 1.0) < 2e-3)) /* also true for NaN */
-    check.fail(fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
 }
 
 void check_pose(const Body &body, const Checker &check)
@@ -133,10 +158,18 @@ void check_inertia(const Body &body, const Shape &shape, const Checker &check)
   bool from_shape = body.inertia == Vec3{0, 0, 0};
   Vec3 moments = from_shape ? inertia_of(shape, body.mass) : body.inertia;
   for (float moment : moments) check.positive(from_shape ? "inertia from shape and mass" : "inertia", moment);
-  const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type == ShapeType::hull;
+  const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type >= ShapeType::hull;
   if (from_shape && turned && !has_principal_axes(body, shape))
     check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the inertia, or a density instead "
                "of the mass (take_mass_properties)");
+}
+
+void check_materials_of_children(const Shape &shape, const Scene &scene, const Checker &check)
+{
+  if (!shape.compound) return;
+  for (size_t k = 0; k < shape.compound->children.size(); ++k)
+    if (const auto material = shape.compound->children[k].material; material && *material >= scene.materials.size())
+      check.fail(fmt::format("material {} of child {} does not exist; the scene has {}", *material, k, scene.materials.size()));
 }
 
 void check_body(const Body &body, const Scene &scene, const Checker &check)
@@ -146,6 +179,7 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
     check.fail(fmt::format("shape {} does not exist; the scene has {}", body.shape, scene.shapes.size()));
   if (body.material >= scene.materials.size())
     check.fail(fmt::format("material {} does not exist; the scene has {}", body.material, scene.materials.size()));
+  check_materials_of_children(scene.shapes[body.shape], scene, check);
   check_pose(body, check);
   if (!std::isfinite(body.gravity_factor))
     check.fail(fmt::format("gravity_factor is {}; a finite number is needed", body.gravity_factor));

@@ -1,6 +1,8 @@
 /* scene_builders.h - what the builders of scene_catalog.h share: typed parameters, and bodies put into a scene one by one. */
 #pragma once
 
+#include <cmath>
+
 #include "host/random.h"
 #include "host/scene_catalog.h"
 
@@ -79,6 +81,27 @@ inline void add_walls(Scene &scene, double inner)
     wall.motion = Motion::fixed;
     wall.position[side < 2 ? 0 : 2] = side % 2 ? far : -far;
   }
+}
+
+/* A point of the unit sphere. */
+inline Vec3 direction(Random &random)
+{
+  for (;;) {
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
+    if (length > 0.1 && length < 1) return {float(x / length), float(y / length), float(z / length)};
+  }
+}
+
+/* A stone: points of an ellipsoid of half a metre and less. */
+inline Shape stone(int64_t points, Random &random)
+{
+  const Vec3 size{float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5))};
+  std::vector<Vec3> cloud;
+  for (int64_t i = 0; i < points; ++i) {
+    const Vec3 at = direction(random);
+    cloud.push_back({at[0] * size[0], at[1] * size[1], at[2] * size[2]});
+  }
+  return hull_shape(cloud, "stone");
 }
 
 inline SceneParameter seed_parameter() { return {"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"}; }

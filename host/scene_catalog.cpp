@@ -4,6 +4,7 @@
 #include "host/random.h"
 #include "host/scene_builders.h"
 #include "host/scene_catalog_closed_forms.h"
+#include "host/scene_catalog_meshes.h"
 #include "host/scene_catalog_shapes.h"
 #include "host/scene_catalog_structures.h"
 #include "host/scene_gltf.h"
@@ -249,6 +250,7 @@ const std::vector<BuiltInScene> &catalog()
   static const std::vector<BuiltInScene> rows = [] {
     std::vector<BuiltInScene> all = simple_scenes();
     for (BuiltInScene &scene : shape_scenes()) all.push_back(std::move(scene));
+    for (BuiltInScene &scene : mesh_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : structure_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : talk_scenes()) all.push_back(std::move(scene));
     for (BuiltInScene &scene : closed_form_scenes()) all.push_back(std::move(scene));

@@ -12,27 +12,6 @@ using namespace scene_builders;
 
 namespace {
 
-/* A point of the unit sphere. */
-Vec3 direction(Random &random)
-{
-  for (;;) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
-    if (length > 0.1 && length < 1) return {float(x / length), float(y / length), float(z / length)};
-  }
-}
-
-/* A stone: points of an ellipsoid of half a metre and less. */
-Shape stone(int64_t points, Random &random)
-{
-  const Vec3 size{float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5))};
-  std::vector<Vec3> cloud;
-  for (int64_t i = 0; i < points; ++i) {
-    const Vec3 at = direction(random);
-    cloud.push_back({at[0] * size[0], at[1] * size[1], at[2] * size[2]});
-  }
-  return hull_shape(cloud, "stone");
-}
-
 /* Mass from 1,000 kg / m^3 of a ball of that radius, centre and axes from the shape. */
 void finish(Scene &scene, Body &body, double radius)
 {

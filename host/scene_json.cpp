@@ -2,10 +2,11 @@
 #include "host/scene_json.h"
 
 #include "host/geometry/shape_mass.h"
+#include "host/json_numbers.h"
 #include "host/json_reader.h"
+#include "host/scene_json_shapes.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <fmt/format.h>
 #include <fstream>
@@ -13,9 +14,8 @@
 namespace tandem {
 namespace {
 
-/* In the order of ShapeType; a cone is a cylinder, and written as one. */
-constexpr const char *shape_names[] = {"sphere", "box", "half_space", "capsule", "cylinder", "hull", "cone"};
-constexpr size_t cone_name = 6;
+using tandem::written; /* beside those of this file */
+
 constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
 constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
 
@@ -88,69 +88,12 @@ template <typename Record> void read_value(const JsonValue &json, Record &record
   });
 }
 
-void read_value(const JsonValue &json, Shape &shape);
+void read_value(const JsonValue &json, Shape &shape) { read_shape(json, shape); }
 
 template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records)
 {
   records.resize(json.array_size());
   for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
-}
-
-std::vector<const char *> size_keys(size_t name)
-{
-  if (name == cone_name) return {"radius", "half_height"};
-  switch (ShapeType(name)) {
-  case ShapeType::sphere: return {"radius"};
-  case ShapeType::box: return {"half_extents"};
-  case ShapeType::capsule:
-  case ShapeType::cylinder: return {"radius", "radius_bottom", "radius_top", "half_height"};
-  default: return {};
-  }
-}
-
-/* "radius" for both ends, or one for each. */
-void read_radii(const JsonValue &json, Shape &shape)
-{
-  std::optional<JsonValue> radius = json.find("radius");
-  if (radius && (json.find("radius_bottom") || json.find("radius_top")))
-    json.fail("\"radius\" and \"radius_bottom\", \"radius_top\" exclude each other");
-  shape.size[0] = radius ? radius->number() : json.member("radius_bottom").number();
-  shape.size[2] = radius ? shape.size[0] : json.member("radius_top").number();
-  shape.size[1] = json.member("half_height").number();
-}
-
-Shape read_hull(const JsonValue &points)
-{
-  std::vector<Vec3> list;
-  read_value(points, list);
-  return hull_shape(list, points.place());
-}
-
-void read_size(const JsonValue &json, size_t name, Shape &shape)
-{
-  if (name == cone_name) shape = cone_shape(json.member("radius").number(), json.member("half_height").number());
-  else if (shape.type == ShapeType::sphere) shape = sphere_shape(json.member("radius").number());
-  else if (shape.type == ShapeType::box) shape.size = json.member("half_extents").vec3();
-  else if (shape.type == ShapeType::capsule || shape.type == ShapeType::cylinder) read_radii(json, shape);
-}
-
-/* {"type": "sphere", "radius": r} and so on: docs/scene-format.md. "size" instead gives the three numbers of the record as they are. */
-void read_value(const JsonValue &json, Shape &shape)
-{
-  const size_t name = json.member("type").choice(shape_names);
-  const std::vector<const char *> sizes = size_keys(name);
-  const bool hull = name == size_t(ShapeType::hull);
-  std::vector<const char *> known{"type"};
-  known.insert(known.end(), sizes.begin(), sizes.end());
-  if (hull) known.push_back("points");
-  if (name != cone_name) known.push_back("size");
-  json.only_keys(known);
-  std::optional<JsonValue> size = json.find("size");
-  for (const char *key : sizes)
-    if (size && json.find(key)) json.fail(fmt::format("\"size\" and \"{}\" exclude each other", key));
-  shape = hull ? read_hull(json.member("points")) : Shape{name == cone_name ? ShapeType::cylinder : ShapeType(name), {0, 0, 0}};
-  if (size) shape.size = size->vec3();
-  else read_size(json, name, shape);
 }
 
 /* With a density, mass, centre of mass and principal axes come from the shape, and the body's frame moves there. */
@@ -189,14 +132,6 @@ void check_version(const JsonValue &root)
 
 /* --- writing --------------------------------------------------------------------------------- */
 
-template <class Real> std::string hex_float(Real value)
-{
-  char digits[32];
-  auto [end, error] = std::to_chars(digits, digits + sizeof digits, std::abs(value), std::chars_format::hex);
-  (void)error; /* 32 characters hold every number */
-  return fmt::format("\"{}0x{}\"", std::signbit(value) ? "-" : "", std::string_view(digits, size_t(end - digits)));
-}
-
 std::string quoted(const std::string &text)
 {
   try {
@@ -207,25 +142,12 @@ std::string quoted(const std::string &text)
 }
 
 std::string written(const std::string &value) { return quoted(value); }
-std::string written(float value) { return hex_float(value); }
-std::string written(uint32_t value) { return fmt::format("{}", value); }
 std::string written(bool value) { return value ? "true" : "false"; }
 template <typename Enum>
 requires std::is_enum_v<Enum> std::string written(Enum value)
 {
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
-template <class Real, size_t n> std::string written(const std::array<Real, n> &values)
-{
-  std::string text = "[";
-  for (size_t i = 0; i < n; ++i) text += (i ? ", " : "") + hex_float(values[i]);
-  return text + "]";
-}
-
-/* Floats by their bits: -0 is not the default 0. */
-bool same(const std::string &a, const std::string &b) { return a == b; }
-template <typename T> bool same(const T &a, const T &b) { return std::memcmp(&a, &b, sizeof(T)) == 0; }
-
 /* Fields that have their default are left out, except those always given. */
 template <typename Record> std::string written_record(const Record &record, std::string text)
 {
@@ -240,38 +162,7 @@ template <typename Record> std::string written_record(const Record &record, std:
 std::string written(const Material &material) { return written_record(material, ""); }
 std::string written(const Body &body) { return written_record(body, ""); }
 
-std::string written(const std::vector<Vec3> &points)
-{
-  std::string text = "[";
-  for (size_t i = 0; i < points.size(); ++i) text += (i ? ", " : "") + written(points[i]);
-  return text + "]";
-}
-
-/* The three numbers of a shape that says all it has without them. */
-std::string written_size(const Shape &shape, const Vec3 &expected)
-{
-  return same(shape.size, expected) ? "" : ", \"size\": " + written(shape.size);
-}
-
-std::string written(const Shape &shape)
-{
-  std::string text = fmt::format("{{\"type\": \"{}\"", shape_names[size_t(shape.type)]);
-  const auto &[bottom, half_height, top] = shape.size;
-  switch (shape.type) {
-  case ShapeType::sphere: {
-    const std::string size = written_size(shape, sphere_shape(bottom).size);
-    return text + (size.empty() ? ", \"radius\": " + written(bottom) : size) + "}";
-  }
-  case ShapeType::box: return text + ", \"half_extents\": " + written(shape.size) + "}";
-  case ShapeType::half_space: return text + written_size(shape, {0, 0, 0}) + "}";
-  case ShapeType::hull: return text + ", \"points\": " + written(shape.hull->vertices) + written_size(shape, {0, 0, 0}) + "}";
-  case ShapeType::capsule:
-  case ShapeType::cylinder: break;
-  }
-  text += same(bottom, top) ? ", \"radius\": " + written(bottom)
-                            : fmt::format(", \"radius_bottom\": {}, \"radius_top\": {}", written(bottom), written(top));
-  return text + ", \"half_height\": " + written(half_height) + "}";
-}
+std::string written(const Shape &shape) { return written_shape(shape); }
 
 template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records)
 {

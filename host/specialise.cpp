@@ -44,7 +44,8 @@ uint32_t convex_features(const Scene &scene)
   const auto any = [&](const auto &wanted) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), wanted); };
   if (!any([&](const Body &body) { return is_general(scene, body); })) return 0;
   const bool above = any([&](const Body &body) { return scene.shapes[body.shape].type == ShapeType::half_space; });
-  return uint32_t{FEATURE_CONVEX} | (above ? uint32_t{FEATURE_CONVEX_HALF_SPACE} : 0u);
+  const bool trees = any([&](const Body &body) { return scene.shapes[body.shape].type >= ShapeType::mesh; });
+  return uint32_t{FEATURE_CONVEX} | (above ? uint32_t{FEATURE_CONVEX_HALF_SPACE} : 0u) | (trees ? uint32_t{FEATURE_TREES} : 0u);
 }
 
 uint32_t pair_features(const Presence &present)
@@ -68,27 +69,55 @@ bool spins_unevenly(const Scene &scene, const Body &body)
   return is_dynamic(body) && (inverse[0] != inverse[1] || inverse[1] != inverse[2]);
 }
 
+bool meet(const Filter &a, const Filter &b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
+
+/* The filters and materials of a body's shape, or of its children's. */
+template <class Visit> void for_each_filter(const Scene &scene, const Body &body, const Visit &visit)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) visit(filter_of(scene, body));
+  else
+    for (const Child &child : shape.compound->children) visit(filter_of(body, child));
+}
+template <class Visit> void for_each_material(const Scene &scene, const Body &body, const Visit &visit)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) visit(scene.materials[body.material]);
+  else
+    for (const Child &child : shape.compound->children) visit(scene.materials[child.material.value_or(body.material)]);
+}
+
+/* Nothing to filter where all are alike and meet each other. */
 bool filters(const Scene &scene)
 {
-  const Body &first = scene.bodies.front();
-  const bool first_accepts_itself = (first.filter_group & first.filter_mask) != 0;
-  return !first_accepts_itself || std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) {
-    return body.filter_group != first.filter_group || (body.filter_mask & first.filter_group) == 0;
-  });
+  std::optional<Filter> first;
+  bool result = false;
+  for (const Body &body : scene.bodies)
+    for_each_filter(scene, body, [&](const Filter &filter) {
+      if (!first) first = filter;
+      result = result || !meet(*first, filter) || filter.group != first->group;
+    });
+  return result;
+}
+
+uint32_t features_of(const Material &material)
+{
+  uint32_t features = 0;
+  if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
+  if (material.restitution > 0) features |= FEATURE_RESTITUTION;
+  if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
+  return features;
 }
 
 uint32_t body_features(const Scene &scene)
 {
   uint32_t features = 0;
   for (const Body &body : scene.bodies) {
-    const Material &material = scene.materials[body.material];
-    if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
-    if (material.restitution > 0) features |= FEATURE_RESTITUTION;
-    if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
+    for_each_material(scene, body, [&](const Material &material) { features |= features_of(material); });
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
     if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
   }
-  if (!scene.bodies.empty() && filters(scene)) features |= FEATURE_FILTER;
+  if (filters(scene)) features |= FEATURE_FILTER;
   if (has_triggers(scene)) features |= FEATURE_TRIGGER;
   return features;
 }
@@ -96,7 +125,9 @@ uint32_t body_features(const Scene &scene)
 std::vector<uint32_t> large_bodies(const Scene &scene)
 {
   const float limit = large_ratio * median_radius(scene);
-  const auto radius = [&](uint32_t body) { return bounding_radius(scene, scene.bodies[body]); };
+  std::vector<float> radii;
+  for (const Body &body : scene.bodies) radii.push_back(bounding_radius(scene, body));
+  const auto radius = [&](uint32_t body) { return radii[body]; };
   std::vector<uint32_t> boundless, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
@@ -125,6 +156,23 @@ bool is_general(const Scene &scene, const Body &body)
 {
   const bool posed = body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
   return posed || scene.shapes[body.shape].type > ShapeType::half_space;
+}
+
+Filter filter_of(const Body &body, const Child &child)
+{
+  return {child.filter_group.value_or(body.filter_group), child.filter_mask.value_or(body.filter_mask)};
+}
+
+Filter filter_of(const Scene &scene, const Body &body)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) return {body.filter_group, body.filter_mask};
+  Filter any{0, 0};
+  for (const Child &child : shape.compound->children) {
+    const Filter own = filter_of(body, child);
+    any = {any.group | own.group, any.mask | own.mask};
+  }
+  return any;
 }
 
 Vec3 inverse_inertia_of(const Scene &scene, const Body &body)

@@ -31,6 +31,14 @@ float median_radius(const Scene &scene);
 /* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body. */
 bool is_general(const Scene &scene, const Body &body);
 
+/* What a body or a child meets: see Body in scene.h. */
+struct Filter {
+  uint32_t group = 1, mask = 0xffffffffu;
+};
+Filter filter_of(const Body &body, const Child &child);
+/* Of a compound: what any of its children meets. */
+Filter filter_of(const Scene &scene, const Body &body);
+
 /* Principal moments: the body's own, or from its shape and mass; 0 where it cannot turn. */
 Vec3 inverse_inertia_of(const Scene &scene, const Body &body);
 

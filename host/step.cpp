@@ -1,6 +1,6 @@
 /* step.cpp - the whole step on one page: which kernels run, in which order.
  *
- *   bounds -> pairs -> manifolds -> colours -> constraints -> solver -> commit
+ *   bounds -> pairs -> pairs of leaves -> manifolds -> colours -> constraints -> solver -> commit
  *
  * Nothing here waits for a device: ranges are read from counts on the device, and the plan only says how
  * large the launches should be. The solvers stand in host/solvers/.
@@ -26,7 +26,9 @@ public:
     run(Kernel::begin_step);
     run(Kernel::prepare_bodies);
     find_pairs();
+    if (has(FEATURE_TREES)) find_leaf_pairs();
     find_contacts();
+    if (has(FEATURE_TREES)) merge_contacts();
     color_contacts();
     run(Kernel::prepare_contacts);
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
@@ -85,6 +87,23 @@ private:
     run(Kernel::lay_out);
   }
 
+  void find_leaf_pairs()
+  {
+    run(Kernel::count_leaf_pairs);
+    exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS, plan().capacity_pairs);
+    run(Kernel::count_all_leaf_pairs);
+    run(Kernel::write_leaf_pairs);
+    run(Kernel::start_leaf_pairs);
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_a, Buffer::pair_a});
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_b, Buffer::pair_b});
+  }
+
+  void merge_contacts()
+  {
+    run(Kernel::group_manifolds);
+    run(Kernel::merge_manifolds);
+  }
+
   /* The matrix of shape pairs; a gap is a pair that the scene does not have. */
   void find_contacts()
   {
@@ -117,6 +136,7 @@ private:
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
+    if (has(FEATURE_TREES)) run(Kernel::cache_normals);
     if (has(FEATURE_ROLLING)) {
       run(Kernel::clear_cached_rolling);
       run(Kernel::cache_rolling);

@@ -47,7 +47,7 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given)), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
     if (settings.events) special.features |= FEATURE_EVENTS;
@@ -73,7 +73,8 @@ struct World::Implementation {
   {
     return {.bodies = plan.bodies,
             .materials = static_cast<uint32_t>(scene.materials.size()),
-            .hulls = hull_sizes(scene),
+            .hulls = hulls,
+            .trees = trees.sizes,
             .pairs = plan.capacity_pairs,
             .cells = plan.capacity_cells,
             .features = special.features};
@@ -145,8 +146,10 @@ struct World::Implementation {
   void upload_scene()
   {
     upload_bodies(memory, scene, special.order);
-    upload_shape_poses(memory, scene, special.order);
+    upload_shapes(memory, scene, special.order);
     upload_hulls(memory, scene);
+    upload_trees(memory, scene, trees, special.order);
+    trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
     upload_materials(memory, scene);
     upload_parameters();
     std::vector<uint32_t> counts(COUNT_TOTAL);
@@ -270,6 +273,8 @@ struct World::Implementation {
   Settings settings;
   Placement wanted;
   Specialisation special;
+  HullSizes hulls;
+  TreeTables trees;
   uint32_t scene_features = 0; /* what the scene needs, also where all is run */
   std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;

@@ -3,6 +3,8 @@
 #define TANDEM_SHARED_KERNELS_H
 
 #include "shared/lanes_kernels.h"
+#include "shared/midphase/leaf_pairs.h"
+#include "shared/midphase/merge.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"

@@ -16,6 +16,12 @@ SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
 SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return traits >> 8u; }
 
+/* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1 for b. */
+SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side, natural body)
+{
+  return HAS_FEATURE(parameters, FEATURE_TREES) ? load_natural(pair_leaf, pair * 4u + side * 2u) : body;
+}
+
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low` is what rounding
  * took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971). */
 typedef struct { vec3 high, low; } place;

@@ -37,7 +37,7 @@ public:
     plan_.bodies = counts_[COUNT_BODIES];
     plan_.capacity_pairs = counts_[CAPACITY_PAIRS];
     plan_.rounds = 256;
-    const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .pairs = plan_.capacity_pairs, .cells = counts_[CAPACITY_CELLS], .features = plan_.features};
+    const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan_.capacity_pairs, .cells = counts_[CAPACITY_CELLS], .features = plan_.features};
     for (Buffer buffer : {Buffer::body_cells, Buffer::body_marks, Buffer::pair_marks}) memory.resize(buffer, bytes_of(buffer, sizes));
     prepare_kernels();
   }

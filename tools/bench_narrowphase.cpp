@@ -91,8 +91,8 @@ public:
   /* Seen from the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
-    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data()};
-    return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, index_[body]);
+    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), nullptr, nullptr};
+    return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, {index_[body], index_[body], INDEX_NONE});
   }
 
 private:

@@ -36,10 +36,25 @@ double largest_of(const Shape &shape)
   const auto take = [&](const Vec3 &v) {
     for (float x : v) largest = std::max(largest, double(std::abs(x)));
   };
-  if (shape.type != ShapeType::hull) take(shape.size);
-  else
-    for (const Vec3 &v : shape.hull->vertices) take(v);
+  if (shape.compound)
+    for (const Child &child : shape.compound->children) {
+      take(child.position);
+      largest = std::max(largest, largest_of(child.shape));
+    }
+  else if (shape.hull || shape.mesh)
+    for (const Vec3 &v : shape.hull ? shape.hull->vertices : shape.mesh->vertices) take(v);
+  else take(shape.size);
   return largest;
+}
+
+MassProperties mass_of_children(const Compound &compound)
+{
+  std::vector<MassProperties> parts;
+  for (const Child &child : compound.children) {
+    const MassProperties own = mass_properties_of(child.shape);
+    parts.push_back(placed(with_mass(own, own.mass * child.density), widened(child.orientation), widened(child.position)));
+  }
+  return compound_mass(parts);
 }
 
 } // namespace
@@ -67,6 +82,8 @@ MassProperties mass_properties_of(const Shape &shape)
   case ShapeType::capsule: return capsule_mass(a, c, 2 * b);
   case ShapeType::cylinder: return cylinder_mass(a, c, 2 * b);
   case ShapeType::hull: return hull_mass(*shape.hull);
+  case ShapeType::mesh: return mesh_mass(*shape.mesh, "a mesh");
+  case ShapeType::compound: return mass_of_children(*shape.compound);
   case ShapeType::half_space: break;
   }
   throw std::logic_error("a shape without mass");
@@ -88,6 +105,24 @@ ShapePlace place_of_shape(const Body &body)
   const Rotation orientation = widened(body.orientation);
   const Vector offset = vector_of(turned(orientation, widened(body.shape_position)));
   return {array_of(Vector(vector_of(body.position) + offset)), product(orientation, widened(body.shape_orientation))};
+}
+
+ShapePlace place_of_child(const Body &body, const Child &child)
+{
+  const Rotation orientation = widened(body.shape_orientation);
+  const Vector offset = vector_of(turned(orientation, widened(child.position)));
+  return {array_of(Vector(vector_of(body.shape_position) + offset)), product(orientation, widened(child.orientation))};
+}
+
+std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &position, const Quat &orientation)
+{
+  std::vector<Vec3> placed;
+  const Eigen::Quaterniond turn = quaternion_of(widened(orientation));
+  for (const Vec3 &p : points) {
+    const Vector at = turn * vector_of(p) + vector_of(position);
+    placed.push_back({float(at.x()), float(at.y()), float(at.z())});
+  }
+  return placed;
 }
 
 /* The pose in the body is rounded to floats first; the position, in double, then makes good for it. */

@@ -20,7 +20,7 @@ namespace tandem {
 
 using Rotation = std::array<double, 4>; /* x y z w, unit length */
 
-/* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. */
+/* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh without volume. */
 MassProperties mass_properties_of(const Shape &shape);
 
 /* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1. Where it
@@ -39,6 +39,12 @@ struct ShapePlace {
   Rotation orientation{0, 0, 0, 1};
 };
 ShapePlace place_of_shape(const Body &body);
+
+/* Where a child of its compound stands in the frame of a body. */
+ShapePlace place_of_child(const Body &body, const Child &child);
+
+/* Turned about the origin, then moved. */
+std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &position, const Quat &orientation);
 
 /* Moves the body's frame and leaves the shape where it is. */
 void move_frame(Body &body, const Double3 &position, const Rotation &orientation);

@@ -3,11 +3,21 @@
  * Persistent pairs of the 2009 talk. A touching pair that had a colour keeps it: pairs that were free of
  * conflict among themselves still are, so only new contacts need colouring. Batchers whose batches follow from the
  * list of contacts alone (`keep` 0) take over the impulses and no colour.
+ *
+ * In scenes with trees two bodies may have several manifolds, now and then. Those are one another's whose normals agree best from
+ * either side, so that none is taken twice:
+ *
+ *      then  1 --------> 2         now 1 prefers then 1, then 1 prefers now 1: a match
+ *            ^  \                   now 2 prefers then 1, which prefers another: new
+ *      now   1   2
  */
 #ifndef TANDEM_SHARED_BATCHING_MATCH_H
 #define TANDEM_SHARED_BATCHING_MATCH_H
 
 #include "shared/records.h"
+
+/* Cosine of the angle by which a normal may turn in a step and still be the same manifold's. */
+#define SAME_MANIFOLD R(0.9)
 
 SHARED uint find_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, uint a, uint b)
 {
@@ -20,6 +30,46 @@ SHARED uint find_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cach
   return low < end && cached_b[low] == b ? low : INDEX_NONE;
 }
 
+/* Entries first .. end - 1 belong to two bodies. */
+typedef struct { uint first, end; } pair_run;
+
+SHARED pair_run run_of_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint pairs, uint i)
+{
+  pair_run run = {i, i + 1u};
+  while (run.first > 0u && pair_a[run.first - 1u] == pair_a[i] && pair_b[run.first - 1u] == pair_b[i]) run.first = run.first - 1u;
+  while (run.end < pairs && pair_a[run.end] == pair_a[i] && pair_b[run.end] == pair_b[i]) run.end = run.end + 1u;
+  return run;
+}
+SHARED pair_run run_of_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, uint a, uint first)
+{
+  pair_run run = {first, first + 1u};
+  while (run.end < cached_start[a + 1u] && cached_b[run.end] == cached_b[first]) run.end = run.end + 1u;
+  return run;
+}
+
+/* The entry of a run whose normal is nearest to `normal`; INDEX_NONE if none is near. Without contact a normal is 0. */
+SHARED uint nearest_normal(GLOBAL const row *normals, pair_run run, vec3 normal)
+{
+  uint best = INDEX_NONE;
+  real most = SAME_MANIFOLD;
+  for (uint k = run.first; k < run.end; ++k) {
+    real cosine = inner(xyz(load_row(normals, k)), normal);
+    if (cosine <= most) continue;
+    most = cosine;
+    best = k;
+  }
+  return best;
+}
+
+/* Where each of two bodies' manifolds now is sought among those then. found: the first of those. */
+SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL const row *cached_normals, pair_run then, uint i)
+{
+  if (now.end - now.first == 1u && then.end - then.first == 1u) return then.first;
+  uint best = nearest_normal(cached_normals, then, xyz(load_row(normals, i)));
+  if (best == INDEX_NONE) return INDEX_NONE;
+  return nearest_normal(normals, now, xyz(load_row(cached_normals, best))) == i ? best : INDEX_NONE;
+}
+
 /* A pair with a trigger is found and reported, but nothing of it is solved. */
 SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, uint a, uint b)
 {
@@ -29,12 +79,16 @@ SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *
 SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color) { ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u)); }
 
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits, GLOBAL const uint *cached_start,
-                             GLOBAL const uint *cached_b, GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
+                             GLOBAL const row *manifold_normal, GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
+                             GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, GLOBAL const row *cached_normal,
+                             GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
                              GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pair_a[i], b = pair_b[i];
   uint cached = find_cached(cached_start, cached_b, a, b);
+  if (HAS_FEATURE(parameters, FEATURE_TREES) && cached != INDEX_NONE && manifold_count[i] > 0u)
+    cached = matching_manifold(manifold_normal, run_of_pair(pair_a, pair_b, counts[COUNT_PAIRS], i), cached_normal,
+                               run_of_cached(cached_start, cached_b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_color[cached];
   if (manifold_count[i] == 0u || has_trigger(parameters, body_traits, a, b)) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;

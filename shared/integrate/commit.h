@@ -64,6 +64,11 @@ SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const r
 
 SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i) { cached_start[i] = pair_start[i]; }
 
+SHARED void cache_normals_item(GLOBAL const row *manifold_normal, GLOBAL row *cached_normal, item_index i)
+{
+  store_row(cached_normal, i, load_row(manifold_normal, i));
+}
+
 SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature,
                              GLOBAL uint *cached_b, GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
                              GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, item_index i)

@@ -30,6 +30,8 @@ typedef struct {
   GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
   GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
   GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
+  GLOBAL const row *mesh_vertices;    /* x y z: about the origin of the mesh's axes */
+  GLOBAL const uint *mesh_triangles;  /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours across 0-1, 1-2, 2-0 */
 } hull_tables;
 
 typedef struct {
@@ -45,6 +47,8 @@ typedef struct {
   vec3 center;   /* origin of the shape's axes */
   mask aligned;  /* the rotation is the identity */
   hull_ranges hull;
+  uint triangle;      /* of a mesh: its number; its first corner is the origin of its axes */
+  vec3 second, third; /* its other corners */
   hull_tables tables;
 } convex;
 
@@ -61,11 +65,28 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
   shape.tables = tables;
   hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u};
   shape.hull = none;
+  shape.triangle = INDEX_NONE;
+  shape.second = shape.third = make_vec3(R(0.0), R(0.0), R(0.0));
   if (kind == (uint)SHAPE_HULL) {
     GLOBAL const uint *header = tables.headers + hull * 8u;
     hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5]};
     shape.hull = ranges;
   }
+  return shape;
+}
+
+SHARED vec3 mesh_vertex(hull_tables tables, uint triangle, uint corner) { return xyz(load_row(tables.mesh_vertices, tables.mesh_triangles[triangle * 6u + corner])); }
+
+/* A triangle of a mesh whose axes have their origin at `offset`. */
+SHARED convex triangle_of(hull_tables tables, uint triangle, mat3 rotation, vec3 offset)
+{
+  vec3 first = mesh_vertex(tables, triangle, 0u), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  convex shape = convex_of((uint)SHAPE_TRIANGLE, none, rotation, offset, first, 0u, tables);
+  shape.triangle = triangle;
+  shape.second = subtract(mesh_vertex(tables, triangle, 1u), first);
+  shape.third = subtract(mesh_vertex(tables, triangle, 2u), first);
+  real longest = square_root(maximum(length_squared(shape.second), length_squared(shape.third)));
+  shape.size = make_vec3(longest, longest, longest);
   return shape;
 }
 
@@ -84,7 +105,7 @@ SHARED real core_radius(const convex *shape)
 SHARED real bounding_radius_of(const convex *shape)
 {
   real widest = maximum(shape->size.x, shape->size.z);
-  if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
+  if (shape->kind == (uint)SHAPE_SPHERE || shape->kind == (uint)SHAPE_TRIANGLE) return shape->size.x;
   return shape->kind == (uint)SHAPE_CAPSULE || shape->kind == (uint)SHAPE_CYLINDER ? shape->size.y + widest : length_of(shape->size);
 }
 SHARED real least_size(const convex *shape)
@@ -104,8 +125,8 @@ SHARED vec3 around_axis(vec3 v)
   return make_vec3(v.x / across, R(0.0), v.z / across);
 }
 
-/* The four supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom, to
- * the lowest vertex. */
+/* The five supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom, to
+ * the lowest vertex. Of a triangle: to its first corner. */
 SHARED vec3 support_of_box(vec3 extent, vec3 direction)
 {
   return make_vec3(extent.x * sign_of(direction.x), extent.y * sign_of(direction.y), extent.z * sign_of(direction.z));
@@ -141,6 +162,14 @@ SHARED natural support_vertex(const convex *shape, vec3 direction)
 }
 SHARED vec3 hull_vertex(const convex *shape, natural k) { return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)); }
 
+SHARED vec3 support_of_triangle(const convex *shape, vec3 direction)
+{
+  real second = inner(shape->second, direction), third = inner(shape->third, direction);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  if (second > R(0.0) && second >= third) return shape->second;
+  return third > R(0.0) ? shape->third : none;
+}
+
 /* The point of the core farthest in a unit direction. */
 SHARED vec3 support_of(const convex *shape, vec3 direction)
 {
@@ -149,6 +178,7 @@ SHARED vec3 support_of(const convex *shape, vec3 direction)
   else if (shape->kind == (uint)SHAPE_HULL) point = hull_vertex(shape, support_vertex(shape, own));
   else if (shape->kind == (uint)SHAPE_CYLINDER) point = support_of_cylinder(shape->size, own);
   else if (shape->kind == (uint)SHAPE_CAPSULE) point = support_of_capsule_core(shape->size, own);
+  else if (shape->kind == (uint)SHAPE_TRIANGLE) point = support_of_triangle(shape, own);
   return point_of_shape(shape, point);
 }
 

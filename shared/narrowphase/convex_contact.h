@@ -37,6 +37,7 @@ SHARED vec3 flat_normal_toward(const convex *shape, vec3 direction)
     mask has_cap = (own.y > R(0.0) ? shape->size.z : shape->size.x) > R(0.0);
     return has_cap ? from_shape_axes(shape, make_vec3(R(0.0), sign_of(own.y), R(0.0))) : none;
   }
+  if (shape->kind == (uint)SHAPE_TRIANGLE) return triangle_feature(shape, own).normal;
   if (!is_polytope(shape)) return none;
   uint k = shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own);
   return from_shape_axes(shape, xyz(plane_of_face(shape, k)));

@@ -6,6 +6,7 @@
  *   capsule       up to 60 degrees to its axis: the segment on the side                       2
  *                 beyond: the end                                                             1
  *   sphere        its middle                                                                  1
+ *   triangle      itself, from either side                                                    3
  *
  * A polygon steeper than FACE_LEAST_COSINE to the direction is none: only the farthest point is then handed out. Corners
  * run counter-clockwise seen from outside, about the origin that the pair is seen from. Of faces nearly as square as each
@@ -32,6 +33,7 @@ typedef struct {
   vec3 normal;      /* outward, of three corners or more */
   vec3 first_end, second_end; /* of one or two corners */
   vec3 phase;       /* unit, from the axis of a cylinder to a cap's first corner */
+  mask turned;      /* a triangle seen from behind */
 } support_face;
 
 SHARED support_face point_feature(vec3 point, uint feature)
@@ -41,6 +43,7 @@ SHARED support_face point_feature(vec3 point, uint feature)
   face.feature = feature;
   face.normal = face.phase = make_vec3(R(0.0), R(0.0), R(0.0));
   face.first_end = face.second_end = point;
+  face.turned = 0;
   return face;
 }
 SHARED support_face segment_feature(vec3 from, vec3 to, uint feature)
@@ -121,6 +124,22 @@ SHARED support_face capsule_feature(const convex *shape, vec3 own)
   return segment_feature(point_of_shape(shape, low), point_of_shape(shape, high), 2u);
 }
 
+/* Unit normal of a triangle seen counter-clockwise; meshes hold none without (host/geometry/triangle_mesh.h). */
+SHARED vec3 normal_of_triangle(const convex *shape)
+{
+  vec3 normal = outer(shape->second, shape->third);
+  return scale(normal, R(1.0) / length_of(normal));
+}
+SHARED support_face triangle_feature(const convex *shape, vec3 own)
+{
+  vec3 normal = normal_of_triangle(shape);
+  support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), 0u);
+  face.corners = 3u;
+  face.turned = inner(normal, own) < R(0.0);
+  face.normal = from_shape_axes(shape, face.turned ? negate(normal) : normal);
+  return face;
+}
+
 /* direction: unit, out of the shape toward the other one. */
 SHARED support_face support_face_of(const convex *shape, vec3 direction)
 {
@@ -129,6 +148,7 @@ SHARED support_face support_face_of(const convex *shape, vec3 direction)
   if (is_polytope(shape)) face = polytope_feature(shape, own);
   else if (shape->kind == (uint)SHAPE_CYLINDER) face = cylinder_feature(shape, own);
   else if (shape->kind == (uint)SHAPE_CAPSULE) face = capsule_feature(shape, own);
+  else if (shape->kind == (uint)SHAPE_TRIANGLE) face = triangle_feature(shape, own);
   else return point_feature(shape->center, 0u);
   if (face.corners > 2u && inner(face.normal, direction) < FACE_LEAST_COSINE)
     return point_feature(support_of(shape, direction), face.feature);
@@ -152,10 +172,16 @@ SHARED vec3 cap_corner(const convex *shape, const support_face *face, uint k)
   return make_vec3(x * radius, top ? shape->size.y : -shape->size.y, z * radius);
 }
 
+SHARED vec3 triangle_corner(const convex *shape, uint k)
+{
+  return k == 0u ? make_vec3(R(0.0), R(0.0), R(0.0)) : k == 1u ? shape->second : shape->third;
+}
+
 SHARED vec3 face_corner(const convex *shape, const support_face *face, uint k)
 {
   if (face->corners <= 2u) return k == 0u ? face->first_end : face->second_end;
   if (shape->kind == (uint)SHAPE_CYLINDER) return point_of_shape(shape, cap_corner(shape, face, k));
+  if (shape->kind == (uint)SHAPE_TRIANGLE) return point_of_shape(shape, triangle_corner(shape, face->turned && k > 0u ? 3u - k : k));
   return point_of_shape(shape, corner_of_face(shape, face->feature, k));
 }
 

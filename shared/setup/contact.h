@@ -181,7 +181,7 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
                                   GLOBAL const row *body_shape, GLOBAL const row *body_mass, GLOBAL const row *body_position,
                                   GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a,
-                                  GLOBAL const uint *pair_b, GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
+                                  GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
                                   GLOBAL const uint *manifold_count, GLOBAL const uint *manifold_feature,
                                   GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
                                   GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
@@ -195,7 +195,8 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
   vec3 normal = xyz(load_row(manifold_normal, pair));
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
-  surface between = surface_between(material, material_of(load_natural(body_traits, bodies.a)), material_of(load_natural(body_traits, bodies.b)));
+  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a), shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
+  surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)), material_of(load_natural(body_traits, shape_b)));
   real pull = relative_pull(parameters, body_mass, bodies, normal);
 
   natural cached = load_natural(pair_cached, pair);

@@ -20,15 +20,17 @@ SHARED rolling_resistance resistance_between(GLOBAL const row *material, GLOBAL 
   return r;
 }
 
-SHARED void prepare_rolling_item(GLOBAL const row *material, GLOBAL const row *material_rolling, GLOBAL const uint *body_traits,
+SHARED void prepare_rolling_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, GLOBAL const row *material, GLOBAL const row *material_rolling, GLOBAL const uint *body_traits,
                                  GLOBAL const uint *pair_cached, GLOBAL const row *cached_rolling_impulse, GLOBAL const uint *constraint_pair,
                                  GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *counts,
                                  GLOBAL row *constraint_rolling, item_index i)
 {
-  natural a = load_natural(constraint_a, i), b = load_natural(constraint_b, i);
+  natural pair = load_natural(constraint_pair, i);
+  natural a = shape_in_pair(parameters, pair_leaf, pair, 0u, load_natural(constraint_a, i));
+  natural b = shape_in_pair(parameters, pair_leaf, pair, 1u, load_natural(constraint_b, i));
   rolling_resistance r = resistance_between(material, material_rolling, material_of(load_natural(body_traits, a)),
                                             material_of(load_natural(body_traits, b)));
-  natural cached = load_natural(pair_cached, load_natural(constraint_pair, i));
+  natural cached = load_natural(pair_cached, pair);
   mask is_cached = cached != (natural)INDEX_NONE;
   vec3 kept = xyz(load_row(cached_rolling_impulse, choose(is_cached, cached, (natural)0u)));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));

@@ -55,7 +55,7 @@ struct Hull {
 
   hull_tables tables() const
   {
-    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data()};
+    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data(), nullptr, nullptr};
   }
 };
 

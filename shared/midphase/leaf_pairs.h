@@ -1,0 +1,273 @@
+/* leaf_pairs.h - from pairs of bodies to pairs of their parts: the middle phase.
+ *
+ *     bodies            trees                      pairs of leaves
+ *     (a, b)   a: mesh     /\     b: hull   --->   (a: triangle 7, b)
+ *                         7  9                     (a: triangle 9, b)
+ *
+ * Stands between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts summed, then
+ * written: the list has no gaps, its order is that of the trees, and where it outgrows its room the step runs again. A body
+ * without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so that merge.h can join
+ * their manifolds; a pair of bodies without any drops out.
+ *
+ * One leaf against a tree walks it without a stack. Two trees descend in tandem, always the larger box of the two that are
+ * not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005, section 6.3.2).
+ */
+#ifndef TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
+#define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
+
+#include "shared/midphase/tree.h"
+
+/* One entry a level of either tree, and the one looked at. */
+#define TANDEM_STACK (2u * TREE_DEPTH_LIMIT + 1u)
+
+/* The bodies and trees of the scene. shapes: a shape's number is that of its body, or for children of compounds one behind. */
+typedef struct {
+  GLOBAL const Parameters *parameters;
+  GLOBAL const uint *traits, *filters, *body_trees;
+  GLOBAL const row *shapes, *poses, *positions, *orientations, *velocities;
+  tree_tables trees;
+} midphase_scene;
+
+/* Where the pairs go; a list of no room only counts. */
+typedef struct {
+  mask writes;
+  GLOBAL uint *pair_a, *pair_b, *pair_leaf;
+  uint at, end, found;
+} leaf_list;
+
+/* A part of a body: its shape, and of a mesh one triangle. */
+typedef struct { uint shape, triangle; } leaf;
+
+/* One body of a pair: where its shape's axes stand, seen from the centre of the first body. */
+typedef struct {
+  uint body, tree_number, first_child;
+  mat3 rotation;
+  vec3 center;
+} tree_body;
+
+SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 offset)
+{
+  quat turned = quat_from(load_row(scene->orientations, body)), own = quat_from(load_row(scene->poses, body * 4u + 1u));
+  tree_body result;
+  result.body = body;
+  result.tree_number = scene->body_trees[body * 2u];
+  result.first_child = scene->body_trees[body * 2u + 1u];
+  result.rotation = rotation_of(quat_multiply(turned, own));
+  result.center = add(offset, rotate(rotation_of(turned), xyz(load_row(scene->poses, body * 4u))));
+  return result;
+}
+
+/* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of manifold.h. */
+SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
+{
+  real radius_a = load_row(scene->shapes, a).w, radius_b = load_row(scene->shapes, b).w;
+  real turn = length_of(load_motion(scene->velocities, a).angular) * radius_a + length_of(load_motion(scene->velocities, b).angular) * radius_b;
+  return scene->parameters->speculative_distance + scene->parameters->step * turn + R(1e-6) * (length_of(offset) + radius_a + radius_b);
+}
+SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
+{
+  return scale(subtract(load_motion(scene->velocities, of).linear, load_motion(scene->velocities, from).linear), scene->parameters->step);
+}
+
+/* What a tree is asked for, in its axes: a box, or all below a plane. */
+typedef struct {
+  mask below_plane;
+  box_bounds box;
+  vec3 normal;
+  real height;
+} tree_probe;
+
+SHARED mask probe_hits(const tree_probe *probe, box_bounds box)
+{
+  if (!probe->below_plane) return bounds_overlap(probe->box, box);
+  vec3 n = probe->normal;
+  vec3 lowest = make_vec3(n.x > R(0.0) ? box.lower.x : box.upper.x, n.y > R(0.0) ? box.lower.y : box.upper.y, n.z > R(0.0) ? box.lower.z : box.upper.z);
+  return inner(n, lowest) <= probe->height;
+}
+
+/* A box of half extents along the columns of `rotation`, as a box along the axes that rotation leads to, swept by a motion. */
+SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion, real margin)
+{
+  vec3 reach = make_vec3(inner(absolute(rotation.x), extent) + margin, inner(absolute(rotation.y), extent) + margin,
+                         inner(absolute(rotation.z), extent) + margin);
+  vec3 low = make_vec3(minimum(motion.x, R(0.0)), minimum(motion.y, R(0.0)), minimum(motion.z, R(0.0)));
+  vec3 high = make_vec3(maximum(motion.x, R(0.0)), maximum(motion.y, R(0.0)), maximum(motion.z, R(0.0)));
+  box_bounds box = {add(subtract(center, reach), low), add(add(center, reach), high)};
+  return box;
+}
+
+/* The rotation from the axes of `from` into those of `to`. */
+SHARED mat3 rotation_between(mat3 to, mat3 from)
+{
+  vec3 x = rotate_back(to, axis_x(from)), y = rotate_back(to, axis_y(from)), z = rotate_back(to, axis_z(from));
+  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+  return m;
+}
+
+/* What a tree is asked about a body that has none. to_single: the body's centre seen from the centre of the tree's body. */
+SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single, real margin)
+{
+  mat3 turned = rotation_of(quat_from(load_row(scene->orientations, single)));
+  vec3 motion = relative_motion(scene, owner->body, single);
+  tree_probe probe;
+  probe.below_plane = shape_of(scene->traits[single]) == (uint)SHAPE_HALF_SPACE;
+  probe.normal = rotate_back(owner->rotation, axis_y(turned));
+  probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin + maximum(inner(axis_y(turned), motion), R(0.0));
+  vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->poses, single * 4u + 2u))));
+  probe.box = swept_box(rotation_between(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
+                        xyz(load_row(scene->poses, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
+  return probe;
+}
+
+SHARED leaf single_leaf(uint body)
+{
+  leaf part = {body, INDEX_NONE};
+  return part;
+}
+SHARED leaf leaf_of_tree(const midphase_scene *scene, const tree_body *owner, const tree *t, uint number)
+{
+  GLOBAL const uint *entry = scene->trees.leaves + (t->first_leaf + number) * 2u;
+  leaf part = {entry[0] == INDEX_NONE ? owner->body : owner->first_child + entry[0], entry[1]};
+  return part;
+}
+
+SHARED mask leaves_meet(const midphase_scene *scene, leaf a, leaf b)
+{
+  if (!HAS_FEATURE(scene->parameters, FEATURE_FILTER)) return 1;
+  return (scene->filters[a.shape * 2u] & scene->filters[b.shape * 2u + 1u]) != 0u && (scene->filters[b.shape * 2u] & scene->filters[a.shape * 2u + 1u]) != 0u;
+}
+
+SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint body_a, leaf a, uint body_b, leaf b)
+{
+  if (!leaves_meet(scene, a, b)) return;
+  uint place = list->at + list->found;
+  list->found = list->found + 1u;
+  if (!list->writes || place >= list->end) return;
+  list->pair_a[place] = body_a;
+  list->pair_b[place] = body_b;
+  list->pair_leaf[place * 4u] = a.shape;
+  list->pair_leaf[place * 4u + 1u] = a.triangle;
+  list->pair_leaf[place * 4u + 2u] = b.shape;
+  list->pair_leaf[place * 4u + 3u] = b.triangle;
+}
+
+/* tree_first: the tree is that of the pair's first body. */
+SHARED void walk_tree(leaf_list *list, const midphase_scene *scene, const tree_body *owner, uint single, const tree_probe *probe, mask tree_first)
+{
+  tree t = load_tree(scene->trees, owner->tree_number);
+  for (uint node = 0u; node < t.nodes;) {
+    uint word = word_of_node(scene->trees, &t, node);
+    mask hit = probe_hits(probe, bounds_of_node(scene->trees, &t, node));
+    if (hit && is_leaf(word)) {
+      leaf part = leaf_of_tree(scene, owner, &t, word), other = single_leaf(single);
+      if (tree_first) add_leaf_pair(list, scene, owner->body, part, single, other);
+      else add_leaf_pair(list, scene, single, other, owner->body, part);
+    }
+    node = node + (hit ? 1u : subtree_size(word));
+  }
+}
+
+SHARED real size_of_box(box_bounds box)
+{
+  vec3 size = subtract(box.upper, box.lower);
+  return maximum(size.x, maximum(size.y, size.z));
+}
+
+typedef struct { uint a, b; } node_pair;
+
+SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const tree_body *a, const tree_body *b, real margin)
+{
+  tree tree_a = load_tree(scene->trees, a->tree_number), tree_b = load_tree(scene->trees, b->tree_number);
+  mat3 rotation = rotation_between(b->rotation, a->rotation);
+  vec3 shift = rotate_back(b->rotation, subtract(a->center, b->center)), motion = rotate_back(b->rotation, relative_motion(scene, b->body, a->body));
+  node_pair stack[TANDEM_STACK];
+  uint height = 1u;
+  stack[0].a = stack[0].b = 0u;
+  while (height > 0u) {
+    node_pair nodes = stack[--height];
+    box_bounds box_a = bounds_of_node(scene->trees, &tree_a, nodes.a), box_b = bounds_of_node(scene->trees, &tree_b, nodes.b);
+    vec3 middle = scale(add(box_a.lower, box_a.upper), R(0.5)), extent = scale(subtract(box_a.upper, box_a.lower), R(0.5));
+    if (!bounds_overlap(swept_box(rotation, add(shift, rotate(rotation, middle)), extent, motion, margin), box_b)) continue;
+    uint word_a = word_of_node(scene->trees, &tree_a, nodes.a), word_b = word_of_node(scene->trees, &tree_b, nodes.b);
+    if (is_leaf(word_a) && is_leaf(word_b)) {
+      add_leaf_pair(list, scene, a->body, leaf_of_tree(scene, a, &tree_a, word_a), b->body, leaf_of_tree(scene, b, &tree_b, word_b));
+      continue;
+    }
+    mask descend_a = is_leaf(word_b) || (!is_leaf(word_a) && size_of_box(box_a) > size_of_box(box_b));
+    node_pair first = nodes, second = nodes;
+    if (descend_a) {
+      first.a = nodes.a + 1u;
+      second.a = first.a + subtree_size(word_of_node(scene->trees, &tree_a, first.a));
+    } else {
+      first.b = nodes.b + 1u;
+      second.b = first.b + subtree_size(word_of_node(scene->trees, &tree_b, first.b));
+    }
+    stack[height++] = second; /* the first comes next: the order is that of the trees */
+    stack[height++] = first;
+  }
+}
+
+SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a, uint b)
+{
+  mask tree_a = scene->body_trees[a * 2u] != INDEX_NONE, tree_b = scene->body_trees[b * 2u] != INDEX_NONE;
+  if (!tree_a && !tree_b) {
+    add_leaf_pair(list, scene, a, single_leaf(a), b, single_leaf(b));
+    return;
+  }
+  vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  real margin = midphase_margin(scene, a, b, offset);
+  if (tree_a && tree_b) {
+    tree_body first = load_tree_body(scene, a, none), second = load_tree_body(scene, b, offset);
+    walk_two_trees(list, scene, &first, &second, margin);
+    return;
+  }
+  uint owner_body = tree_a ? a : b, single = tree_a ? b : a;
+  vec3 to_single = tree_a ? offset : negate(offset);
+  tree_body owner = load_tree_body(scene, owner_body, none);
+  tree_probe probe = probe_for_single(scene, &owner, single, to_single, margin);
+  walk_tree(list, scene, &owner, single, &probe, tree_a);
+}
+
+/* --- kernels ------------------------------------------------------------------------------------------------ */
+
+SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                                  GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
+                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
+                                  GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL uint *leaf_start, uint i)
+{
+  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  leaf_list list = {0, 0, 0, 0, 0u, 0u, 0u};
+  find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
+  leaf_start[i] = list.found;
+}
+
+/* From here on a pair is one of leaves. Where the pairs of bodies already had no room for all, `needed` stays what they need. */
+SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  uint bodies = counts[COUNT_PAIRS], needed = leaf_start[bodies], capacity = counts[CAPACITY_PAIRS];
+  counts[COUNT_BODY_PAIRS] = bodies;
+  counts[COUNT_PAIRS] = needed < capacity ? needed : capacity;
+  if (needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
+}
+
+SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                                  GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
+                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
+                                  GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a, GLOBAL uint *leaf_pair_b,
+                                  GLOBAL uint *pair_leaf, uint i)
+{
+  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  leaf_list list = {1, leaf_pair_a, leaf_pair_b, pair_leaf, leaf_start[i], counts[CAPACITY_PAIRS], 0u};
+  find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
+}
+
+/* Where the pairs of each body start, now that they are pairs of leaves. */
+SHARED void start_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *pair_start, uint i)
+{
+  uint first = pair_start[i], last = counts[COUNT_BODY_PAIRS];
+  pair_start[i] = leaf_start[first < last ? first : last];
+}
+
+#endif

@@ -1,0 +1,108 @@
+/* merge.h - the manifolds of one pair of bodies, joined where they press the same way.
+ *
+ *      +-----------+              A box on a mesh touches many triangles of one plane: each leaf gives a manifold, and sixteen
+ *      |           |              points where four hold it. Leaves whose normals agree form a group; the first leaf of a group
+ *    __*__*__*__*__*__            keeps its best four points (contact_points.h), the others are left with none.
+ *     /\  |  /\  |  /\
+ *
+ * Two kernels, since a leaf's manifold must not change while another still reads it: group_manifolds names for each leaf the first
+ * of its group, merge_manifolds joins. A group of one keeps its manifold to the bit.
+ */
+#ifndef TANDEM_SHARED_MIDPHASE_MERGE_H
+#define TANDEM_SHARED_MIDPHASE_MERGE_H
+
+#include "shared/narrowphase/contact_points.h"
+#include "shared/narrowphase/convex.h"
+
+/* Cosine of 8 degrees. */
+#define SAME_DIRECTION R(0.99)
+/* Feature code of a joined manifold: its points are known by the part they play in the reduction. */
+#define JOINED_CODE 0xffffffu
+
+SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint i, uint j) { return pair_a[i] == pair_a[j] && pair_b[i] == pair_b[j]; }
+
+SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_leaf, uint i, uint j)
+{
+  return material_of(traits[pair_leaf[i * 4u]]) == material_of(traits[pair_leaf[j * 4u]]) &&
+         material_of(traits[pair_leaf[i * 4u + 2u]]) == material_of(traits[pair_leaf[j * 4u + 2u]]);
+}
+
+/* The first leaf of a pair of bodies goes through all of them. */
+SHARED void group_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
+                                 GLOBAL const row *normals, GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *group, uint i)
+{
+  if (i > 0u && same_bodies(pair_a, pair_b, i, i - 1u)) return;
+  uint end = counts[COUNT_PAIRS];
+  for (uint j = i; j < end && same_bodies(pair_a, pair_b, i, j); ++j) {
+    group[j] = j;
+    if (counts_of_points[j] == 0u) continue;
+    vec3 normal = xyz(load_row(normals, j));
+    for (uint k = i; k < j; ++k) {
+      if (group[k] != k || counts_of_points[k] == 0u) continue;
+      if (inner(xyz(load_row(normals, k)), normal) < SAME_DIRECTION || !same_material(traits, pair_leaf, j, k)) continue;
+      group[j] = k;
+      break;
+    }
+  }
+}
+
+/* The manifolds of a group, as they stand in the buffers. */
+typedef struct {
+  GLOBAL const uint *group, *counts_of_points;
+  GLOBAL const row *points;
+  uint stride, first, end; /* leaves first .. end - 1 may belong to the group of `first` */
+} manifold_group;
+
+/* One pass over all points of the group. With `wanted` it is the last one: the offset of the point that has these coordinates. */
+SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axes, const clip_point *wanted)
+{
+  vec3 found = make_vec3(R(0.0), R(0.0), R(0.0));
+  for (uint j = group->first; j < group->end; ++j) {
+    if (group->group[j] != group->first) continue;
+    for (uint k = 0u; k < group->counts_of_points[j]; ++k) {
+      vec4 point = load_row(group->points, group->stride * k + j);
+      clip_point candidate = {inner(axes.first, xyz(point)), inner(axes.second, xyz(point)), point.w, 1};
+      if (!wanted) reduce_step(r, candidate);
+      else if (candidate.u == wanted->u && candidate.v == wanted->v && candidate.separation == wanted->separation) return xyz(point);
+    }
+  }
+  return found;
+}
+
+SHARED manifold joined_manifold(const manifold_group *group, vec3 normal, real size)
+{
+  tangents axes = tangents_of(normal);
+  clip_point four[4];
+  reduction r;
+  start_reduction(&r, size, R(32.0) * ROUNDING * size);
+  do stream_group(&r, group, axes, 0);
+  while (next_pass(&r));
+  finish_reduction(four, &r);
+  manifold m;
+  m.normal = normal;
+  m.code = JOINED_CODE;
+  for (int slot = 0; slot < 4; ++slot) {
+    m.kept[slot] = four[slot].valid;
+    m.point[slot] = extend(stream_group(&r, group, axes, &four[slot]), four[slot].separation);
+  }
+  return m;
+}
+
+SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const uint *group, GLOBAL const uint *counts,
+                                 GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+{
+  if (group[i] != i || counts_of_points[i] == 0u) return;
+  uint stride = counts[CAPACITY_PAIRS], end = i + 1u, members = 0u;
+  for (; end < counts[COUNT_PAIRS] && same_bodies(pair_a, pair_b, i, end); ++end) members = members + (group[end] == i ? 1u : 0u);
+  if (members == 0u) return;
+  manifold_group all = {group, counts_of_points, points, stride, i, end};
+  real radius_a = load_row(shapes, pair_a[i]).w, radius_b = load_row(shapes, pair_b[i]).w;
+  real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
+  manifold m = joined_manifold(&all, xyz(load_row(normals, i)), size);
+  manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
+  for (uint j = i + 1u; j < end; ++j)
+    if (group[j] == i) store_manifold_if(1, nothing, stride, normals, points, counts_of_points, features, j);
+  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+}
+
+#endif

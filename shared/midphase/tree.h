@@ -1,0 +1,56 @@
+/* tree.h - the hierarchy of boxes over the parts of one body: triangles of a mesh, children of a compound.
+ *
+ *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the tree's frame, and
+ *       /   \           word:  -7  -3   a   b  -3   c   d       the number of a leaf, or minus the nodes of the subtree.
+ *      1     4
+ *     / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is missed is passed over (by
+ *    a   b c   d        the size of its subtree). Built by host/geometry/bvh.h; after Bullet's btQuantizedBvh and Ericson,
+ *                       "Real-Time Collision Detection", 2005, chapter 6.
+ *
+ * Coordinates are those of the tree: the axes of the body's shape, not of the body.
+ */
+#ifndef TANDEM_SHARED_MIDPHASE_TREE_H
+#define TANDEM_SHARED_MIDPHASE_TREE_H
+
+#include "shared/broadphase/overlap.h"
+
+/* Levels of a tree of fewer than 2^30 leaves: depth_bound of host/geometry/bvh.h. */
+#define TREE_DEPTH_LIMIT 68u
+
+/* Of all the scene's trees, one behind the other. */
+typedef struct {
+  GLOBAL const uint *headers; /* 4 a tree: first node, nodes, first leaf, leaves */
+  GLOBAL const row *frames;   /* 2 a tree: origin and step of its 16-bit coordinates */
+  GLOBAL const uint *nodes;   /* 4 a node */
+  GLOBAL const uint *leaves;  /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
+} tree_tables;
+
+typedef struct {
+  uint first_node, nodes, first_leaf;
+  vec3 origin, step;
+} tree;
+
+SHARED tree load_tree(tree_tables tables, uint number)
+{
+  GLOBAL const uint *header = tables.headers + number * 4u;
+  tree t = {header[0], header[1], header[2], xyz(load_row(tables.frames, number * 2u)), xyz(load_row(tables.frames, number * 2u + 1u))};
+  return t;
+}
+
+SHARED vec3 dequantised(const tree *t, uint x, uint y, uint z)
+{
+  return add(t->origin, multiply(make_vec3(to_real(x), to_real(y), to_real(z)), t->step));
+}
+SHARED box_bounds bounds_of_node(tree_tables tables, const tree *t, uint node)
+{
+  GLOBAL const uint *words = tables.nodes + (t->first_node + node) * 4u;
+  uint first = words[0], second = words[1], third = words[2];
+  box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu), dequantised(t, second >> 16u, third & 0xffffu, third >> 16u)};
+  return box;
+}
+
+SHARED uint word_of_node(tree_tables tables, const tree *t, uint node) { return tables.nodes[(t->first_node + node) * 4u + 3u]; }
+SHARED mask is_leaf(uint word) { return (word & 0x80000000u) == 0u; }
+SHARED uint subtree_size(uint word) { return is_leaf(word) ? 1u : ~word + 1u; }
+
+#endif
