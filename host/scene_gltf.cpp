@@ -8,12 +8,15 @@
  *       node (collider)     ->   the body's shape; its pose in the body is that of this node
  *       node (motion) ...   -> a body of its own
  *
+ * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
+ *
  * The parts are read by scene_gltf_document, _transform, _shapes, _mesh, _materials, _filters and _motion, after the extension
  * texts KHR_implicit_shapes and KHR_physics_rigid_bodies (Khronos, drafts).
  */
 #include "host/scene_gltf.h"
 
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 #include "host/geometry/shape_mass.h"
@@ -32,9 +35,11 @@ struct PlacedNode {
 };
 
 struct BodyNodes {
-  PlacedNode body; /* the one with the motion, or the only collider */
+  PlacedNode body; /* the one with the motion, or the only collider or trigger, or the one that lists triggers */
   bool moves;
-  std::vector<PlacedNode> colliders;
+  bool trigger = false; /* then `colliders` are triggers */
+  std::vector<PlacedNode> colliders = {};
+  std::vector<PlacedNode> carried = {}; /* triggers below the motion */
 };
 
 /* --- the walk over the nodes ------------------------------------------------------------------ */
@@ -50,16 +55,21 @@ private:
     int node;
     Transform parent;
     size_t body;   /* index into bodies_ of the motion above, or none */
+    size_t list;   /* the same of the trigger above that lists nodes */
     bool animated; /* it, or a node above */
   };
   std::vector<int> root_nodes() const;
   void visit(const Visit &at);
   void add(const JsonValue &physics, Visit &below);
+  void add_trigger(const JsonValue &trigger, Visit &at);
+  void add_trigger_list(const JsonValue &trigger, Visit &at);
+  void settle_triggers();
 
   const GltfDocument &document_;
   std::set<int> animated_, visited_;
   std::vector<Visit> pending_;
   std::vector<BodyNodes> bodies_;
+  std::map<int, size_t> parts_; /* listed by a trigger and not met yet: which body they belong to */
 };
 
 Walk::Walk(const GltfDocument &document) : document_(document)
@@ -95,17 +105,67 @@ void Walk::add(const JsonValue &physics, Visit &below)
   physics.only_keys(keys);
   const bool has_motion = physics.find("motion").has_value(), has_collider = physics.find("collider").has_value();
   if (physics.find("joint")) physics.fail("a joint is not supported yet");
-  if (physics.find("trigger")) physics.fail("a trigger is not supported yet");
-  if (!has_motion && !has_collider) return;
+  const bool has_trigger = physics.find("trigger").has_value();
+  if (!has_motion && !has_collider && !has_trigger) return;
   if (below.animated) physics.fail("an animated rigid body is not supported yet");
   const PlacedNode here{below.node, below.parent};
   if (has_motion) {
     below.body = bodies_.size();
-    bodies_.push_back({here, true, {}});
+    bodies_.push_back({here, true});
   }
+  if (has_trigger) add_trigger(physics.member("trigger"), below);
   if (!has_collider || (!has_motion && is_scaled_to_nothing(here.world))) return; /* so scaled, the extension calls it disabled */
-  if (below.body == none) bodies_.push_back({here, false, {here}});
+  if (below.body == none) bodies_.push_back({here, false, false, {here}});
   else bodies_[below.body].colliders.push_back(here);
+}
+
+void Walk::add_trigger(const JsonValue &trigger, Visit &at)
+{
+  static constexpr const char *keys[] = {"geometry", "nodes", "collisionFilter", "extras", "extensions"};
+  trigger.only_keys(keys);
+  if (trigger.find("nodes")) return add_trigger_list(trigger, at);
+  trigger.member("geometry");
+  const PlacedNode here{at.node, at.parent};
+  const auto listed = parts_.find(at.node);
+  const bool is_part = listed != parts_.end() && listed->second == at.list;
+  if (is_part) parts_.erase(listed);
+  if (is_scaled_to_nothing(here.world)) return;
+  if (is_part) bodies_[at.list].colliders.push_back(here);
+  else if (at.body != none) bodies_[at.body].carried.push_back(here);
+  else bodies_.push_back({here, false, true, {here}});
+}
+
+/* Its parts come later in the walk, for they are below it. */
+void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
+{
+  for (const char *key : {"geometry", "collisionFilter"})
+    if (trigger.find(key)) trigger.fail(fmt::format("nodes and {} exclude each other", key));
+  if (at.body != none) trigger.fail("a compound trigger that moves with a body is not supported yet");
+  if (at.list != none) trigger.fail("a compound trigger below another is not supported yet");
+  const JsonValue nodes = trigger.member("nodes");
+  if (nodes.array_size() == 0) nodes.fail("is empty; at least one node is needed");
+  for (size_t i = 0; i < nodes.array_size(); ++i)
+    if (!parts_.emplace(int(nodes.element(i).unsigned_integer()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
+  at.list = bodies_.size();
+  bodies_.push_back({{at.node, at.parent}, false, true});
+}
+
+/* A motion without a collider is the trigger's own; with one, the trigger would have to follow another body. */
+void Walk::settle_triggers()
+{
+  if (!parts_.empty()) {
+    const auto [part, whole] = *parts_.begin();
+    document_.require_node(part);
+    document_.refuse(bodies_[whole].body.node, fmt::format("trigger.nodes lists {}, which is no node below it with a trigger geometry", document_.label(part)));
+  }
+  for (BodyNodes &nodes : bodies_) {
+    if (nodes.carried.empty()) continue;
+    if (!nodes.colliders.empty())
+      document_.refuse(nodes.carried.front().node, fmt::format("a trigger that moves with the colliders of {} is not supported yet", document_.label(nodes.body.node)));
+    nodes.trigger = true;
+    nodes.colliders = nodes.carried;
+  }
+  std::erase_if(bodies_, [](const BodyNodes &nodes) { return nodes.trigger && nodes.colliders.empty(); }); /* all parts disabled */
 }
 
 void Walk::visit(const Visit &at)
@@ -128,12 +188,13 @@ void Walk::visit(const Visit &at)
 std::vector<BodyNodes> Walk::bodies()
 {
   std::vector<int> roots = root_nodes();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, false});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, none, false});
   while (!pending_.empty()) {
     Visit next = pending_.back();
     pending_.pop_back();
     visit(next);
   }
+  settle_triggers();
   return std::move(bodies_);
 }
 
@@ -174,8 +235,8 @@ void Assembly::require_one_collider(const BodyNodes &nodes) const
   if (nodes.colliders.size() == 1) return;
   if (nodes.colliders.empty()) document_.refuse(nodes.body.node, "a motion without a collider (a body without shape) is not supported yet");
   const std::string first = document_.label(nodes.colliders[0].node), second = document_.label(nodes.colliders[1].node);
-  document_.refuse(nodes.body.node, fmt::format("a compound of {} colliders ({}, {}{}) is not supported yet; one collider is", nodes.colliders.size(), first,
-                                                second, nodes.colliders.size() > 2 ? ", ..." : ""));
+  document_.refuse(nodes.body.node, fmt::format("a compound of {} {}s ({}, {}{}) is not supported yet; one is", nodes.colliders.size(),
+                                                nodes.trigger ? "trigger" : "collider", first, second, nodes.colliders.size() > 2 ? ", ..." : ""));
 }
 
 /* The shape where its node is, the body's frame where the node with the motion is. */
@@ -188,7 +249,7 @@ void Assembly::place(const BodyNodes &nodes, const JsonValue &geometry, Body &bo
   const Double3 lifted = turned(at.orientation, {0, shape.offset, 0});
   for (size_t axis = 0; axis < 3; ++axis) body.position[axis] = at.position[axis] + lifted[axis];
   for (size_t i = 0; i < 4; ++i) body.orientation[i] = float(at.orientation[i]);
-  const bool apart = collider.node != nodes.body.node;
+  const bool apart = nodes.moves && collider.node != nodes.body.node;
   if (apart && scene_.shapes[body.shape].type == ShapeType::half_space)
     document_.refuse(collider.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
   if (apart || shape.offset != 0) move_frame(body, frame.position, frame.orientation);
@@ -216,16 +277,19 @@ void Assembly::read_filter(const JsonValue &collider, Body &body) const
 void Assembly::add_body(const BodyNodes &nodes)
 {
   static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
+  static constexpr const char *trigger_keys[] = {"geometry", "collisionFilter", "extras", "extensions"};
   require_one_collider(nodes);
   const int node = nodes.body.node, collider_node = nodes.colliders.front().node;
   const nlohmann::json own = document_.extensions_of(node), of_collider = document_.extensions_of(collider_node);
   const std::string where = document_.place(node), collider_where = document_.place(collider_node);
-  const JsonValue collider = JsonValue(of_collider[bodies_extension], collider_where).member("collider");
-  collider.only_keys(collider_keys);
+  const JsonValue collider = JsonValue(of_collider[bodies_extension], collider_where).member(nodes.trigger ? "trigger" : "collider");
+  if (nodes.trigger) collider.only_keys(trigger_keys);
+  else collider.only_keys(collider_keys);
   Body body;
   body.name = document_.node(node).name;
   if (body.name.empty()) body.name = fmt::format("node {}", node);
   body.motion = Motion::fixed;
+  body.trigger = nodes.trigger;
   place(nodes, collider.member("geometry"), body);
   read_material(collider, body);
   read_filter(collider, body);
@@ -242,7 +306,7 @@ Scene read_scene_gltf(const std::string &path)
   for (const BodyNodes &nodes : Walk(document).bodies()) assembly.add_body(nodes);
   Scene scene = assembly.take();
   if (scene.bodies.empty())
-    throw InputError(fmt::format("{}: no node has a collider ({}); there is nothing to simulate", path, bodies_extension));
+    throw InputError(fmt::format("{}: no node has a collider or a trigger ({}); there is nothing to simulate", path, bodies_extension));
   validate(scene, path);
   return scene;
 }

@@ -33,6 +33,7 @@
 #include "shared/solve/nncg.h"
 #include "shared/solve/xpbd_tail.h"
 #include "shared/solve/rolling_tail.h"
+#include "shared/events/list.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
 

@@ -13,6 +13,7 @@
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
+SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return traits >> 8u; }
 
 /* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1 for b. */

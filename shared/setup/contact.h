@@ -94,7 +94,6 @@ SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, 
 }
 
 SHARED natural slot_of(natural feature, natural point) { return (feature >> (point * 2u)) & 3u; }
-SHARED real component(vec4 v, natural k) { return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w)); }
 
 /* The impulse that the same feature carried in the last step; unused slots of the cache hold 0. */
 SHARED real cached_impulse(natural feature, natural point, natural old_feature, vec4 old)

@@ -28,6 +28,7 @@ void require_same_states(const std::string &scene, const std::vector<std::string
 {
   Settings settings;
   settings.specialise = false; /* one build serves all scenes on OpenCL */
+  settings.events = true;      /* their part of the state is in the hash then */
   World still(load_scene(scene), settings, Placement{"serial", {}, false}), moving(load_scene(scene), settings, Placement{"serial", {}, false});
   Random random(seed);
   CAPTURE(scene, seed);
