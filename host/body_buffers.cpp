@@ -36,7 +36,7 @@ Point point_of(const row *place)
 uint32_t traits_of(const Scene &scene, const Body &body)
 {
   const uint32_t shape = is_general(scene, body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(scene.shapes[body.shape].type);
-  return shape | static_cast<uint32_t>(body.motion) << 3 | body.material << 8;
+  return shape | static_cast<uint32_t>(body.motion) << 3 | body.material << 8 | (body.continuous ? TRAIT_CONTINUOUS : 0u);
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }

@@ -1,6 +1,6 @@
 /* body_codes.h - the numbers in body_traits and body_convex; kernels and the host both name them.
  *
- * body_traits: bits 0-2 shape, 3-4 motion, 8-31 material.
+ * body_traits: bits 0-2 shape, 3-4 motion, 8-27 material, 30 continuous collision.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
@@ -10,5 +10,12 @@ enum { SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2, SHAPE_CAPSULE = 3,
 
 /* Quarantined: taken out of the simulation, since it stopped being finite. */
 enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
+
+/* Collides along its way through the step: narrowphase/conservative_advancement.h. */
+#define TRAIT_CONTINUOUS (1u << 30u)
+#define MOST_MATERIALS (1u << 20u)
+
+/* In body_share: all of a motion, as whole numbers count it. */
+#define WHOLE_MOTION (1u << 24u)
 
 #endif

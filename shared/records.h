@@ -13,7 +13,8 @@
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
-SHARED natural material_of(natural traits) { return traits >> 8u; }
+SHARED natural material_of(natural traits) { return (traits >> 8u) & (MOST_MATERIALS - 1u); }
+SHARED mask is_continuous(natural traits) { return (traits & TRAIT_CONTINUOUS) != 0u; }
 
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low` is what rounding
  * took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971). */
@@ -73,6 +74,8 @@ SHARED void store_motion_if(mask wanted, GLOBAL row *velocity, natural body, mot
   store_row_if(wanted, velocity, body * 2u, extend(m.linear, m.inverse_mass));
   store_row_if(wanted, velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
 }
+
+SHARED vec3 velocity_at(motion m, vec3 arm) { return add(m.linear, outer(m.angular, arm)); }
 
 SHARED symmetric3 load_inertia(GLOBAL const row *inertia, natural body)
 {
