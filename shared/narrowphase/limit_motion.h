@@ -59,6 +59,7 @@ SHARED moving_convex middle_ball(const moving_convex *body)
 {
   moving_convex ball = *body;
   ball.shape.kind = (uint)SHAPE_SPHERE;
+  ball.shape.center = body->pivot;
   ball.shape.size.x = CORE_SHARE * least_size(&body->shape);
   ball.radius = R(0.0);
   return ball;
