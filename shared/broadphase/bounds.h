@@ -63,8 +63,8 @@ SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL cons
   vec3 high = make_vec3(maximum(R(0.0), maximum(drift.x, fallen.x)), maximum(R(0.0), maximum(drift.y, fallen.y)),
                         maximum(R(0.0), maximum(drift.z, fallen.z)));
   if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
-    /* What it hits may turn its way: every pair that it can reach then is needed. */
-    real way = maximum(length_of(drift), length_of(fallen));
+    /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
+    real way = maximum(length_of(drift), length_of(fallen)) + turn * size.w;
     vec3 anywhere = make_vec3(way, way, way);
     mask continuous = is_continuous(load_natural(body_traits, i));
     low = choose3(continuous, negate(anywhere), low);
