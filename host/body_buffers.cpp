@@ -9,7 +9,6 @@
 #include "host/shape_bounds.h"
 #include "host/specialise.h"
 #include "shared/body_codes.h"
-#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -22,12 +21,6 @@ template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vec
 row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
 Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
 
-/* The two rows of a place: shared/records.h. */
-std::array<row, 2> place_of(const Point &p)
-{
-  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
-  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
-}
 Point point_of(const row *place)
 {
   return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
@@ -43,14 +36,20 @@ float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic 
 
 Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity; }
 
+} // namespace
+
+std::array<row, 2> place_of(const Point &p)
+{
+  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
+  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
+}
+
 Quat unit(const Quat &q)
 {
   const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (std::abs(length - 1) < 1e-6) return q;
   return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
 }
-
-} // namespace
 
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {

@@ -262,6 +262,14 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
+  /* Built when they are first asked for, then kept. */
+  void prepare_query(Kernel kernel)
+  {
+    Backend &backend = backend_for(wanted, kernel);
+    backend.prepare(special.features, {kernel});
+    placed[index_of(kernel)] = &backend;
+  }
+
   static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
@@ -325,6 +333,23 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
   upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
+}
+
+std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::cast_rays);
+  return tandem::cast_rays(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, rays);
+}
+
+std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  check_sweep(shape, poses, displacements);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::sweep_shape);
+  return tandem::sweep(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, shape, poses,
+                       displacements, filter);
 }
 
 Statistics World::statistics()

@@ -32,6 +32,8 @@
 #include "shared/solve/nncg.h"
 #include "shared/solve/xpbd_tail.h"
 #include "shared/solve/rolling_tail.h"
+#include "shared/queries/cast_rays.h"
+#include "shared/queries/sweep_shape.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
 
