@@ -23,7 +23,7 @@ inline const std::vector<std::string> &small_scenes()
       "box-grid:nx=7,ny=6,nz=7",          "falling-boxes:n=100,height=0", "box-stack:n=50",
       "pyramid:rows=8", "spheres:n=125,height=0,restitution=0.5", "mixed:n=100",
       "shapes:n=60",                      "convex-hulls:n=60",            "rolling",
-      every_shape(),
+      every_shape(),                      "thin-wall:n=40",               "bullet-stack:rows=2,height=3",
   };
   return scenes;
 }
