@@ -6,6 +6,7 @@
 #include "shared/narrowphase/sphere_half_space.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/limit_motion.h"
 
 __kernel void collide_sphere_sphere(__global const uint *pair_a, __global const uint *pair_b,
     __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
@@ -92,4 +93,18 @@ __kernel void collide_convex_half_space(__global const uint *pair_a, __global co
     collide_convex_half_space_item(pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
         hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, pair_leaf, mesh_vertex, mesh_triangle,
         body_position, body_orientation, body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+}
+
+__kernel void limit_motion(__global const Parameters *parameters, __global const uint *pair_a,
+    __global const uint *pair_b, __global const uint *body_traits, __global const row *body_shape,
+    __global const uint *body_convex, __global const row *body_shape_pose, __global const uint *hull_header,
+    __global const row *hull_vertex, __global const row *hull_plane, __global const uint *hull_face_start,
+    __global const uint *hull_corner, __global const uint *hull_edge, __global const uint *pair_leaf,
+    __global const row *mesh_vertex, __global const uint *mesh_triangle, __global const row *body_position,
+    __global const row *body_orientation, __global const row *solver_delta, __global uint *body_share, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+    limit_motion_item(parameters, pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
+        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, pair_leaf, mesh_vertex, mesh_triangle, body_position,
+        body_orientation, solver_delta, body_share, i);
 }

@@ -267,6 +267,14 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
+  /* Built when they are first asked for, then kept. */
+  void prepare_query(Kernel kernel)
+  {
+    Backend &backend = backend_for(wanted, kernel);
+    backend.prepare(special.features, {kernel});
+    placed[index_of(kernel)] = &backend;
+  }
+
   static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
@@ -338,6 +346,23 @@ std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+}
+
+std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::cast_rays);
+  return tandem::cast_rays(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, rays);
+}
+
+std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  check_sweep(shape, poses, displacements);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::sweep_shape);
+  return tandem::sweep(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, shape, poses,
+                       displacements, filter);
 }
 
 Statistics World::statistics()

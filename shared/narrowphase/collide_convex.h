@@ -4,7 +4,7 @@
  *   sphere     .      .       .         x        .  a header of its own (sphere_box.h ...)
  *   box               .       .         x        x  here
  *   half-space                -         x        -  neither moves
- *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its body's centre;
+ *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its body's centre or continuous;
  *                                                 compound and mesh, of which a pair holds one child or triangle (midphase/leaf_pairs.h)
  *
  * Branches follow the data: shapes of one pair differ too much for lanes.
@@ -12,6 +12,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
 
+#include "shared/narrowphase/conservative_advancement.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 #include "shared/narrowphase/triangle_contact.h"
@@ -69,13 +70,22 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
   hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, mesh_vertices, mesh_triangles};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   convex first_shape = load_convex(shapes, convexes, poses, orientations, tables, none, part_of_pair(parameters, pair_leaf, a, i, 0u));
-  convex second_shape = load_convex(shapes, convexes, poses, orientations, tables, offset_between(positions, a, b),
-                                    part_of_pair(parameters, pair_leaf, b, i, 1u));
+  vec3 offset = offset_between(positions, a, b);
+  convex second_shape = load_convex(shapes, convexes, poses, orientations, tables, offset, part_of_pair(parameters, pair_leaf, b, i, 1u));
   motion motion_a = load_motion(velocities, a), motion_b = load_motion(velocities, b);
   real radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), load_row(shapes, a).w), radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), load_row(shapes, b).w);
-  manifold m = contact_of_parts(parameters, &first_shape, &second_shape, widest_reach(parameters, motion_a, radius_a, motion_b, radius_b), size_between(shapes, a, b), method);
+  encounter met = {CONTACT_AT_START, R(0.0)};
+  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[a] | traits[b]))
+    met = meet(parameters, &first_shape, &second_shape, offset, motion_a, radius_a, motion_b, radius_b);
+  real reach = met.kind == CONTACT_MISSED ? parameters->speculative_distance : widest_reach(parameters, motion_a, radius_a, motion_b, radius_b);
+  manifold m = contact_of_parts(parameters, &first_shape, &second_shape, reach, size_between(shapes, a, b), method);
   m = kept_within(m, reach_of(parameters, motion_a, radius_a, motion_b, radius_b, m.normal));
+  if (met.kind != CONTACT_AT_START) {
+    offset = add_scaled(offset, subtract(motion_b.linear, motion_a.linear), met.time);
+    m = as_seen_from_start(m, met, offset, motion_a, motion_b, parameters->step);
+  }
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
 }
 
 SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -94,13 +104,22 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
                              part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
   vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
-  real reach = reach_of(parameters, load_motion(velocities, body), load_row(shapes, body).w, load_motion(velocities, plane), R(0.0), negate(up));
-  manifold m = convex_on_half_space(&shape, up, inner(up, to_plane), reach);
+  motion moves = load_motion(velocities, body), of_plane = load_motion(velocities, plane);
+  real radius = load_row(shapes, body).w, height = inner(up, to_plane), reach = reach_of(parameters, moves, radius, of_plane, R(0.0), negate(up));
+  encounter met = {CONTACT_AT_START, R(0.0)};
+  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[body]))
+    met = meet_plane(parameters, &shape, up, &height, moves, radius, of_plane);
+  manifold m = convex_on_half_space(&shape, up, height, met.kind == CONTACT_MISSED ? parameters->speculative_distance : reach);
+  if (met.kind != CONTACT_AT_START) {
+    to_plane = add_scaled(to_plane, subtract(of_plane.linear, moves.linear), met.time);
+    m = as_seen_from_start(m, met, to_plane, moves, of_plane, parameters->step);
+  }
   if (!body_first) {
     m.normal = up;
     for (int slot = 0; slot < 4; ++slot) m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
 }
 
 #endif

@@ -17,6 +17,9 @@ TEST_CASE("parity on CPU: hulls-on-mesh") { require_parity("hulls-on-mesh:n=40",
 TEST_CASE("parity on CPU: meshes and compounds of every kind") { require_parity(few_trees(), cpu_backends(), 60); }
 TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
 
+TEST_CASE("parity on CPU: thin-wall") { require_parity(small_scenes()[10], cpu_backends(), 12); }
+TEST_CASE("parity on CPU: bullet-stack") { require_parity(small_scenes()[11], cpu_backends(), 12); }
+
 TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
 {
   for (const std::string &narrowphase : narrowphase_names())
