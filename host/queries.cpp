@@ -74,7 +74,8 @@ float radius_of(const Shape &shape)
 /* What a scene would refuse, a sweep refuses: as a body that need not have a mass. */
 void check_swept_shape(const Shape &shape)
 {
-  if (shape.type == ShapeType::half_space) throw InputError("sweep: a half_space cannot be swept; a box, sphere, capsule, cylinder or hull can");
+  if (shape.type == ShapeType::half_space || shape.type >= ShapeType::mesh)
+    throw InputError("sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
   Scene scene;
   scene.shapes = {shape};
   validate(scene, "sweep");
