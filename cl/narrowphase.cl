@@ -66,14 +66,14 @@ __kernel void collide_convex(__global const uint *pair_a, __global const uint *p
     __global const uint *body_traits, __global const row *body_shape, __global const uint *body_convex,
     __global const row *body_shape_pose, __global const uint *hull_header, __global const row *hull_vertex,
     __global const row *hull_plane, __global const uint *hull_face_start, __global const uint *hull_corner,
-    __global const uint *hull_edge, __global const row *body_position, __global const row *body_orientation,
-    __global const row *body_velocity, __global const Parameters *parameters, __global const uint *counts,
+    __global const uint *hull_edge, __global const row *hull_strip, __global const uint *hull_link,
+    __global const row *body_position, __global const row *body_orientation, __global const row *body_velocity, __global const Parameters *parameters, __global const uint *counts,
     __global row *manifold_normal, __global row *manifold_points, __global uint *manifold_count,
     __global uint *manifold_feature, uint method, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_convex_item(pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
-        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, body_position, body_orientation, body_velocity,
+        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, hull_strip, hull_link, body_position, body_orientation, body_velocity,
         parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, method, i);
 }
 
@@ -81,13 +81,13 @@ __kernel void collide_convex_half_space(__global const uint *pair_a, __global co
     __global const uint *body_traits, __global const row *body_shape, __global const uint *body_convex,
     __global const row *body_shape_pose, __global const uint *hull_header, __global const row *hull_vertex,
     __global const row *hull_plane, __global const uint *hull_face_start, __global const uint *hull_corner,
-    __global const uint *hull_edge, __global const row *body_position, __global const row *body_orientation,
-    __global const row *body_velocity, __global const Parameters *parameters, __global const uint *counts,
+    __global const uint *hull_edge, __global const row *hull_strip, __global const uint *hull_link,
+    __global const row *body_position, __global const row *body_orientation, __global const row *body_velocity, __global const Parameters *parameters, __global const uint *counts,
     __global row *manifold_normal, __global row *manifold_points, __global uint *manifold_count,
     __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
     collide_convex_half_space_item(pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
-        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, body_position, body_orientation, body_velocity,
+        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, hull_strip, hull_link, body_position, body_orientation, body_velocity,
         parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }

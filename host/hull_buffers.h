@@ -11,7 +11,7 @@ namespace tandem {
 
 /* How many of each the hulls of a scene have together. */
 struct HullSizes {
-  uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0;
+  uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
 };
 HullSizes hull_sizes(const Scene &scene);
 

@@ -23,6 +23,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::HULL_FACES: return size_t{sizes.hulls.faces} + 1;
   case Capacity::HULL_CORNERS: return sizes.hulls.corners;
   case Capacity::HULL_EDGES: return sizes.hulls.edges;
+  case Capacity::HULL_STRIPS: return sizes.hulls.strip_rows;
+  case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;

@@ -91,7 +91,7 @@ public:
   /* Seen from the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
-    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data()};
+    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data()};
     return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, index_[body]);
   }
 
@@ -107,10 +107,10 @@ private:
   World world_;
   std::vector<uint32_t> index_;
   std::vector<row> shapes_ = all<row>(Buffer::body_shape), poses_ = all<row>(Buffer::body_shape_pose), orientations_ = all<row>(Buffer::body_orientation);
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane);
+  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane), strips_ = all<row>(Buffer::hull_strip);
   std::vector<uint32_t> convexes_ = all<uint32_t>(Buffer::body_convex), headers_ = all<uint32_t>(Buffer::hull_header);
   std::vector<uint32_t> face_starts_ = all<uint32_t>(Buffer::hull_face_start), corners_ = all<uint32_t>(Buffer::hull_corner);
-  std::vector<uint32_t> edges_ = all<uint32_t>(Buffer::hull_edge);
+  std::vector<uint32_t> edges_ = all<uint32_t>(Buffer::hull_edge), links_ = all<uint32_t>(Buffer::hull_link);
 };
 
 vec3 any_direction(Random &random)

@@ -38,13 +38,13 @@ SHARED real widest_reach(GLOBAL const Parameters *parameters, motion a, real rad
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                 GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
                                 GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges};
+  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   convex first_shape = load_convex(shapes, convexes, poses, orientations, tables, none, a);
   convex second_shape = load_convex(shapes, convexes, poses, orientations, tables, offset_between(positions, a, b), b);
@@ -59,7 +59,7 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
                                            GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
                                            GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
                                            GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                           GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                           GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
                                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
                                            GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
@@ -67,7 +67,7 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges};
+  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links};
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)), body);
   vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
   real reach = reach_of(parameters, load_motion(velocities, body), load_row(shapes, body).w, load_motion(velocities, plane), R(0.0), negate(up));

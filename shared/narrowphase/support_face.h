@@ -59,24 +59,18 @@ SHARED uint box_face_toward(vec3 own)
   return axis * 2u + (coordinate(own, axis) < R(0.0) ? 1u : 0u);
 }
 
-SHARED mask face_has_vertex(const convex *shape, uint k, natural vertex)
-{
-  GLOBAL const uint *start = shape->tables.face_starts + shape->hull.first_face + k;
-  for (uint c = start[0]; c < start[1]; ++c)
-    if (shape->tables.corners[c] == vertex) return 1;
-  return 0;
-}
 /* Of the faces at the farthest vertex: a face elsewhere may be squarer to the direction, yet lie lower. */
 SHARED uint hull_face_toward(const convex *shape, vec3 own)
 {
   natural vertex = support_vertex(shape, own);
+  GLOBAL const uint *links = shape->tables.links + shape->hull.first_link;
   uint best = 0u;
   real most = R(-2.0);
-  for (uint k = 0u; k < shape->hull.faces; ++k) {
-    real cosine = inner(xyz(plane_of_face(shape, k)), own);
-    if (cosine <= most + FACE_LEAD || !face_has_vertex(shape, k, vertex)) continue;
+  for (uint k = links[vertex]; k < links[vertex + 1u]; ++k) {
+    real cosine = inner(xyz(plane_of_face(shape, links[k])), own);
+    if (cosine <= most + FACE_LEAD) continue;
     most = cosine;
-    best = k;
+    best = links[k];
   }
   return best;
 }

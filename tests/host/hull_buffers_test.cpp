@@ -61,11 +61,11 @@ TEST_CASE("the tables of hulls are closed surfaces that face outward")
   const Scene scene = hulls();
   World world(scene);
   const Tables t(world);
-  REQUIRE(t.headers.size() == 3 * 8);
+  REQUIRE(t.headers.size() == 3 * 10);
   uint32_t vertex = 0, face = 0, edge = 0, corner = 0;
   for (uint32_t h = 0; h < 3; ++h) {
     CAPTURE(h);
-    const uint32_t *header = &t.headers[8 * h];
+    const uint32_t *header = &t.headers[10 * h];
     REQUIRE((header[0] == vertex && header[2] == face && header[4] == edge && header[6] == corner));
     const uint32_t vertices = header[1], faces = header[3], edges = header[5], corners = header[7];
     REQUIRE(vertices + faces == edges + 2);

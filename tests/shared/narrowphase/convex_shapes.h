@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "host/hull_strips.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 
@@ -50,12 +51,12 @@ struct Hull {
   std::vector<Face> faces;
   std::vector<std::array<uint32_t, 4>> edges;
 
-  std::vector<uint> headers, face_starts, corners, edge_table;
-  std::vector<row> rows, planes;
+  std::vector<uint> headers, face_starts, corners, edge_table, links;
+  std::vector<row> rows, planes, strips;
 
   hull_tables tables() const
   {
-    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data()};
+    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data(), strips.data(), links.data()};
   }
 };
 
@@ -124,7 +125,12 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
   }
   for (const Vector &p : hull->vertices) hull->rows.push_back({memory_real(p.x()), memory_real(p.y()), memory_real(p.z()), 0});
   for (const auto &edge : hull->edges) hull->edge_table.insert(hull->edge_table.end(), edge.begin(), edge.end());
-  hull->headers = {0, uint(n), 0, uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size())};
+  hull->headers = {0, uint(n), 0, uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()), 0, 0};
+  std::vector<std::vector<uint32_t>> faces;
+  for (const Hull::Face &face : hull->faces) faces.push_back(face.corners);
+  ::tandem::append_strips(hull->strips, hull->rows, 3);
+  ::tandem::append_strips(hull->strips, hull->planes, 4);
+  ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
   return hull;
 }
 
