@@ -13,11 +13,12 @@ namespace tandem {
 struct HullSizes {
   uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
 };
-HullSizes hull_sizes(const Scene &scene);
+/* map_side: cells along a side of the cube maps of hull_support.h; 0: none are made. */
+HullSizes hull_sizes(const Scene &scene, uint32_t map_side);
 
 /* For each shape the number of its hull, 0 for other shapes; shapes that share a hull share its number. */
 std::vector<uint32_t> hull_numbers(const Scene &scene);
 
-void upload_hulls(Memory &memory, const Scene &scene);
+void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side);
 
 } // namespace tandem

@@ -2,6 +2,7 @@
  * shared/narrowphase/convex.h. For any record of four numbers, as the reference build has its own. */
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <span>
@@ -45,6 +46,28 @@ template <class Faces> void append_links(std::vector<uint32_t> &links, uint32_t 
   links.push_back(start);
   for (const auto &list : faces_of) links.insert(links.end(), list.begin(), list.end());
   links.insert(links.end(), edge_of_corner.begin(), edge_of_corner.end());
+}
+
+/* For each cell of hull_support.h's cube of side x side x 6 the vertex farthest in the direction of its middle. */
+template <class Row> void append_cube_map(std::vector<uint32_t> &links, std::span<Row> vertices, uint32_t side)
+{
+  const auto middle = [&](uint32_t cell) { return 2.0 * (cell + 0.5) / side - 1.0; };
+  const auto farthest = [&](const std::array<double, 3> &d) {
+    uint32_t best = 0;
+    double highest = -1e300;
+    for (uint32_t k = 0; k < vertices.size(); ++k) {
+      const double height = vertices[k].x * d[0] + vertices[k].y * d[1] + vertices[k].z * d[2];
+      if (height > highest) highest = height, best = k;
+    }
+    return best;
+  };
+  for (uint32_t face = 0; face < 6; ++face)
+    for (uint32_t v = 0; v < side; ++v)
+      for (uint32_t u = 0; u < side; ++u) {
+        std::array<double, 3> d{};
+        d[face / 2] = face % 2 ? -1 : 1, d[(face / 2 + 1) % 3] = middle(u), d[(face / 2 + 2) % 3] = middle(v);
+        links.push_back(farthest(d));
+      }
 }
 
 } // namespace tandem

@@ -49,6 +49,7 @@ struct World::Implementation {
       : scene(given), settings(chosen), wanted(placement), special(specialise(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
+    if (settings.narrowphase == "sat-split" && (special.features & FEATURE_CONVEX) != 0) special.features |= FEATURE_SAT_SPLIT;
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
@@ -71,7 +72,7 @@ struct World::Implementation {
   {
     return {.bodies = plan.bodies,
             .materials = static_cast<uint32_t>(scene.materials.size()),
-            .hulls = hull_sizes(scene),
+            .hulls = hull_sizes(scene, cube_map_cells(settings)),
             .pairs = plan.capacity_pairs,
             .cells = plan.capacity_cells,
             .features = special.features};
@@ -144,7 +145,7 @@ struct World::Implementation {
   {
     upload_bodies(memory, scene, special.order);
     upload_shape_poses(memory, scene, special.order);
-    upload_hulls(memory, scene);
+    upload_hulls(memory, scene, cube_map_cells(settings));
     upload_materials(memory, scene);
     upload_parameters();
     std::vector<uint32_t> counts(COUNT_TOTAL);

@@ -1,4 +1,4 @@
-/* body_codes.h - the numbers in body_traits and body_convex; kernels and the host both name them.
+/* body_codes.h - the numbers in body_traits and body_convex, and of methods; kernels and the host both name them.
  *
  * body_traits: bits 0-2 shape, 3-4 motion, 8-31 material.
  */
@@ -10,5 +10,9 @@ enum { SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2, SHAPE_CAPSULE = 3,
 
 /* Quarantined: taken out of the simulation, since it stopped being finite. */
 enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
+
+/* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex (hull_support.h). */
+enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2 };
+enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/sat_split.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"
 #include "shared/parallel/copy.h"

@@ -25,6 +25,8 @@ typedef uint8 strip_index;
 #define STRIP_CHOOSE_INDEX(m, a, b) ((m) ? (a) : (b))
 #define STRIP_IOTA ((uint8)(0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u))
 #define STRIP_ALL(x) ((float8)(x))
+#define STRIP_OF(a, b, c, d, e, f, g, h) ((float8)((a), (b), (c), (d), (e), (f), (g), (h)))
+#define STRIP_STORE(to, from) vstore8(*(from), 0, (to))
 #define STRIP_LOAD(to, from, at) (*(to) = (float8)((from)[at], (from)[(at) + 1u]))
 #else
 #ifdef TANDEM_REFERENCE
@@ -44,7 +46,9 @@ typedef uint32_t strip_index __attribute__((vector_size(32)));
 #define STRIP_CHOOSE_INDEX(m, a, b) ((strip_index)(((m) & (strip_mask)(a)) | (~(m) & (strip_mask)(b))))
 #endif
 #define STRIP_IOTA (strip_index){0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}
-#define STRIP_ALL(x) {x, x, x, x, x, x, x, x}
+#define STRIP_OF(a, b, c, d, e, f, g, h) ((strip){(a), (b), (c), (d), (e), (f), (g), (h)})
+#define STRIP_ALL(x) STRIP_OF(x, x, x, x, x, x, x, x)
+#define STRIP_STORE(to, from) __builtin_memcpy((to), (from), sizeof(strip))
 #define STRIP_LOAD(to, from, at) __builtin_memcpy((to), (from) + (at), sizeof(strip))
 #endif
 
@@ -55,6 +59,7 @@ typedef struct {
 } strip_leader;
 
 SHARED void load_strip(strip *to, GLOBAL const row *from, natural at) { STRIP_LOAD(to, from, at); }
+SHARED void store_strip(real *to, const strip *from) { STRIP_STORE(to, from); }
 
 /* Below all that is finite: a column of NaN then names the first entry. */
 SHARED void start_strip_leader(strip_leader *best)

@@ -60,17 +60,19 @@ struct PairKind {
   std::vector<std::string> methods;
 };
 
-/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. */
+/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. After a comma: the support of hulls. */
 std::vector<PairKind> kinds()
 {
   const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = narrowphase_names();
+  std::vector<std::string> hulls = all;
+  hulls.insert(hulls.end(), {"sat, hill-climbing", "sat, cube-map"});
   return {{"sphere-sphere", ball, ball, Kernel::collide_sphere_sphere, own},
           {"sphere-box", ball, box, Kernel::collide_sphere_box, own},
           {"box-box", box, box, Kernel::collide_box_box, own},
           {"capsule-capsule", capsule, capsule, Kernel::collide_convex, round},
           {"cylinder-box", cylinder, box, Kernel::collide_convex, round},
           {"hull32-box", hull32, box, Kernel::collide_convex, all},
-          {"hull32-hull32", hull32, hull32, Kernel::collide_convex, all},
+          {"hull32-hull32", hull32, hull32, Kernel::collide_convex, hulls},
           {"convex-half-space", any_convex, {}, Kernel::collide_convex_half_space, own}};
 }
 
@@ -91,7 +93,7 @@ public:
   /* Seen from the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
-    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data()};
+    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), SUPPORT_BRUTE_FORCE};
     return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, index_[body]);
   }
 
@@ -194,13 +196,19 @@ public:
     Backend &backend = world_.backend_of(kind.kernel);
     DirectLauncher launcher(world_.memory(), backend);
     StepLaunches step(launcher, plan_, settings_);
-    const std::vector<uint32_t> values = kind.kernel == Kernel::collide_convex ? std::vector<uint32_t>{narrowphase_method(method)} : std::vector<uint32_t>{};
+    settings_.narrowphase = method.substr(0, method.find(','));
+    settings_.support = method.ends_with("climbing") ? "hill-climbing" : method.ends_with("map") ? "cube-map" : "brute-force";
+    const std::vector<Kernel> kernels = kernels_of(kind, settings_.narrowphase);
+    const std::vector<uint32_t> values = kernels[0] == kind.kernel && kind.kernel != Kernel::collide_convex ? std::vector<uint32_t>{}
+                                                                                                            : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
     for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
-      step.run(kind.kernel, values);
+      for (Kernel kernel : kernels) step.run(kernel, values);
       backend.finish();
-      const double nanoseconds = backend.take_kernel_times()[index_of(kind.kernel)].nanoseconds;
+      double nanoseconds = 0;
+      const auto spent = backend.take_kernel_times();
+      for (Kernel kernel : kernels) nanoseconds += spent[index_of(kernel)].nanoseconds;
       if (k > 0) times.push_back(nanoseconds * 1e-6);
     }
     world_.set_profiling(false);
@@ -213,16 +221,24 @@ public:
   }
 
 private:
+  /* With the buffers of every method. */
   static Settings still()
   {
     Settings settings;
     settings.step = 1e-6f;
+    settings.narrowphase = "sat-split";
+    settings.support = "hill-climbing";
     return settings;
+  }
+  static std::vector<Kernel> kernels_of(const PairKind &kind, const std::string &narrowphase)
+  {
+    if (narrowphase != "sat-split") return {kind.kernel};
+    return {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts};
   }
 
   World world_;
   StepPlan plan_;
-  Settings settings_;
+  Settings settings_ = still();
 };
 
 double a_second(const PairTime &time) { return time.manifolds / std::max(time.milliseconds.median, 1e-9) * 1e3; }

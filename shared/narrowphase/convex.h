@@ -12,36 +12,8 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_H
 
+#include "shared/narrowphase/hull_support.h"
 #include "shared/narrowphase/manifold.h"
-#include "shared/strip.h"
-
-/* Largest relative error of one rounding. */
-#ifdef TANDEM_REFERENCE
-#define ROUNDING 1.2e-16
-#else
-#define ROUNDING 6.0e-8f
-#endif
-
-/* Hulls of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
- * edges, first corner, corners, first row of strips, first link. */
-#define HULL_HEADER 10u
-typedef struct {
-  GLOBAL const uint *headers;     /* HULL_HEADER a hull */
-  GLOBAL const row *vertices;     /* x y z: about the origin of the shape's axes */
-  GLOBAL const row *planes;       /* a face: outward unit normal, distance from the origin */
-  GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
-  GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
-  GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
-  GLOBAL const row *strips;       /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h) */
-  GLOBAL const uint *links;       /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
-                                     vertex, ascending; for each corner the edge to the next */
-} hull_tables;
-
-typedef struct {
-  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link;
-} hull_ranges;
-
-SHARED uint strips_of(uint entries) { return (entries + STRIP - 1u) / STRIP; }
 
 /* size: sphere radius - -; box half extents; capsule and cylinder (bottom radius, half height, top radius) along Y;
  * hull half extents of a box around it that is centred at the origin of its axes. */
@@ -66,13 +38,9 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
   shape.center = add(offset, rotate(rotation, middle));
   shape.aligned = 0;
   shape.tables = tables;
-  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
+  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
   shape.hull = none;
-  if (kind == (uint)SHAPE_HULL) {
-    GLOBAL const uint *header = tables.headers + hull * HULL_HEADER;
-    hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5], header[6], header[7], header[8], header[9]};
-    shape.hull = ranges;
-  }
+  if (kind == (uint)SHAPE_HULL) shape.hull = ranges_of_hull(&tables, hull);
   return shape;
 }
 
@@ -135,18 +103,7 @@ SHARED vec3 support_of_capsule_core(vec3 size, vec3 direction)
 }
 SHARED natural support_vertex(const convex *shape, vec3 direction)
 {
-  strip_leader best;
-  start_strip_leader(&best);
-  for (uint k = 0u; k < strips_of(shape->hull.vertices); ++k) {
-    uint at = shape->hull.first_strip + k * 3u * ROWS_OF_STRIP;
-    strip x, y, z;
-    load_strip(&x, shape->tables.strips, at);
-    load_strip(&y, shape->tables.strips, at + ROWS_OF_STRIP);
-    load_strip(&z, shape->tables.strips, at + 2u * ROWS_OF_STRIP);
-    strip height = x * direction.x + y * direction.y + z * direction.z;
-    challenge_by_strip(&best, &height, k * STRIP);
-  }
-  return highest_of_strip(&best).at;
+  return hull_support(&shape->tables, &shape->hull, direction, shape->size);
 }
 SHARED vec3 hull_vertex(const convex *shape, natural k) { return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)); }
 

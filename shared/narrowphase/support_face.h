@@ -75,13 +75,16 @@ SHARED uint hull_face_toward(const convex *shape, vec3 own)
   return best;
 }
 
-SHARED support_face polytope_feature(const convex *shape, vec3 own)
+SHARED support_face face_of_polytope(const convex *shape, uint k)
 {
-  uint k = shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own);
   support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), k);
   face.corners = corners_of_face(shape, k);
   face.normal = from_shape_axes(shape, xyz(plane_of_face(shape, k)));
   return face;
+}
+SHARED support_face polytope_feature(const convex *shape, vec3 own)
+{
+  return face_of_polytope(shape, shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own));
 }
 
 SHARED support_face cylinder_feature(const convex *shape, vec3 own)
