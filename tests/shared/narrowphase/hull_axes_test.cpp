@@ -48,14 +48,14 @@ TEST_CASE("convex axes: stones of 20 vertices, resting and deep in each other, a
     const Shape a = stone(random, 20, {1, 0.8, 0.6});
     Shape b = stone(random, 20, {0.7, 0.5, 0.9});
     ShapeMaker::place(a, b, random.direction(), 0);
-    ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
+    for (int k = 0; k < 6; ++k) ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
     compare(shallow, a, b);
     b.center *= float(random.uniform(0, 0.8)); /* down to one within the other: more edges matter than a list holds */
     compare(deep, a, b);
   }
   INFO("resting: too deep by " << shallow.largest << ", " << shallow.of_edges << " of edges; deep: " << deep.largest << ", " << deep.of_edges);
   CHECK(shallow.overlapping > 100);
-  CHECK(deep.overlapping > 150);
+  CHECK(deep.overlapping > 130);
   CHECK(shallow.of_edges > 30);
   CHECK(shallow.of_edges < shallow.overlapping);
   CHECK(shallow.largest < 1e-6);
@@ -69,9 +69,10 @@ TEST_CASE("convex axes: boxes in boxes and needles across each other")
   for (int pair = 0; pair < 4000; ++pair) {
     Shape a = maker.make(SHAPE_BOX, 0.02, 2), b = maker.make(SHAPE_BOX, 0.02, 2);
     if (pair % 4 == 0) b.orientation = a.orientation;
-    ShapeMaker::place(a, b, maker.random.direction(), -maker.random.uniform(0, 1.9) * std::min(a.least(), b.least()));
+    ShapeMaker::place(a, b, maker.random.direction(), 0);
+    b.center *= float(maker.random.uniform(0, 0.9));
     compare(result, a, b);
   }
   CHECK(result.overlapping > 1500);
-  CHECK(result.largest < 1e-6);
+  CHECK(result.largest < 2e-6);
 }
