@@ -184,7 +184,8 @@ void bring_near(Scene &scene, bool on_plane)
 
 class Bench {
 public:
-  Bench(const Scene &scene, const std::string &backend, bool allow_inexact) : world_(scene, still(), Placement{backend, {}, allow_inexact})
+  Bench(const Scene &scene, const std::string &method, const std::string &backend, bool allow_inexact)
+      : settings_(still(method)), world_(scene, settings_, Placement{backend, {}, allow_inexact})
   {
     world_.step();
     world_.memory().download(Buffer::counts, plan_.known.data(), sizeof plan_.known);
@@ -193,14 +194,11 @@ public:
 
   PairTime run(const PairKind &kind, const std::string &method)
   {
-    Backend &backend = world_.backend_of(kind.kernel);
+    const std::vector<Kernel> kernels = kernels_of(kind);
+    Backend &backend = world_.backend_of(kernels[0]);
     DirectLauncher launcher(world_.memory(), backend);
     StepLaunches step(launcher, plan_, settings_);
-    settings_.narrowphase = method.substr(0, method.find(','));
-    settings_.support = method.ends_with("climbing") ? "hill-climbing" : method.ends_with("map") ? "cube-map" : "brute-force";
-    const std::vector<Kernel> kernels = kernels_of(kind, settings_.narrowphase);
-    const std::vector<uint32_t> values = kernels[0] == kind.kernel && kind.kernel != Kernel::collide_convex ? std::vector<uint32_t>{}
-                                                                                                            : std::vector<uint32_t>{narrowphase_method(settings_)};
+    const std::vector<uint32_t> values = method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
     for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
@@ -221,24 +219,23 @@ public:
   }
 
 private:
-  /* With the buffers of every method. */
-  static Settings still()
+  static Settings still(const std::string &method)
   {
     Settings settings;
     settings.step = 1e-6f;
-    settings.narrowphase = "sat-split";
-    settings.support = "hill-climbing";
+    if (!method.empty()) settings.narrowphase = method.substr(0, method.find(','));
+    settings.support = method.ends_with("climbing") ? "hill-climbing" : method.ends_with("map") ? "cube-map" : "brute-force";
     return settings;
   }
-  static std::vector<Kernel> kernels_of(const PairKind &kind, const std::string &narrowphase)
+  std::vector<Kernel> kernels_of(const PairKind &kind) const
   {
-    if (narrowphase != "sat-split") return {kind.kernel};
+    if (settings_.narrowphase != "sat-split") return {kind.kernel};
     return {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts};
   }
 
+  Settings settings_;
   World world_;
   StepPlan plan_;
-  Settings settings_ = still();
 };
 
 double a_second(const PairTime &time) { return time.manifolds / std::max(time.milliseconds.median, 1e-9) * 1e3; }
@@ -253,8 +250,7 @@ std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pai
   for (const PairKind &kind : list) {
     Scene scene = scene_of(kind, pairs);
     bring_near(scene, !kind.b);
-    Bench bench(scene, backend, allow_inexact);
-    for (const std::string &method : kind.methods) times.push_back(bench.run(kind, method));
+    for (const std::string &method : kind.methods) times.push_back(Bench(scene, method, backend, allow_inexact).run(kind, method));
     progress.update(uint64_t(&kind - list.data()) + 1);
   }
   progress.clear();

@@ -15,7 +15,7 @@ struct SupportTime {
   uint32_t vertices = 0, cells = 0, bytes = 0; /* bytes: of the map */
   uint64_t directions = 0;
   double largest_error = 0, error_999 = 0, share_wrong = 0; /* 99.9th percentile; share of directions with another vertex */
-  double brute_force = 0, hill_climbing = 0, cube_map = 0;  /* ns a direction, one thread of this processor */
+  double brute_force = 0, hill_climbing = 0, cube_map = 0;  /* ns a direction, on one thread without AVX2 */
   uint64_t differences = 0;                                 /* of hill climbing from brute force: none, or it is wrong */
 };
 

@@ -72,7 +72,7 @@ SHARED natural highest_vertex(const hull_tables *tables, const hull_ranges *hull
 }
 
 /* Which of `cells` along a side of the cube, for -1 <= x <= 1. */
-SHARED uint cell_along(real x, uint cells)
+SHARED uint cell_of_side(real x, uint cells)
 {
   int cell = truncate_to_int((x + R(1.0)) * R(0.5) * to_real(cells));
   return cell < 0 ? 0u : (uint)cell < cells ? (uint)cell : cells - 1u;
@@ -86,7 +86,7 @@ SHARED uint cell_of_cube(vec3 direction, uint cells)
   real u = x ? direction.y : y ? direction.z : direction.x, v = x ? direction.z : y ? direction.x : direction.y;
   uint side = (x ? 0u : y ? 2u : 4u) + (along < R(0.0) ? 1u : 0u);
   if (!(most > R(0.0))) return 0u;
-  return (side * cells + cell_along(v / most, cells)) * cells + cell_along(u / most, cells);
+  return (side * cells + cell_of_side(v / most, cells)) * cells + cell_of_side(u / most, cells);
 }
 SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
 {
