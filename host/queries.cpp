@@ -8,6 +8,7 @@
 
 #include "host/body_buffers.h"
 #include "host/geometry/convex_hull.h"
+#include "host/hull_strips.h"
 #include "host/shape_bounds.h"
 #include "shared/platform.h"
 
@@ -133,7 +134,7 @@ std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &sce
                             std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   if (poses.empty()) return {};
-  std::vector<row> starts, turns, ways, vertices{{0, 0, 0, 0}};
+  std::vector<row> starts, turns, ways, vertices{{0, 0, 0, 0}}, strips;
   std::vector<uint32_t> filters;
   for (size_t i = 0; i < poses.size(); ++i) {
     const std::array<row, 2> place = place_of(poses[i].position);
@@ -147,6 +148,7 @@ std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &sce
     vertices.clear();
     for (const Vec3 &v : shape.hull->vertices) vertices.push_back({v[0], v[1], v[2], 0});
   }
+  append_strips(strips, vertices, 3);
   const Vec3 size = kernel_size(shape);
   upload_filters(memory, scene, order, filters);
   upload(memory, Buffer::query_start, starts);
@@ -154,6 +156,7 @@ std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &sce
   upload(memory, Buffer::query_way, ways);
   upload(memory, Buffer::query_shape, std::vector<row>{{size[0], size[1], size[2], radius_of(shape)}});
   upload(memory, Buffer::query_vertex, vertices);
+  upload(memory, Buffer::query_strip, strips);
   make_room(memory, poses.size());
   launcher.launch({Kernel::sweep_shape, {}, {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())}, COUNT_ZERO, COUNT_LENGTH,
                    static_cast<uint32_t>(poses.size())});

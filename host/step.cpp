@@ -116,8 +116,14 @@ private:
     if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
     if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
-    if (has(FEATURE_CONVEX)) run(Kernel::collide_convex, {narrowphase_method(settings().narrowphase)});
+    if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
     if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
+  }
+
+  void collide_convexes(uint32_t method)
+  {
+    if (settings().narrowphase != "sat-split") return run(Kernel::collide_convex, {method});
+    for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
   }
 
   void color_contacts()

@@ -47,10 +47,11 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given)), trees(tree_tables(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
     if (settings.events) special.features |= FEATURE_EVENTS;
+    if (settings.narrowphase == "sat-split" && (special.features & FEATURE_CONVEX) != 0) special.features |= FEATURE_SAT_SPLIT;
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
@@ -147,7 +148,7 @@ struct World::Implementation {
   {
     upload_bodies(memory, scene, special.order);
     upload_shapes(memory, scene, special.order);
-    upload_hulls(memory, scene);
+    upload_hulls(memory, scene, cube_map_cells(settings));
     upload_trees(memory, scene, trees, special.order);
     trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
     upload_materials(memory, scene);

@@ -92,7 +92,7 @@ SHARED moving_convex solved_motion(GLOBAL const row *deltas, const convex *shape
 SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                               GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers,
                               GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                              GLOBAL const uint *edges, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                              GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
                               GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
                               GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
 {
@@ -101,7 +101,7 @@ SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const 
   mask moves_a = motion_of(traits[a]) == (uint)MOTION_DYNAMIC, moves_b = motion_of(traits[b]) == (uint)MOTION_DYNAMIC;
   uint body = moves_a ? a : b, other = moves_a ? b : a;
   if ((moves_a && moves_b) || !is_continuous(traits[body])) return;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, mesh_vertices, mesh_triangles};
+  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), offset = offset_between(positions, body, other);
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, none, part_of_pair(parameters, pair_leaf, body, i, moves_a ? 0u : 1u));
   moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes, body).w, body);

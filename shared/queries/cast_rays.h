@@ -29,7 +29,7 @@ SHARED void cast_rays_item(GLOBAL const Parameters *parameters, GLOBAL const uin
                            GLOBAL row *query_hit, GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint i)
 {
   query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, orientations,
-                       {headers, vertices, planes, 0, 0, 0, mesh_vertices, mesh_triangles}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
+                       {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
   place start = load_place(query_start, i);
   vec4 given = load_row(query_way, i);
   real length = length_of(xyz(given)), farthest = minimum(given.w * length, ENDLESS);

@@ -57,17 +57,17 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
 
 /* vertices: of the swept shape, if it is a hull; its size and bounding radius in query_shape. */
 SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                             GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
+                             GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *strips,
                              GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
                              GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
                              GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
                              GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
-                             GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL row *query_hit, GLOBAL row *query_point,
+                             GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit, GLOBAL row *query_point,
                              GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint i)
 {
   query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, orientations,
-                       {headers, vertices, 0, 0, 0, 0, mesh_vertices, mesh_triangles}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
-  hull_tables own = {0, query_vertex, 0, 0, 0, 0, 0, 0};
+                       {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
+  hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   place start = load_place(query_start, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
   vec4 size = load_row(query_shape, 0u);

@@ -32,6 +32,29 @@ TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
     }
 }
 
+/* One kernel or four, and exact ways to a hull's farthest vertex. */
+TEST_CASE("parity on CPU: what must not change a result of convex shapes")
+{
+  for (const std::string &scene : {std::string("convex-hulls:n=60"), every_shape()}) {
+    const uint64_t expected = state_after(scene, "serial", 60);
+    Settings split, climbing;
+    split.narrowphase = "sat-split";
+    climbing.support = "hill-climbing";
+    CHECK(state_after(scene, "serial", 60, split) == expected);
+    CHECK(state_after(scene, "tbb:threads=2", 60, climbing) == expected);
+  }
+}
+
+TEST_CASE("parity on CPU: supports of hulls")
+{
+  for (const std::string &support : support_names()) {
+    Settings settings;
+    settings.support = support;
+    CAPTURE(support);
+    require_parity("convex-hulls:n=40", cpu_backends(), 30, settings);
+  }
+}
+
 /* Broadphases find the same pairs in different ways, batchings colour them differently: each must be exact by itself. */
 TEST_CASE("parity on CPU: every broadphase and batching")
 {
