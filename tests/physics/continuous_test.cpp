@@ -122,13 +122,19 @@ TEST_CASE("built-in scenes of thin walls hold", "[physics]")
                                     "bullet-stack:speed=10000,thickness=0.001", "bullet-stack:speed=100,rows=1,height=1");
   const Scene scene = load_scene(spec);
   World world(scene);
-  run(world, 30);
+  uint32_t through = 0, turned = 0;
+  for (int step = 0; step < 30; ++step) {
+    world.step();
+    const std::vector<BodyState> states = world.bodies();
+    for (size_t i = 0; i < states.size(); ++i) { /* one that slides off the sheet's rim, 200 m away, may go behind it */
+      const Point &at = states[i].position;
+      through += scene.bodies[i].continuous && at[0] > 0 && std::max(std::abs(at[1]), std::abs(at[2])) < 190;
+    }
+  }
   const std::vector<BodyState> states = world.bodies();
   REQUIRE(all_finite(states));
-  uint32_t through = 0, turned = 0;
   for (size_t i = 0; i < states.size(); ++i) {
     if (!scene.bodies[i].continuous) continue;
-    through += states[i].position[0] > 0;
     turned += states[i].linear_velocity[0] < 0.5f * scene.bodies[i].linear_velocity[0];
   }
   CAPTURE(spec, turned);
