@@ -4,14 +4,13 @@
 #include "host/scene_catalog.h"
 #include "host/scene_gltf.h"
 #include "tests/catch.h"
+#include "tests/host/gltf_scenes.h"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <set>
 #include <unistd.h>
 
@@ -544,15 +543,10 @@ TEST_CASE("meshes that are no convex solid are refused, and damaged ones")
   CHECK_THAT(told(with_mesh(tip_points, tip_triangles), R"("node":1)", R"(,{"mesh":0,"children":[1]})"), ContainsSubstring("node 1: has two parents"));
 }
 
-/* The scenes that come with the extensions, when they lie beside the source: TANDEM_SHARED_DATA or ../shared/data. */
 TEST_CASE("the extension's own scenes load or are refused with a reason")
 {
-  const char *given = std::getenv("TANDEM_SHARED_DATA");
-  fs::path folder = fs::path(given ? given : TANDEM_SOURCE_DIR "/../shared/data") / "gltf_physics/tests";
-  if (!fs::is_directory(folder)) {
-    std::cout << "skipped: no glTF physics scenes in " << folder << "\n";
-    return;
-  }
+  const fs::path folder = gltf_scenes();
+  if (folder.empty()) return;
   std::set<std::string> loads;
   int count = 0;
   for (const auto &entry : fs::recursive_directory_iterator(folder)) {
@@ -569,7 +563,7 @@ TEST_CASE("the extension's own scenes load or are refused with a reason")
   }
   CHECK(count == 62);
   /* Meshes of the scenes are closed and convex, of bodies that the table calls hulls and of those it calls meshes. */
-  std::set<std::string> expected{"CollisionFilter_00", "CollisionFilter_01", "Materials_00", "Materials_01", "Materials_02"};
+  std::set<std::string> expected{"CollisionFilter_00", "CollisionFilter_01", "CollisionFilter_02", "CollisionFilter_03", "Materials_00", "Materials_01", "Materials_02"};
   for (int i = 0; i < 36; ++i) expected.insert("ColliderTypeMatrix_" + std::string(i < 10 ? "0" : "") + std::to_string(i));
   for (int i = 0; i < 8; ++i) expected.insert("MotionProperties_0" + std::to_string(i));
   CHECK(loads == expected);
