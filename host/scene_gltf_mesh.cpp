@@ -2,6 +2,7 @@
 #include "host/scene_gltf_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <set>
@@ -98,7 +99,12 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
     asks.fail("positions of the mesh that are not three floats each are not supported yet");
   const std::vector<uint32_t> indices = indices_of(model, primitive, points.count, asks);
   const auto base = uint32_t(mesh.vertices.size());
-  for (uint32_t at : indices) mesh.vertices.push_back(transformed(place, {points.at<float>(at, 0), points.at<float>(at, 1), points.at<float>(at, 2)}));
+  for (uint32_t at : indices) {
+    const Double3 point{points.at<float>(at, 0), points.at<float>(at, 1), points.at<float>(at, 2)};
+    for (double x : point)
+      if (!std::isfinite(x)) asks.fail(fmt::format("vertex {} of the mesh is [{}, {}, {}]; three finite numbers are needed", at, point[0], point[1], point[2]));
+    mesh.vertices.push_back(transformed(place, point));
+  }
   const bool mirrored = is_mirrored(place);
   for (const Triangle &t : triangles_of(primitive.mode, uint32_t(indices.size())))
     mesh.triangles.push_back({base + t[0], base + t[mirrored ? 2 : 1], base + t[mirrored ? 1 : 2]});
