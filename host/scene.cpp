@@ -6,6 +6,7 @@
 #include "host/scene.h"
 
 #include "host/geometry/shape_mass.h"
+#include "host/geometry/triangle_mesh.h"
 #include "shared/body_codes.h"
 
 #include <algorithm>
@@ -153,12 +154,22 @@ void check_pose(const Body &body, const Checker &check)
   check.finite_vector("angular_velocity", body.angular_velocity);
 }
 
+Vec3 inertia_of_shape(const Body &body, const Shape &shape, const Checker &check)
+{
+  try {
+    return inertia_of(shape, body.mass);
+  } catch (const InputError &error) { /* a mesh without volume */
+    check.fail(error.what());
+  }
+}
+
 void check_inertia(const Body &body, const Shape &shape, const Checker &check)
 {
   if (body.infinite_inertia) return;
   bool from_shape = body.inertia == Vec3{0, 0, 0};
-  Vec3 moments = from_shape ? inertia_of(shape, body.mass) : body.inertia;
-  for (float moment : moments) check.positive(from_shape ? "inertia from shape and mass" : "inertia", moment);
+  Vec3 moments = from_shape ? inertia_of_shape(body, shape, check) : body.inertia;
+  for (float moment : moments)
+    if (from_shape || moment != 0) check.positive(from_shape ? "inertia from shape and mass" : "inertia", moment);
   const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type >= ShapeType::hull;
   if (from_shape && turned && !has_principal_axes(body, shape))
     check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the inertia, or a density instead "
@@ -199,6 +210,14 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   check_inertia(body, shape, check);
 }
 
+std::string volume_doubt(const Shape &shape)
+{
+  if (shape.mesh) return volume_warning(*shape.mesh);
+  for (size_t k = 0; shape.compound && k < shape.compound->children.size(); ++k)
+    if (const std::string doubt = volume_doubt(shape.compound->children[k].shape); !doubt.empty()) return fmt::format("child {}: {}", k, doubt);
+  return "";
+}
+
 } // namespace
 
 void validate(const Scene &scene, const std::string &where)
@@ -214,6 +233,18 @@ void validate(const Scene &scene, const std::string &where)
     check_material(scene.materials[i], {where, "material", i, scene.materials[i].name});
   for (size_t i = 0; i < scene.bodies.size(); ++i)
     check_body(scene.bodies[i], scene, {where, "body", i, scene.bodies[i].name});
+}
+
+std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)
+{
+  std::vector<std::string> warnings;
+  for (size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body &body = scene.bodies[i];
+    const bool from_shape = body.motion == Motion::dynamic && body.inertia == Vec3{0, 0, 0} && !body.infinite_inertia;
+    const std::string doubt = from_shape ? volume_doubt(scene.shapes[body.shape]) : "";
+    if (!doubt.empty()) warnings.push_back(fmt::format("{}: {}: {}", where, label("body", i, body.name), doubt));
+  }
+  return warnings;
 }
 
 } // namespace tandem

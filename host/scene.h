@@ -43,7 +43,7 @@ struct Compound;
  *   cylinder    along Y, between -size[1] and +size[1]; size[0]: radius of the lower end, size[2]: of the upper. One may be 0: a cone
  *   hull        `hull`; size is ignored
  *   mesh        the surface `mesh`, solid on the side from which its triangles are seen clockwise: contacts push out on the other. Size
- *               is ignored. A dynamic one must be closed
+ *               is ignored. A dynamic one should be closed (warnings_of): else its mass is that of a solid that it is not
  *   compound    `compound`; size is ignored */
 struct Shape {
   ShapeType type = ShapeType::box;
@@ -117,7 +117,7 @@ struct Body {
   Vec3 linear_velocity{0, 0, 0};  /* world axes */
   Vec3 angular_velocity{0, 0, 0}; /* world axes */
   float mass = 1.0f;              /* > 0 for dynamic bodies; ignored otherwise */
-  Vec3 inertia{0, 0, 0};          /* principal moments about body axes; all 0: from shape and mass */
+  Vec3 inertia{0, 0, 0};          /* principal moments about body axes; one or two 0: infinite there; all 0: from shape and mass */
   bool infinite_inertia = false;  /* never rotates under torque */
   float gravity_factor = 1.0f;
   float linear_damping = 0.0f;  /* 1/s, >= 0 */
@@ -139,6 +139,9 @@ struct Scene {
  * non-finite or non-positive sizes and masses, NaN or infinite poses, zero quaternions,
  * indices out of range, dynamic half-spaces. `where` prefixes the message (a file name). */
 void validate(const Scene &scene, const std::string &where);
+
+/* One line for each body that can be simulated, but hardly as meant: moving meshes that are not closed, whose volume is a guess. */
+std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
 
 /* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes that
  * take_mass_properties gives its body. */

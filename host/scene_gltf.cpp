@@ -5,12 +5,12 @@
  *
  *   node (motion)           -> body, frame in the node's place
  *     node                  ->   decoration
- *       node (collider)     ->   the body's shape; its pose in the body is that of this node
+ *       node (collider)     ->   the body's shape, or one of several; its pose in the body is that of this node
  *       node (motion) ...   -> a body of its own
  *
  * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
  *
- * The parts are read by scene_gltf_document, _transform, _shapes, _mesh, _materials, _filters and _motion, after the extension
+ * The parts are read by scene_gltf_document, _transform, _body, _shapes, _mesh, _materials, _filters and _motion, after the extension
  * texts KHR_implicit_shapes and KHR_physics_rigid_bodies (Khronos, drafts).
  */
 #include "host/scene_gltf.h"
@@ -19,30 +19,10 @@
 #include <map>
 #include <set>
 
-#include "host/geometry/shape_mass.h"
-#include "host/scene_gltf_filters.h"
-#include "host/scene_gltf_materials.h"
-#include "host/scene_gltf_motion.h"
-#include "host/scene_gltf_shapes.h"
-#include "host/scene_gltf_transform.h"
+#include "host/scene_gltf_body.h"
 
 namespace tandem {
 namespace {
-
-struct PlacedNode {
-  int node;
-  Transform world;
-};
-
-struct BodyNodes {
-  PlacedNode body; /* the one with the motion, or the only collider or trigger, or the one that lists triggers */
-  bool moves;
-  bool trigger = false; /* then `colliders` are triggers */
-  std::vector<PlacedNode> colliders = {};
-  std::vector<PlacedNode> carried = {}; /* triggers below the motion */
-};
-
-/* --- the walk over the nodes ------------------------------------------------------------------ */
 
 class Walk {
 public:
@@ -198,113 +178,14 @@ std::vector<BodyNodes> Walk::bodies()
   return std::move(bodies_);
 }
 
-/* --- one body --------------------------------------------------------------------------------- */
-
-class Assembly {
-public:
-  explicit Assembly(const GltfDocument &document);
-  Assembly(const Assembly &) = delete;
-  void add_body(const BodyNodes &nodes);
-  Scene take() { return std::move(scene_); }
-
-private:
-  void require_one_collider(const BodyNodes &nodes) const;
-  void place(const BodyNodes &nodes, const JsonValue &geometry, Body &body);
-  void read_material(const JsonValue &collider, Body &body) const;
-  void read_filter(const JsonValue &collider, Body &body) const;
-
-  const GltfDocument &document_;
-  Scene scene_;
-  GltfShapes shapes_; /* adds to the scene's */
-  std::vector<GltfFilter> filters_;
-};
-
-Assembly::Assembly(const GltfDocument &document) : document_(document), shapes_(document, scene_.shapes)
-{
-  JsonValue bodies(document.bodies, document.where, std::string("extensions.") + bodies_extension);
-  static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras", "extensions"};
-  bodies.only_keys(keys);
-  scene_.name = document.where;
-  scene_.gravity = {0, -9.81f, 0};
-  scene_.materials = read_gltf_materials(bodies);
-  filters_ = read_gltf_filters(bodies);
-}
-
-void Assembly::require_one_collider(const BodyNodes &nodes) const
-{
-  if (nodes.colliders.size() == 1) return;
-  if (nodes.colliders.empty()) document_.refuse(nodes.body.node, "a motion without a collider (a body without shape) is not supported yet");
-  const std::string first = document_.label(nodes.colliders[0].node), second = document_.label(nodes.colliders[1].node);
-  document_.refuse(nodes.body.node, fmt::format("a compound of {} {}s ({}, {}{}) is not supported yet; one is", nodes.colliders.size(),
-                                                nodes.trigger ? "trigger" : "collider", first, second, nodes.colliders.size() > 2 ? ", ..." : ""));
-}
-
-/* The shape where its node is, the body's frame where the node with the motion is. */
-void Assembly::place(const BodyNodes &nodes, const JsonValue &geometry, Body &body)
-{
-  const PlacedNode &collider = nodes.colliders.front();
-  const RigidPlace frame = rigid_place(document_, nodes.body.node, nodes.body.world), at = rigid_place(document_, collider.node, collider.world);
-  const GltfShape shape = shapes_.read(geometry, at.scale);
-  body.shape = shape.index;
-  const Double3 lifted = turned(at.orientation, {0, shape.offset, 0});
-  for (size_t axis = 0; axis < 3; ++axis) body.position[axis] = at.position[axis] + lifted[axis];
-  for (size_t i = 0; i < 4; ++i) body.orientation[i] = float(at.orientation[i]);
-  const bool apart = nodes.moves && collider.node != nodes.body.node;
-  if (apart && scene_.shapes[body.shape].type == ShapeType::half_space)
-    document_.refuse(collider.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
-  if (apart || shape.offset != 0) move_frame(body, frame.position, frame.orientation);
-}
-
-void Assembly::read_material(const JsonValue &collider, Body &body) const
-{
-  std::optional<JsonValue> material = collider.find("physicsMaterial");
-  if (!material) return;
-  body.material = material->unsigned_integer() + 1;
-  if (body.material == 0 || body.material >= scene_.materials.size())
-    material->fail(fmt::format("material {} does not exist; the file has {}", material->unsigned_integer(), scene_.materials.size() - 1));
-}
-
-void Assembly::read_filter(const JsonValue &collider, Body &body) const
-{
-  std::optional<JsonValue> filter = collider.find("collisionFilter");
-  if (!filter) return;
-  uint32_t chosen = filter->unsigned_integer();
-  if (chosen >= filters_.size()) filter->fail(fmt::format("filter {} does not exist; the file has {}", chosen, filters_.size()));
-  body.filter_group = filters_[chosen].group;
-  body.filter_mask = filters_[chosen].mask;
-}
-
-void Assembly::add_body(const BodyNodes &nodes)
-{
-  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
-  static constexpr const char *trigger_keys[] = {"geometry", "collisionFilter", "extras", "extensions"};
-  require_one_collider(nodes);
-  const int node = nodes.body.node, collider_node = nodes.colliders.front().node;
-  const nlohmann::json own = document_.extensions_of(node), of_collider = document_.extensions_of(collider_node);
-  const std::string where = document_.place(node), collider_where = document_.place(collider_node);
-  const JsonValue collider = JsonValue(of_collider[bodies_extension], collider_where).member(nodes.trigger ? "trigger" : "collider");
-  if (nodes.trigger) collider.only_keys(trigger_keys);
-  else collider.only_keys(collider_keys);
-  Body body;
-  body.name = document_.node(node).name;
-  if (body.name.empty()) body.name = fmt::format("node {}", node);
-  body.motion = Motion::fixed;
-  body.trigger = nodes.trigger;
-  place(nodes, collider.member("geometry"), body);
-  read_material(collider, body);
-  read_filter(collider, body);
-  if (nodes.moves) read_gltf_motion(JsonValue(own[bodies_extension], where).member("motion"), nodes.body.world, scene_, body);
-  scene_.bodies.push_back(body);
-}
-
 } // namespace
 
 Scene read_scene_gltf(const std::string &path)
 {
   const GltfDocument document = read_gltf_document(path);
-  Assembly assembly(document);
-  for (const BodyNodes &nodes : Walk(document).bodies()) assembly.add_body(nodes);
-  Scene scene = assembly.take();
+  GltfBodies bodies(document);
+  for (const BodyNodes &nodes : Walk(document).bodies()) bodies.add(nodes);
+  Scene scene = bodies.take();
   if (scene.bodies.empty())
     throw InputError(fmt::format("{}: no node has a collider or a trigger ({}); there is nothing to simulate", path, bodies_extension));
   validate(scene, path);

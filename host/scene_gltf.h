@@ -1,8 +1,8 @@
 /* scene_gltf.h - scenes from glTF 2.0 files with KHR_implicit_shapes and KHR_physics_rigid_bodies.
  *
- * What the pipeline knows is loaded: spheres, boxes, capsules, cylinders, convex meshes, infinite planes, one collider a body;
- * motions, materials, collision filters. What it does not know is refused by name, with the node that asks for it; nothing is
- * left out silently. docs/scene-format.md lists both.
+ * What the pipeline knows is loaded: all shapes, convex hulls, meshes, several colliders a body; motions, materials, collision
+ * filters. What it does not know is refused by name, with the node that asks for it; nothing is left out silently.
+ * docs/scene-format.md lists both.
  */
 #pragma once
 

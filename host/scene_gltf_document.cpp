@@ -1,6 +1,8 @@
 /* scene_gltf_document.cpp - see scene_gltf_document.h. */
 #include "host/scene_gltf_document.h"
 
+#include <cstring>
+
 #include <fmt/format.h>
 
 namespace tandem {
@@ -14,11 +16,42 @@ std::string first_line(const std::string &text)
   return start == std::string::npos ? "not a readable glTF 2.0 file" : text.substr(start, text.find('\n', start) - start);
 }
 
+/* The first chunk of a binary file; what is no such file is left to the parser's complaint. */
+std::string json_of_binary(const std::string &text)
+{
+  uint32_t length = 0;
+  if (text.size() < 20 || text.compare(16, 4, "JSON") != 0) return "{}";
+  std::memcpy(&length, text.data() + 12, 4);
+  return text.size() - 20 < length ? "{}" : text.substr(20, length);
+}
+
+/* The parser cuts numbers to 32 bits: one too large would name another node. */
+void check_node_numbers(const nlohmann::json &file, const std::string &where)
+{
+  const auto check = [&](const nlohmann::json &owner, const std::string &owner_label, const char *key) {
+    const auto list = owner.is_object() ? owner.find(key) : owner.end();
+    if (!owner.is_object() || list == owner.end() || !list->is_array()) return;
+    for (size_t i = 0; i < list->size(); ++i)
+      if (const nlohmann::json &number = (*list)[i]; number.is_number() && !(number.get<double>() >= 0 && number.get<double>() <= INT32_MAX))
+        throw InputError(fmt::format("{}: {}: {}[{}]: node {} does not exist; a number from 0 to the last node's is needed", where, owner_label, key, i, number.dump()));
+  };
+  const auto check_all = [&](const char *list, const char *kind, const char *key) {
+    const nlohmann::json none = nlohmann::json::array();
+    const nlohmann::json &owners = file.is_object() && file.contains(list) ? file[list] : none;
+    for (size_t i = 0; owners.is_array() && i < owners.size(); ++i) {
+      const bool named = owners[i].is_object() && owners[i].contains("name") && owners[i]["name"].is_string();
+      check(owners[i], named ? fmt::format("{} '{}'", kind, owners[i]["name"].get<std::string>()) : fmt::format("{} {}", kind, i), key);
+    }
+  };
+  check_all("nodes", "node", "children");
+  check_all("scenes", "scene", "nodes");
+}
+
 tinygltf::Model parse_model(const std::string &path)
 {
   std::string text = read_file(path), error, warning;
   bool binary = text.compare(0, 4, "glTF") == 0;
-  if (!binary) parse_json(text, path); /* for line and column */
+  check_node_numbers(parse_json(binary ? json_of_binary(text) : text, path), path); /* for line and column too */
   tinygltf::TinyGLTF parser;
   parser.SetImageLoader(ignore_image, nullptr);
   parser.SetStoreOriginalJSONForExtrasAndExtensions(true);

@@ -2,6 +2,7 @@
 #include "host/scene_gltf_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fmt/format.h>
 #include <set>
@@ -25,6 +26,15 @@ struct Elements {
 };
 
 bool is_index(int index, size_t size) { return index >= 0 && size_t(index) < size; }
+
+[[noreturn]] void refuse_index(int64_t index, const char *what, size_t size, const JsonValue &asks)
+{
+  asks.fail(fmt::format("{} {} does not exist; the file has {}", what, index, size));
+}
+void require_int(uint32_t index, const char *what, size_t size, const JsonValue &asks)
+{
+  if (index > INT32_MAX) refuse_index(index, what, size, asks);
+}
 
 Elements elements_of(const tinygltf::Model &model, int index, const JsonValue &asks)
 {
@@ -65,6 +75,19 @@ std::vector<uint32_t> indices_of(const tinygltf::Model &model, const tinygltf::P
   return indices;
 }
 
+/* Of the places 0 to count - 1: a list, a strip (every second one turned round) or a fan; none of points and lines. */
+std::vector<Triangle> triangles_of(int mode, uint32_t count)
+{
+  std::vector<Triangle> triangles;
+  const bool list = mode == TINYGLTF_MODE_TRIANGLES || mode == -1;
+  for (uint32_t i = 0; i + 2 < count; i += list ? 3 : 1) {
+    if (list) triangles.push_back({i, i + 1, i + 2});
+    else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) triangles.push_back({i, i + 1 + i % 2, i + 2 - i % 2});
+    else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) triangles.push_back({i + 1, i + 2, 0});
+  }
+  return triangles;
+}
+
 /* Only vertices that the indices name belong to the mesh: primitives may share one accessor. */
 void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &primitive, const Transform &place, const JsonValue &asks, GltfMesh &mesh)
 {
@@ -76,13 +99,15 @@ void append_primitive(const tinygltf::Model &model, const tinygltf::Primitive &p
     asks.fail("positions of the mesh that are not three floats each are not supported yet");
   const std::vector<uint32_t> indices = indices_of(model, primitive, points.count, asks);
   const auto base = uint32_t(mesh.vertices.size());
-  for (uint32_t at : indices) mesh.vertices.push_back(transformed(place, {points.at<float>(at, 0), points.at<float>(at, 1), points.at<float>(at, 2)}));
-  const bool list = primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == -1;
-  mesh.has_other_primitives |= !list;
-  if (!list) return;
-  const uint32_t second = is_mirrored(place) ? 2 : 1;
-  for (uint32_t corner = 0; corner + 2 < indices.size(); corner += 3)
-    mesh.triangles.push_back({base + corner, base + corner + second, base + corner + 3 - second});
+  for (uint32_t at : indices) {
+    const Double3 point{points.at<float>(at, 0), points.at<float>(at, 1), points.at<float>(at, 2)};
+    for (double x : point)
+      if (!std::isfinite(x)) asks.fail(fmt::format("vertex {} of the mesh is [{}, {}, {}]; three finite numbers are needed", at, point[0], point[1], point[2]));
+    mesh.vertices.push_back(transformed(place, point));
+  }
+  const bool mirrored = is_mirrored(place);
+  for (const Triangle &t : triangles_of(primitive.mode, uint32_t(indices.size())))
+    mesh.triangles.push_back({base + t[0], base + t[mirrored ? 2 : 1], base + t[mirrored ? 1 : 2]});
 }
 
 bool is_deformed(const std::vector<double> &morph_weights)
@@ -93,7 +118,7 @@ bool is_deformed(const std::vector<double> &morph_weights)
 void append_mesh(const GltfDocument &document, int index, const Transform &place, const JsonValue &asks, GltfMesh &mesh)
 {
   const tinygltf::Model &model = document.model;
-  if (!is_index(index, model.meshes.size())) asks.fail(fmt::format("mesh {} does not exist; the file has {}", index, model.meshes.size()));
+  if (!is_index(index, model.meshes.size())) refuse_index(index, "mesh", model.meshes.size(), asks);
   const tinygltf::Mesh &given = model.meshes[size_t(index)];
   if (is_deformed(given.weights)) asks.fail("a mesh deformed by morph targets is not supported yet");
   for (const tinygltf::Primitive &primitive : given.primitives) append_primitive(model, primitive, place, asks, mesh);
@@ -104,7 +129,8 @@ void append_mesh(const GltfDocument &document, int index, const Transform &place
 GltfMesh mesh_at(const GltfDocument &document, uint32_t index, const JsonValue &asks)
 {
   GltfMesh mesh;
-  append_mesh(document, index > INT32_MAX ? -1 : int(index), {}, asks, mesh);
+  require_int(index, "mesh", document.model.meshes.size(), asks);
+  append_mesh(document, int(index), {}, asks, mesh);
   return mesh;
 }
 
@@ -112,7 +138,8 @@ GltfMesh mesh_of_node(const GltfDocument &document, uint32_t root, const JsonVal
 {
   GltfMesh mesh;
   std::set<int> visited;
-  std::vector<std::pair<int, Transform>> pending{{root > INT32_MAX ? -1 : int(root), {}}};
+  require_int(root, "node", document.model.nodes.size(), asks);
+  std::vector<std::pair<int, Transform>> pending{{int(root), {}}};
   while (!pending.empty()) {
     const auto [index, place] = pending.back();
     pending.pop_back();

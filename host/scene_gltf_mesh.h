@@ -7,9 +7,8 @@
 namespace tandem {
 
 struct GltfMesh {
-  std::vector<Double3> vertices;
+  std::vector<Double3> vertices; /* of points and lines too: a hull has them */
   std::vector<Triangle> triangles;
-  bool has_other_primitives = false; /* points, lines, strips, fans: their vertices are here, as those of a hull, their triangles are not */
 };
 
 /* `asks`, a geometry of a collider, begins the complaints. */

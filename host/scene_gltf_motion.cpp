@@ -1,8 +1,8 @@
 /* scene_gltf_motion.cpp - see scene_gltf_motion.h. */
 #include "host/scene_gltf_motion.h"
 
-#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "host/geometry/shape_mass.h"
 
@@ -19,26 +19,27 @@ bool read_flag(const JsonValue &motion, const char *key)
   return flag && flag->boolean();
 }
 
-/* Given in node space: turned, but not scaled, to world axes. */
-void read_velocities(const JsonValue &motion, const Transform &world, Body &body)
+/* Given in node space: turned, but not scaled, to world axes. In a mirrored node a velocity is mirrored with it; a spin, whose vector is
+ * the axis of a turn, the other way. */
+Vec3 turned_to_world(const Transform &world, const Vec3 &local, bool spin)
 {
-  Vec3 *targets[] = {&body.linear_velocity, &body.angular_velocity};
-  const char *keys[] = {"linearVelocity", "angularVelocity"};
-  for (int i = 0; i < 2; ++i) {
-    std::optional<JsonValue> json = motion.find(keys[i]);
-    Vec3 local = json ? json->vec3() : Vec3{0, 0, 0};
-    if (local == Vec3{0, 0, 0}) continue;
-    if (is_mirrored(world)) json->fail("a velocity in a mirrored node (negative scale) is not supported yet");
-    double turned[3] = {0, 0, 0};
-    for (size_t j = 0; j < 3; ++j) {
-      const double *column = world.column[j], length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
-      for (size_t row = 0; row < 3; ++row) turned[row] += column[row] / length * double(local[j]);
-    }
-    for (size_t row = 0; row < 3; ++row) (*targets[i])[row] = float(turned[row]);
+  double turned[3] = {0, 0, 0};
+  const double sign = spin && is_mirrored(world) ? -1 : 1;
+  for (size_t j = 0; j < 3; ++j) {
+    const double *column = world.column[j], length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
+    for (size_t row = 0; row < 3; ++row) turned[row] += sign * column[row] / length * double(local[j]);
   }
+  return {float(turned[0]), float(turned[1]), float(turned[2])};
 }
 
-/* From the axes of inertia to those of the node. */
+void read_velocities(const JsonValue &motion, const Transform &world, Body &body)
+{
+  if (const auto linear = motion.find("linearVelocity")) body.linear_velocity = turned_to_world(world, linear->vec3(), false);
+  if (const auto angular = motion.find("angularVelocity")) body.angular_velocity = turned_to_world(world, angular->vec3(), true);
+}
+
+/* From the axes of inertia to those of the body's frame, which in a mirrored node is that of the node with its X turned round: the axes,
+ * being lines, are mirrored along it. */
 std::optional<Rotation> read_axes(const JsonValue &motion, const Transform &world)
 {
   std::optional<JsonValue> json = motion.find("inertiaOrientation");
@@ -47,19 +48,18 @@ std::optional<Rotation> read_axes(const JsonValue &motion, const Transform &worl
   const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (!(std::abs(length - 1) < 1e-2)) json->fail("is not a quaternion of length 1");
   const bool turned = std::abs(q[0]) + std::abs(q[1]) + std::abs(q[2]) > 1e-6f;
-  if (turned && is_mirrored(world)) json->fail("a rotated inertia in a mirrored node (negative scale) is not supported yet");
   if (turned && !motion.find("inertiaDiagonal")) json->fail("turns an inertiaDiagonal, which is missing");
-  return Rotation{q[0] / length, q[1] / length, q[2] / length, q[3] / length};
+  const double mirror = is_mirrored(world) ? -1 : 1;
+  return Rotation{q[0] / length, mirror * q[1] / length, mirror * q[2] / length, q[3] / length};
 }
 
+/* Zeros stand for infinity, about one axis or all. */
 void read_inertia(const JsonValue &motion, Body &body)
 {
   std::optional<JsonValue> diagonal = motion.find("inertiaDiagonal");
   if (!diagonal) return;
   body.inertia = diagonal->vec3();
-  auto zeros = std::count(body.inertia.begin(), body.inertia.end(), 0.0f);
-  if (zeros == 3) body.infinite_inertia = true;
-  if (zeros == 1 || zeros == 2) diagonal->fail("an inertia that is infinite (0) about some axes only is not supported yet");
+  body.infinite_inertia = body.inertia == Vec3{0, 0, 0};
 }
 
 /* A place of node space, which the node's scale moves as it moves everything there. */
@@ -72,10 +72,21 @@ std::optional<Double3> read_center(const JsonValue &motion, const Transform &wor
   return transformed(world, {center[0], center[1], center[2]});
 }
 
+/* Of a shape without volume, there is nothing to calculate. */
+template <class Calculate> void require_volume(const JsonValue &motion, const Calculate &calculate)
+{
+  try {
+    calculate();
+  } catch (const InputError &error) {
+    motion.fail(fmt::format("without mass, inertiaDiagonal and centerOfMass, all three, these are the shape's: {}", error.what()));
+  }
+}
+
 /* To the given centre and axes; where one is missing, to the shape's. */
 void move_to_mass(const Scene &scene, const std::optional<Double3> &center, const std::optional<Rotation> &axes, Body &body)
 {
   if (is_plane(scene, body)) return;
+  if (center && axes) return move_frame(body, *center, *axes);
   Body uniform = body;
   take_mass_properties(scene, uniform);
   if (!center && !axes) {
@@ -112,7 +123,8 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   const bool own_moments = !kinematic && body.inertia != Vec3{0, 0, 0};
   if (own_moments) axes = product(Rotation{node[0], node[1], node[2], node[3]}, axes.value_or(Rotation{0, 0, 0, 1}));
   else axes.reset();
-  move_to_mass(scene, center, axes, body);
+  if (!kinematic || has_volume(scene.shapes[body.shape])) require_volume(motion, [&] { move_to_mass(scene, center, axes, body); });
+  else if (center) move_frame(body, *center, Rotation{node[0], node[1], node[2], node[3]});
   body.motion = kinematic ? Motion::kinematic : Motion::dynamic;
   if (kinematic) {
     body.infinite_inertia = false;
@@ -120,7 +132,8 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   }
   if (is_plane(scene, body)) motion.fail("a plane that moves freely is not supported yet");
   std::optional<JsonValue> mass = motion.find("mass");
-  body.mass = mass ? mass->number() : float(default_density * mass_properties_of(scene.shapes[body.shape]).mass);
+  if (mass) body.mass = mass->number();
+  else require_volume(motion, [&] { body.mass = float(default_density * mass_properties_of(scene.shapes[body.shape]).mass); });
 }
 
 } // namespace tandem

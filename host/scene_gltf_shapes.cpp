@@ -7,6 +7,7 @@
 
 #include "host/geometry/mass_properties.h"
 #include "host/scene_gltf_mesh.h"
+#include "host/scene_gltf_round.h"
 
 namespace tandem {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 constexpr double same_volume = 1e-4;
 
 bool even(float a, float b) { return std::max(a, b) <= std::min(a, b) * 1.0001f; }
+bool even(const Vec3 &scale) { return even(scale[0], scale[1]) && even(scale[1], scale[2]) && even(scale[0], scale[2]); }
 
 float number_or(const JsonValue &json, const char *key, float otherwise)
 {
@@ -22,28 +24,37 @@ float number_or(const JsonValue &json, const char *key, float otherwise)
   return found ? found->number() : otherwise;
 }
 
-Shape read_plane(const JsonValue &json)
+/* Seen counter-clockwise from above, and from below too where it has two sides. */
+Shape rectangle(float size_x, float size_z, bool double_sided, const std::string &where)
+{
+  const float x = 0.5f * size_x, z = 0.5f * size_z;
+  const std::vector<Vec3> corners{{-x, 0, -z}, {-x, 0, z}, {x, 0, z}, {x, 0, -z}};
+  std::vector<uint32_t> indices{0, 1, 2, 0, 2, 3};
+  if (double_sided) indices.insert(indices.end(), {0, 2, 1, 0, 3, 2});
+  return mesh_shape(corners, indices, where);
+}
+
+Shape read_plane(const JsonValue &json, const Vec3 &scale)
 {
   static constexpr const char *keys[] = {"doubleSided", "sizeX", "sizeZ", "extras", "extensions"};
   json.only_keys(keys);
-  if (json.find("sizeX") || json.find("sizeZ")) json.fail("a finite plane is not supported yet");
-  if (auto double_sided = json.find("doubleSided"); double_sided && double_sided->boolean())
-    json.fail("a double-sided plane is not supported yet");
-  return half_space_shape();
-}
-
-void require_even(const JsonValue &json, const char *shape, const Vec3 &scale)
-{
-  if (!even(scale[0], scale[1]) || !even(scale[1], scale[2]) || !even(scale[0], scale[2]))
-    json.fail(fmt::format("a {} scaled unevenly ({}, {}, {}) is not supported yet", shape, scale[0], scale[1], scale[2]));
+  const std::optional<JsonValue> size_x = json.find("sizeX"), size_z = json.find("sizeZ"), sides = json.find("doubleSided");
+  const bool double_sided = sides && sides->boolean();
+  if (size_x.has_value() != size_z.has_value()) json.fail("a plane finite along one axis alone is not supported yet; sizeX and sizeZ together are");
+  if (!size_x && double_sided) json.fail("an infinite double-sided plane is not supported yet; with sizeX and sizeZ it is");
+  if (!size_x) return half_space_shape();
+  for (const JsonValue &size : {*size_x, *size_z})
+    if (!(size.number() > 0)) size.fail(fmt::format("is {}; a number above 0 is needed", size.number()));
+  return rectangle(size_x->number() * scale[0], size_z->number() * scale[2], double_sided, json.place());
 }
 
 Shape read_sphere(const JsonValue &json, const Vec3 &scale)
 {
   static constexpr const char *keys[] = {"radius", "extras", "extensions"};
   json.only_keys(keys);
-  require_even(json, "sphere", scale);
-  return sphere_shape(number_or(json, "radius", 0.5f) * scale[0]);
+  const float radius = number_or(json, "radius", 0.5f);
+  if (even(scale)) return sphere_shape(radius * scale[0]);
+  return round_hull(ShapeType::sphere, {radius, radius, radius}, scale, json.place());
 }
 
 Shape read_box(const JsonValue &json, const Vec3 &scale)
@@ -66,30 +77,36 @@ Vec3 read_round(const JsonValue &json, const Vec3 &scale)
 
 Shape read_cylinder(const JsonValue &json, const Vec3 &scale)
 {
-  if (!even(scale[0], scale[2]))
-    json.fail(fmt::format("a cylinder scaled unevenly across its axis ({}, {}) is not supported yet", scale[0], scale[2]));
-  return {ShapeType::cylinder, read_round(json, scale)};
+  if (even(scale[0], scale[2])) return {ShapeType::cylinder, read_round(json, scale)};
+  return round_hull(ShapeType::cylinder, read_round(json, {1, 1, 1}), scale, json.place());
 }
 
 /* Where one sphere holds the other, the hull of both is the larger: `offset` then is its height. */
 Shape read_capsule(const JsonValue &json, const Vec3 &scale, double &offset)
 {
-  require_even(json, "capsule", scale);
-  const Vec3 size = read_round(json, scale);
-  const float bottom = size[0], half_height = size[1], top = size[2];
-  if (half_height > 0 && std::min(bottom, top) >= 0 && std::abs(double(bottom) - top) >= 2.0 * half_height) {
-    offset = bottom > top ? -double(half_height) : double(half_height);
-    return sphere_shape(std::max(bottom, top));
+  const Vec3 own = read_round(json, {1, 1, 1}), size = read_round(json, scale);
+  const auto &[bottom, half_height, top] = own;
+  if (std::min(bottom, top) < 0 || std::max(bottom, top) == 0 || !(half_height > 0))
+    json.fail(fmt::format("a capsule of radii {} and {} and of height {}; a height above 0 and radii of at least 0, one above it, are needed", bottom, top,
+                          2 * half_height));
+  const bool sphere = std::abs(double(bottom) - top) >= 2.0 * half_height;
+  if (sphere && even(scale)) {
+    offset = bottom > top ? -double(size[1]) : double(size[1]);
+    return sphere_shape(std::max(size[0], size[2]));
   }
-  if (bottom == 0 || top == 0) json.fail("a capsule with a radius of 0 is not supported yet; a sphere or a cylinder is");
-  return {ShapeType::capsule, size};
+  if (even(scale) && std::min(bottom, top) > 0) return {ShapeType::capsule, size};
+  return round_hull(ShapeType::capsule, own, scale, json.place());
+}
+
+bool is_closed_without_dents(const TriangleMesh &mesh)
+{
+  const MeshFindings &found = mesh.findings;
+  if (mesh.flat || found.boundary_edges + found.non_manifold_edges + found.misoriented_edges > 0) return false;
+  return std::none_of(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge &edge) { return edge.kind == EdgeKind::concave; });
 }
 
 bool is_surface_of(const ConvexHull &hull, const TriangleMesh &mesh)
 {
-  const MeshFindings &found = mesh.findings;
-  if (found.boundary_edges + found.non_manifold_edges + found.misoriented_edges > 0) return false;
-  if (std::any_of(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge &edge) { return edge.kind == EdgeKind::concave; })) return false;
   const double volume = polyhedron_mass(mesh.vertices, mesh.triangles).mass, whole = hull_mass(hull).mass;
   return std::abs(volume - whole) <= same_volume * whole;
 }
@@ -101,73 +118,65 @@ std::vector<Vec3> scaled_vertices(const GltfMesh &mesh, const std::array<double,
   return vertices;
 }
 
-Shape convex_shape(const GltfMesh &mesh, const std::array<double, 3> &scale, bool hull_asked, const JsonValue &geometry)
+Shape solid_of(const GltfMesh &mesh, const std::array<double, 3> &scale, bool hull_asked, const JsonValue &geometry)
 {
   const std::string where = geometry.place();
   if (mesh.vertices.empty()) geometry.fail("a mesh without vertices; a collider needs a shape");
   const std::vector<Vec3> vertices = scaled_vertices(mesh, scale);
-  constexpr const char *refusal = "a triangle mesh that is not closed and convex is not supported yet; \"convexHull\": true asks for its hull";
   if (hull_asked) return hull_shape(vertices, where);
-  if (mesh.has_other_primitives || mesh.triangles.empty()) geometry.fail(refusal);
+  if (mesh.triangles.empty()) geometry.fail("a mesh without triangles; \"convexHull\": true asks for the hull of its points");
   const std::vector<Triangle> triangles = scale[0] < 0 ? turned_round(mesh.triangles) : mesh.triangles;
-  const TriangleMesh surface = triangle_mesh(vertices, triangles, where);
-  if (surface.flat) geometry.fail(refusal);
-  Shape shape = hull_shape(vertices, where);
-  if (!is_surface_of(*shape.hull, surface)) geometry.fail(refusal);
-  return shape;
+  auto surface = std::make_shared<const TriangleMesh>(triangle_mesh(vertices, triangles, where));
+  if (is_closed_without_dents(*surface)) {
+    Shape hull = hull_shape(surface->vertices, where);
+    if (is_surface_of(*hull.hull, *surface)) return hull;
+  }
+  return {ShapeType::mesh, {0, 0, 0}, nullptr, std::move(surface)};
 }
 
 } // namespace
 
-uint32_t GltfShapes::add(const Shape &shape)
-{
-  shapes_.push_back(shape);
-  return uint32_t(shapes_.size() - 1);
-}
-
-GltfShape GltfShapes::read_implicit(const JsonValue &geometry, const Vec3 &scale)
+GltfShape GltfShapes::read_implicit(const JsonValue &geometry, uint32_t index, const Vec3 &scale) const
 {
   static constexpr const char *document_keys[] = {"shapes", "extras", "extensions"};
-  JsonValue chosen = geometry.member("shape"), document(document_.shapes, geometry.where(), std::string("extensions.") + shapes_extension);
+  JsonValue document(document_.shapes, geometry.where(), std::string("extensions.") + shapes_extension);
   document.only_keys(document_keys);
   JsonValue list = document.member("shapes");
-  uint32_t index = chosen.unsigned_integer();
-  if (index >= list.array_size()) chosen.fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
+  if (index >= list.array_size()) geometry.member("shape").fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
   JsonValue json = list.element(index);
   std::string type = json.member("type").text();
   nlohmann::json empty = nlohmann::json::object();
-  Shape shape;
   GltfShape result;
-  if (type == "plane") shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())));
-  else if (type == "sphere") shape = read_sphere(json.member("sphere"), scale);
-  else if (type == "box") shape = read_box(json.member("box"), scale);
-  else if (type == "cylinder") shape = read_cylinder(json.member("cylinder"), scale);
-  else if (type == "capsule") shape = read_capsule(json.member("capsule"), scale, result.offset);
+  if (type == "plane") result.shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())), scale);
+  else if (type == "sphere") result.shape = read_sphere(json.member("sphere"), scale);
+  else if (type == "box") result.shape = read_box(json.member("box"), scale);
+  else if (type == "cylinder") result.shape = read_cylinder(json.member("cylinder"), scale);
+  else if (type == "capsule") result.shape = read_capsule(json.member("capsule"), scale, result.offset);
   else geometry.fail(fmt::format("shape type {} is not supported yet; sphere, box, capsule, cylinder and plane are", type));
-  auto [at, added] = implicit_.emplace(std::pair{uint32_t(shape.type), shape.size}, uint32_t(shapes_.size()));
-  if (added) add(shape);
-  result.index = at->second;
   return result;
-}
-
-uint32_t GltfShapes::read_mesh(const JsonValue &geometry, const std::array<double, 3> &scale)
-{
-  std::optional<JsonValue> node = geometry.find("node"), hull = geometry.find("convexHull");
-  const MeshUse use{node.has_value(), hull && hull->boolean(), (node ? *node : geometry.member("mesh")).unsigned_integer(), scale};
-  auto [at, added] = meshes_.emplace(use, uint32_t(shapes_.size()));
-  if (!added) return at->second;
-  return add(convex_shape(use.is_node ? mesh_of_node(document_, use.index, geometry) : mesh_at(document_, use.index, geometry), scale, use.hull_asked,
-                          geometry));
 }
 
 GltfShape GltfShapes::read(const JsonValue &geometry, const std::array<double, 3> &scale)
 {
-  static constexpr const char *keys[] = {"shape", "node", "mesh", "convexHull", "extras", "extensions"};
+  static constexpr const char *keys[] = {"shape", "node", "mesh", "convexHull", "extras", "extensions"}, *sources[] = {"shape", "node", "mesh"};
   geometry.only_keys(keys);
-  const int given = int(geometry.find("shape").has_value()) + int(geometry.find("node").has_value()) + int(geometry.find("mesh").has_value());
+  Use use{0, false, 0, scale};
+  int given = 0;
+  for (int source = 0; source < 3; ++source)
+    if (const std::optional<JsonValue> index = geometry.find(sources[source])) {
+      use.source = source;
+      use.index = index->unsigned_integer();
+      ++given;
+    }
   if (given != 1) geometry.fail(fmt::format("names {} of shape, node and mesh; exactly one is needed", given));
-  if (!geometry.find("shape")) return {read_mesh(geometry, scale), 0};
-  return read_implicit(geometry, {float(std::abs(scale[0])), float(scale[1]), float(scale[2])});
+  if (const std::optional<JsonValue> hull = geometry.find("convexHull")) use.hull_asked = hull->boolean();
+  const auto found = known_.find(use);
+  if (found != known_.end()) return found->second;
+  GltfShape result;
+  if (use.source == 0) result = read_implicit(geometry, use.index, {float(std::abs(scale[0])), float(scale[1]), float(scale[2])});
+  else
+    result.shape = solid_of(use.source == 1 ? mesh_of_node(document_, use.index, geometry) : mesh_at(document_, use.index, geometry), scale, use.hull_asked, geometry);
+  return known_.emplace(use, std::move(result)).first->second;
 }
 
 } // namespace tandem

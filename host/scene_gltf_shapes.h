@@ -1,7 +1,7 @@
-/* scene_gltf_shapes.h - from the geometry of a collider to a shape: KHR_implicit_shapes, and meshes that are convex.
+/* scene_gltf_shapes.h - from the geometry of a collider to a shape: KHR_implicit_shapes, and meshes.
  *
  * A mesh becomes its convex hull where the file says so ("convexHull"), and where it is the same solid without: a closed surface
- * without dents. Not a public header.
+ * without dents. All others stay meshes. Not a public header.
  */
 #pragma once
 
@@ -12,33 +12,30 @@
 namespace tandem {
 
 struct GltfShape {
-  uint32_t index = 0; /* in the scene */
-  double offset = 0;  /* along Y, of the shape's frame in the collider's: a capsule that is a sphere really */
+  Shape shape;
+  double offset = 0; /* along Y, of the shape's frame in the collider's: a capsule that is a sphere really */
 };
 
 class GltfShapes {
 public:
-  /* New shapes are appended to `shapes`. */
-  GltfShapes(const GltfDocument &document, std::vector<Shape> &shapes) : document_(document), shapes_(shapes) {}
+  explicit GltfShapes(const GltfDocument &document) : document_(document) {}
 
-  /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. */
+  /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. The same geometry in the
+   * same scale gives the same shape: hull and mesh are shared. */
   GltfShape read(const JsonValue &geometry, const std::array<double, 3> &scale);
 
 private:
-  GltfShape read_implicit(const JsonValue &geometry, const Vec3 &scale);
-  uint32_t read_mesh(const JsonValue &geometry, const std::array<double, 3> &scale);
-  uint32_t add(const Shape &shape);
+  GltfShape read_implicit(const JsonValue &geometry, uint32_t index, const Vec3 &scale) const;
 
   const GltfDocument &document_;
-  std::vector<Shape> &shapes_;
-  std::map<std::pair<uint32_t, Vec3>, uint32_t> implicit_;
-  struct MeshUse {
-    bool is_node, hull_asked;
+  struct Use {
+    int source; /* shape, node or mesh */
+    bool hull_asked;
     uint32_t index;
     std::array<double, 3> scale;
-    auto operator<=>(const MeshUse &) const = default;
+    auto operator<=>(const Use &) const = default;
   };
-  std::map<MeshUse, uint32_t> meshes_;
+  std::map<Use, GltfShape> known_;
 };
 
 } // namespace tandem

@@ -107,7 +107,9 @@ RigidPlace rigid_place(const GltfDocument &document, int index, const Transform 
   RigidPlace place;
   for (int j = 0; j < 3; ++j) {
     const double factor = length(world.column[j]);
-    if (!(factor > 0) || !std::isfinite(factor)) document.refuse(index, fmt::format("its scale is {} along axis {}", factor, j));
+    if (!(factor > 0) || !std::isfinite(factor))
+      document.refuse(index, fmt::format("its scale is {} along {}; a body has a scale other than 0 along each axis, and a collider that or 0 along all three, "
+                                         "which disables it", factor, "XYZ"[j]));
     for (double &x : rotation.column[j]) x /= factor;
     place.scale[size_t(j)] = factor;
   }

@@ -107,8 +107,12 @@ void take_density(const JsonValue &json, Scene &scene, Body &body)
   const Shape &shape = scene.shapes[body.shape];
   if (shape.type == ShapeType::half_space) density.fail("a half_space has no mass; leave it away");
   if (!(density.number() > 0)) density.fail(fmt::format("is {}; a number above 0 is needed", density.number()));
-  take_mass_properties(scene, body);
-  body.mass = float(double(density.number()) * mass_properties_of(shape).mass);
+  try {
+    take_mass_properties(scene, body);
+    body.mass = float(double(density.number()) * mass_properties_of(shape).mass);
+  } catch (const InputError &error) { /* a mesh without volume */
+    density.fail(error.what());
+  }
 }
 
 void take_densities(const JsonValue &bodies, Scene &scene, const std::string &where)

@@ -107,7 +107,12 @@ Placement SceneOptions::placement() const
 
 uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1, most_steps); }
 
-Scene SceneOptions::scene() const { return load_scene(scene_); }
+Scene SceneOptions::scene() const
+{
+  Scene scene = load_scene(scene_);
+  for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
+  return scene;
+}
 
 std::string SceneOptions::typed_again() const
 {

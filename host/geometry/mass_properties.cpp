@@ -175,7 +175,7 @@ MassProperties hull_mass(const ConvexHull &hull)
 MassProperties mesh_mass(const TriangleMesh &mesh, const std::string &where)
 {
   if (mesh.flat)
-    throw InputError(fmt::format("{}: a flat mesh of {} triangles has no volume; give the body its mass, or make it static", where,
+    throw InputError(fmt::format("{}: a flat mesh of {} triangles has no volume; give the body mass and inertia, or make it fixed", where,
                                  mesh.triangles.size()));
   const MassProperties result = polyhedron_mass(mesh.vertices, mesh.triangles);
   if (!(result.mass > 0))

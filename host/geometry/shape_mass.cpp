@@ -89,6 +89,13 @@ MassProperties mass_properties_of(const Shape &shape)
   throw std::logic_error("a shape without mass");
 }
 
+bool has_volume(const Shape &shape)
+{
+  if (shape.type == ShapeType::half_space) return false;
+  if (shape.compound) return std::all_of(shape.compound->children.begin(), shape.compound->children.end(), [](const Child &child) { return has_volume(child.shape); });
+  return !shape.mesh || (!shape.mesh->flat && polyhedron_mass(shape.mesh->vertices, shape.mesh->triangles).mass > 0);
+}
+
 PrincipalFrame principal_frame_of(const Shape &shape)
 {
   const MassProperties solid = mass_properties_of(shape);

@@ -23,6 +23,9 @@ using Rotation = std::array<double, 4>; /* x y z w, unit length */
 /* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh without volume. */
 MassProperties mass_properties_of(const Shape &shape);
 
+/* False for half-spaces, and meshes that are flat or inside out. */
+bool has_volume(const Shape &shape);
+
 /* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1. Where it
  * differs from the shape's own by no more than roundings, it is the shape's own. */
 struct PrincipalFrame {

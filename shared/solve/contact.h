@@ -210,7 +210,7 @@ SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
 
 /* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
  * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it would
- * limit comes later. Returns the new accumulated impulse. */
+ * limit comes later. Returns the new accumulated impulse, which may pull: press_together cuts that off. */
 SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop_or_deep, real separation, real speed, real mass, real old,
                            uint biased)
 {
@@ -220,22 +220,23 @@ SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, r
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);
   real impulse_scale = biased != 0u ? choose(rigid, (real)R(0.0), soft.impulse_scale) : (real)R(0.0);
-  real impulse = maximum(old - mass * mass_scale * (speed + bias) - impulse_scale * old, R(0.0));
+  real impulse = old - mass * mass_scale * (speed + bias) - impulse_scale * old;
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
 }
 
 /* Gives all points their wished impulses at once, so that a box on four corners does not tilt towards the one that is
- * solved first. The changes are one direction; the share of it that brings the points as near to their wishes as they
- * can come together is own / whole, its energy with the points apart over its energy with them coupled. */
+ * solved first. Wishes that pull end at 0. The changes are one direction; the share of it that brings the points as near to their
+ * wishes as they can come together is own / whole: the energy that the wishes, uncut, would do along it with the points apart, over
+ * its energy with them coupled. */
 SHARED contact press_together(contact c, support *s, const real *wished)
 {
   real change[4], sum = R(0.0), own = R(0.0);
   vec3 turn_a = make_vec3(R(0.0), R(0.0), R(0.0)), turn_b = turn_a;
   for (uint k = 0; k < 4u; ++k) {
     mask used = s->mass[k] > R(0.0);
-    change[k] = choose(used, wished[k] - s->impulse[k], (real)R(0.0));
+    change[k] = choose(used, maximum(wished[k], R(0.0)) - s->impulse[k], (real)R(0.0));
     sum = sum + change[k];
-    own = own + change[k] * change[k] / choose(used, s->mass[k], (real)R(1.0));
+    own = own + change[k] * (wished[k] - s->impulse[k]) / choose(used, s->mass[k], (real)R(1.0));
     turn_a = add_scaled(turn_a, s->turn_a[k], change[k]);
     turn_b = add_scaled(turn_b, s->turn_b[k], change[k]);
   }
@@ -321,7 +322,7 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
     for (uint k = 0; k < 4u; ++k) {
       real target = component(wished, (natural)k);
       mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
-      real wanted = maximum(s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target), R(0.0));
+      real wanted = s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target);
       pressed[k] = choose(applies, wanted, s.impulse[k]);
     }
     c = press_together(c, &s, pressed);

@@ -1,5 +1,6 @@
 /* scene_json_test.cpp - a written scene reads back to the same bits; every mistake in a file is named with its place. */
 #include "host/geometry/shape_mass.h"
+#include "host/json_reader.h"
 #include "host/random.h"
 #include "host/scene_catalog.h"
 #include "host/scene_json.h"
@@ -331,4 +332,19 @@ TEST_CASE("unwritable and unreadable places are named")
   CHECK_THROWS_AS(to_scene_json(bad), InputError);
   bad.bodies[1].mass = -1;
   CHECK_THROWS_AS(to_scene_json(bad), InputError);
+}
+
+TEST_CASE("the examples of docs/scene-format.md are scenes")
+{
+  const std::string page = read_file(std::string(TANDEM_SOURCE_DIR) + "/docs/scene-format.md");
+  int scenes = 0;
+  for (size_t begin = page.find("```json\n"); begin != std::string::npos; begin = page.find("```json\n", begin + 1)) {
+    const std::string example = page.substr(begin + 8, page.find("```\n", begin + 8) - begin - 8);
+    if (example.find("tandem_scene") == std::string::npos) continue; /* a part of one */
+    ++scenes;
+    const Scene scene = parse_scene_json(example, "docs/scene-format.md");
+    CHECK(warnings_of(scene, "").empty());
+    for (const Body &body : scene.bodies) CHECK((body.motion == Motion::fixed || body.mass > 0.01f));
+  }
+  CHECK(scenes == 2);
 }
