@@ -129,6 +129,7 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
                                 GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return; /* nothing then is left for a compiler of devices to do */
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
@@ -149,6 +150,7 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX_HALF_SPACE)) return;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
   hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};

@@ -23,6 +23,7 @@ SHARED void find_separating_axis_item(GLOBAL const uint *pair_a, GLOBAL const ui
     GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
     GLOBAL const Parameters *parameters, GLOBAL row *axes, GLOBAL uint *states, uint method, uint i)
 {
+  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   convex_query query;
   int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
                                strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
@@ -43,6 +44,7 @@ SHARED void find_clipping_faces_item(GLOBAL const uint *pair_a, GLOBAL const uin
     GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
     GLOBAL const Parameters *parameters, GLOBAL const row *axes, GLOBAL const uint *states, GLOBAL uint *faces, uint method, uint i)
 {
+  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   faces[i * 2u] = faces[i * 2u + 1u] = INDEX_NONE;
   if (states[i] != SPLIT_CLIP) return;
   convex_query query;
@@ -64,6 +66,7 @@ SHARED void clip_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b
     GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const row *axes, GLOBAL const uint *states, GLOBAL const uint *faces,
     GLOBAL row *clipped, GLOBAL uint *clipped_counts, uint method, uint i)
 {
+  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   clipped_counts[i] = INDEX_NONE;
   if (states[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
@@ -120,7 +123,7 @@ SHARED void reduce_contacts_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
     GLOBAL const row *clipped, GLOBAL const uint *clipped_counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
     GLOBAL uint *features, uint method, uint i)
 {
-  if (states[i] == SPLIT_OF_OTHERS) return;
+  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT) || states[i] == SPLIT_OF_OTHERS) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   if (states[i] == SPLIT_APART || load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
