@@ -211,9 +211,11 @@ __kernel void check_batches(__global const uint *pair_a, __global const uint *pa
   check_batches_item(pair_a, pair_b, body_traits, sort_value, body_marks, counts, i);
 }
 
-__kernel void check_pairs(__global const uint *manifold_count, __global const uint *pair_marks,
+__kernel void check_pairs(__global const Parameters *parameters, __global const uint *pair_a,
+                          __global const uint *pair_b, __global const uint *manifold_count,
+                          __global const uint *body_traits, __global const uint *pair_marks,
                           __global uint *counts, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  check_pairs_item(manifold_count, pair_marks, counts, i);
+  check_pairs_item(parameters, pair_a, pair_b, manifold_count, body_traits, pair_marks, counts, i);
 }

@@ -1,7 +1,7 @@
 /* midphase.cl - entries of shared/midphase. */
 #include "cl/entry.h"
 #include "shared/midphase/leaf_pairs.h"
-#include "shared/midphase/merge.h"
+#include "shared/midphase/grazing.h"
 
 __kernel void count_leaf_pairs(__global const Parameters *parameters, __global const uint *pair_a,
     __global const uint *pair_b, __global const uint *body_traits, __global const uint *body_filter,
@@ -59,4 +59,22 @@ __kernel void merge_manifolds(__global const uint *pair_a, __global const uint *
   FOR_EACH_IN_RANGE(i)
     merge_manifolds_item(pair_a, pair_b, body_shape, manifold_group, counts, manifold_normal, manifold_points,
         manifold_count, manifold_feature, i);
+}
+
+__kernel void find_grazing(__global const Parameters *parameters, __global const uint *pair_a,
+    __global const uint *pair_b, __global const row *body_shape, __global const row *manifold_normal,
+    __global const row *manifold_points, __global const uint *manifold_count, __global const uint *counts,
+    __global uint *manifold_grazing, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+    find_grazing_item(parameters, pair_a, pair_b, body_shape, manifold_normal, manifold_points, manifold_count, counts,
+        manifold_grazing, i);
+}
+
+__kernel void drop_grazing(__global const uint *manifold_grazing, __global const uint *counts,
+    __global row *manifold_normal, __global row *manifold_points, __global uint *manifold_count,
+    __global uint *manifold_feature, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+    drop_grazing_item(manifold_grazing, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }

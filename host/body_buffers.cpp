@@ -66,7 +66,7 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
 uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
 {
   const uint32_t shape = is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
-  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8;
+  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) | placed.material << 8;
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
@@ -206,12 +206,12 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
   statistics.direct_left = counts[COUNT_DIRECT_LEFT];
   statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
-  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs);
+  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs), colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
   double sum = 0;
   for (uint32_t plane = 0; plane < 4; ++plane) {
     const auto rows = memory.read<row>(Buffer::manifold_points, pairs, size_t{plane} * stride);
     for (uint32_t i = 0; i < pairs; ++i) {
-      if (points[i] <= plane) continue;
+      if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* of triggers nothing counts */
       const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
       ++statistics.contacts;
       sum += depth;

@@ -124,7 +124,9 @@ const char *iteration_name(Kernel kernel)
   if (row_of(kernel).form == Form::group) return "group";
   switch (kernel) {
   case Kernel::brute_force_count:
-  case Kernel::brute_force_write: return "a";
+  case Kernel::brute_force_write:
+  case Kernel::count_events:
+  case Kernel::write_events: return "a";
   case Kernel::sweep_starts: return "body";
   case Kernel::grid_cells: return "cell";
   case Kernel::color_starts: return "color";

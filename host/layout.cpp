@@ -32,6 +32,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;
+  case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* no more than pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;

@@ -107,6 +107,7 @@ enum class Motion : uint32_t {
 struct Body {
   std::string name;
   Motion motion = Motion::dynamic;
+  bool trigger = false;  /* is touched and reported (World::contact_events), but neither pushes nor is pushed */
   uint32_t shape = 0;    /* index into Scene::shapes */
   uint32_t material = 0; /* index into Scene::materials */
   Point position{0, 0, 0};      /* centre of mass */

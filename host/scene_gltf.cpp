@@ -8,12 +8,15 @@
  *       node (collider)     ->   the body's shape, or one of several; its pose in the body is that of this node
  *       node (motion) ...   -> a body of its own
  *
+ * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
+ *
  * The parts are read by scene_gltf_document, _transform, _body, _shapes, _mesh, _materials, _filters and _motion, after the extension
  * texts KHR_implicit_shapes and KHR_physics_rigid_bodies (Khronos, drafts).
  */
 #include "host/scene_gltf.h"
 
 #include <fmt/format.h>
+#include <map>
 #include <set>
 
 #include "host/scene_gltf_body.h"
@@ -32,16 +35,21 @@ private:
     int node;
     Transform parent;
     size_t body;   /* index into bodies_ of the motion above, or none */
+    size_t list;   /* the same of the trigger above that lists nodes */
     bool animated; /* it, or a node above */
   };
   std::vector<int> root_nodes() const;
   void visit(const Visit &at);
   void add(const JsonValue &physics, Visit &below);
+  void add_trigger(const JsonValue &trigger, Visit &at);
+  void add_trigger_list(const JsonValue &trigger, Visit &at);
+  void settle_triggers();
 
   const GltfDocument &document_;
   std::set<int> animated_, visited_;
   std::vector<Visit> pending_;
   std::vector<BodyNodes> bodies_;
+  std::map<int, size_t> parts_; /* listed by a trigger and not met yet: which body they belong to */
 };
 
 Walk::Walk(const GltfDocument &document) : document_(document)
@@ -77,17 +85,67 @@ void Walk::add(const JsonValue &physics, Visit &below)
   physics.only_keys(keys);
   const bool has_motion = physics.find("motion").has_value(), has_collider = physics.find("collider").has_value();
   if (physics.find("joint")) physics.fail("a joint is not supported yet");
-  if (physics.find("trigger")) physics.fail("a trigger is not supported yet");
-  if (!has_motion && !has_collider) return;
+  const bool has_trigger = physics.find("trigger").has_value();
+  if (!has_motion && !has_collider && !has_trigger) return;
   if (below.animated) physics.fail("an animated rigid body is not supported yet");
   const PlacedNode here{below.node, below.parent};
   if (has_motion) {
     below.body = bodies_.size();
-    bodies_.push_back({here, true, {}});
+    bodies_.push_back({here, true});
   }
+  if (has_trigger) add_trigger(physics.member("trigger"), below);
   if (!has_collider || (!has_motion && is_scaled_to_nothing(here.world))) return; /* so scaled, the extension calls it disabled */
-  if (below.body == none) bodies_.push_back({here, false, {here}});
+  if (below.body == none) bodies_.push_back({here, false, false, {here}});
   else bodies_[below.body].colliders.push_back(here);
+}
+
+void Walk::add_trigger(const JsonValue &trigger, Visit &at)
+{
+  static constexpr const char *keys[] = {"geometry", "nodes", "collisionFilter", "extras", "extensions"};
+  trigger.only_keys(keys);
+  if (trigger.find("nodes")) return add_trigger_list(trigger, at);
+  trigger.member("geometry");
+  const PlacedNode here{at.node, at.parent};
+  const auto listed = parts_.find(at.node);
+  const bool is_part = listed != parts_.end() && listed->second == at.list;
+  if (is_part) parts_.erase(listed);
+  if (is_scaled_to_nothing(here.world)) return;
+  if (is_part) bodies_[at.list].colliders.push_back(here);
+  else if (at.body != none) bodies_[at.body].carried.push_back(here);
+  else bodies_.push_back({here, false, true, {here}});
+}
+
+/* Its parts come later in the walk, for they are below it. */
+void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
+{
+  for (const char *key : {"geometry", "collisionFilter"})
+    if (trigger.find(key)) trigger.fail(fmt::format("nodes and {} exclude each other", key));
+  if (at.body != none) trigger.fail("a compound trigger that moves with a body is not supported yet");
+  if (at.list != none) trigger.fail("a compound trigger below another is not supported yet");
+  const JsonValue nodes = trigger.member("nodes");
+  if (nodes.array_size() == 0) nodes.fail("is empty; at least one node is needed");
+  for (size_t i = 0; i < nodes.array_size(); ++i)
+    if (!parts_.emplace(int(nodes.element(i).unsigned_integer()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
+  at.list = bodies_.size();
+  bodies_.push_back({{at.node, at.parent}, false, true});
+}
+
+/* A motion without a collider is the trigger's own; with one, the trigger would have to follow another body. */
+void Walk::settle_triggers()
+{
+  if (!parts_.empty()) {
+    const auto [part, whole] = *parts_.begin();
+    document_.require_node(part);
+    document_.refuse(bodies_[whole].body.node, fmt::format("trigger.nodes lists {}, which is no node below it with a trigger geometry", document_.label(part)));
+  }
+  for (BodyNodes &nodes : bodies_) {
+    if (nodes.carried.empty()) continue;
+    if (!nodes.colliders.empty())
+      document_.refuse(nodes.carried.front().node, fmt::format("a trigger that moves with the colliders of {} is not supported yet", document_.label(nodes.body.node)));
+    nodes.trigger = true;
+    nodes.colliders = nodes.carried;
+  }
+  std::erase_if(bodies_, [](const BodyNodes &nodes) { return nodes.trigger && nodes.colliders.empty(); }); /* all parts disabled */
 }
 
 void Walk::visit(const Visit &at)
@@ -110,12 +168,13 @@ void Walk::visit(const Visit &at)
 std::vector<BodyNodes> Walk::bodies()
 {
   std::vector<int> roots = root_nodes();
-  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, false});
+  for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, none, false});
   while (!pending_.empty()) {
     Visit next = pending_.back();
     pending_.pop_back();
     visit(next);
   }
+  settle_triggers();
   return std::move(bodies_);
 }
 
@@ -128,7 +187,7 @@ Scene read_scene_gltf(const std::string &path)
   for (const BodyNodes &nodes : Walk(document).bodies()) bodies.add(nodes);
   Scene scene = bodies.take();
   if (scene.bodies.empty())
-    throw InputError(fmt::format("{}: no node has a collider ({}); there is nothing to simulate", path, bodies_extension));
+    throw InputError(fmt::format("{}: no node has a collider or a trigger ({}); there is nothing to simulate", path, bodies_extension));
   validate(scene, path);
   return scene;
 }

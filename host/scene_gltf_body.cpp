@@ -75,13 +75,13 @@ GltfFilter GltfBodies::read_filter(const JsonValue &collider) const
   return filters_[chosen];
 }
 
-GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at)
+GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at, bool trigger)
 {
-  static constexpr const char *keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
+  static constexpr const char *keys[] = {"geometry", "collisionFilter", "extras", "extensions", "physicsMaterial"}; /* the last: colliders alone */
   const nlohmann::json extensions = document_.extensions_of(at.node);
   const std::string where = document_.place(at.node);
-  const JsonValue json = JsonValue(extensions[bodies_extension], where).member("collider");
-  json.only_keys(keys);
+  const JsonValue json = JsonValue(extensions[bodies_extension], where).member(trigger ? "trigger" : "collider");
+  json.only_keys(std::span(keys).first(trigger ? 4 : 5));
   const RigidPlace place = rigid_place(document_, at.node, at.world);
   const GltfShape read = shapes_.read(json.member("geometry"), place.scale);
   Collider collider{read.shape, place.position, place.orientation, read_material(json), read_filter(json)};
@@ -95,15 +95,15 @@ void GltfBodies::place_alone(const BodyNodes &nodes, Body &body)
 {
   const PlacedNode &at = nodes.colliders.front();
   const RigidPlace frame = rigid_place(document_, nodes.body.node, nodes.body.world);
-  const Collider collider = read_collider(at);
+  const Collider collider = read_collider(at, nodes.trigger);
   body.shape = add_shape(collider.shape);
   body.material = collider.material;
   body.filter_group = collider.filter.group;
   body.filter_mask = collider.filter.mask;
   set_frame({collider.position, collider.orientation, {}}, body);
-  const bool apart = at.node != nodes.body.node, plane = collider.shape.type == ShapeType::half_space;
+  const bool apart = nodes.moves && at.node != nodes.body.node, plane = collider.shape.type == ShapeType::half_space;
   if (apart && plane) document_.refuse(at.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
-  if (!plane && (apart || collider.position != frame.position)) move_frame(body, frame.position, frame.orientation);
+  if (!plane && (apart || (at.node == nodes.body.node && collider.position != frame.position))) move_frame(body, frame.position, frame.orientation);
 }
 
 /* Children stand in the frame of the node with the motion; its scale went into their places and sizes. */
@@ -114,7 +114,7 @@ void GltfBodies::place_together(const BodyNodes &nodes, Body &body)
   const Rotation back{-x, -y, -z, w};
   std::vector<Child> children;
   for (const PlacedNode &at : nodes.colliders) {
-    const Collider collider = read_collider(at);
+    const Collider collider = read_collider(at, nodes.trigger);
     if (collider.shape.type == ShapeType::half_space)
       document_.refuse(at.node, fmt::format("an infinite plane in the compound of {} is not supported yet; a plane with sizeX and sizeZ is",
                                             document_.label(nodes.body.node)));
@@ -148,6 +148,7 @@ void GltfBodies::add(const BodyNodes &nodes)
   body.name = document_.node(node).name;
   if (body.name.empty()) body.name = fmt::format("node {}", node);
   body.motion = Motion::fixed;
+  body.trigger = nodes.trigger;
   if (nodes.colliders.empty()) place_ghost(nodes, body);
   else if (nodes.colliders.size() == 1) place_alone(nodes, body);
   else place_together(nodes, body);

@@ -5,6 +5,8 @@
  *   several                       a compound of them: each a child, with material and filter of its own
  *   none                          a ball that meets nothing: the motion goes on
  *
+ * Triggers likewise, which have no material.
+ *
  * Not a public header.
  */
 #pragma once
@@ -21,9 +23,11 @@ struct PlacedNode {
 };
 
 struct BodyNodes {
-  PlacedNode body; /* the one with the motion, or the only collider */
+  PlacedNode body; /* the one with the motion, or the only collider or trigger, or the one that lists triggers */
   bool moves;
-  std::vector<PlacedNode> colliders;
+  bool trigger = false; /* then `colliders` are triggers */
+  std::vector<PlacedNode> colliders = {};
+  std::vector<PlacedNode> carried = {}; /* triggers below the motion */
 };
 
 class GltfBodies {
@@ -42,7 +46,7 @@ private:
     uint32_t material = 0;
     GltfFilter filter;
   };
-  Collider read_collider(const PlacedNode &at);
+  Collider read_collider(const PlacedNode &at, bool trigger);
   uint32_t read_material(const JsonValue &collider) const;
   GltfFilter read_filter(const JsonValue &collider) const;
   void place_alone(const BodyNodes &nodes, Body &body);

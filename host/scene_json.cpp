@@ -54,6 +54,7 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("angular_damping", &Body::angular_damping);
   field("filter_group", &Body::filter_group);
   field("filter_mask", &Body::filter_mask);
+  field("trigger", &Body::trigger);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */

@@ -17,6 +17,7 @@ struct Settings {
   std::string narrowphase = "gjk-epa"; /* of shapes without a test of their own */
   std::string batching = "coloring";    /* coloring, sequential, single-group, iterative, two-stage */
   bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
+  bool events = false;    /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
   bool specialise = true; /* false: every feature built and run, same bits */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */

@@ -16,18 +16,25 @@ constexpr float large_ratio = 4.0f;
 
 bool is_dynamic(const Body &body) { return body.motion == Motion::dynamic; }
 
+bool has_triggers(const Scene &scene)
+{
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.trigger; });
+}
+
 struct Presence {
   bool fixed[3] = {};   /* by shape type: bodies that cannot be moved */
-  bool dynamic[3] = {};
+  bool dynamic[3] = {}; /* where there are triggers, kinematic ones too: they meet fixed triggers */
 };
 
 Presence presence_of(const Scene &scene)
 {
   Presence present;
+  const bool triggers = has_triggers(scene);
   for (const Body &body : scene.bodies) {
     const auto type = static_cast<size_t>(scene.shapes[body.shape].type);
     if (is_general(scene, body)) continue;
-    (is_dynamic(body) ? present.dynamic : present.fixed)[type] = true;
+    const bool moves = is_dynamic(body) || (triggers && body.motion == Motion::kinematic);
+    (moves ? present.dynamic : present.fixed)[type] = true;
   }
   return present;
 }
@@ -111,6 +118,7 @@ uint32_t body_features(const Scene &scene)
     if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
   }
   if (filters(scene)) features |= FEATURE_FILTER;
+  if (has_triggers(scene)) features |= FEATURE_TRIGGER;
   return features;
 }
 

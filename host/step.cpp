@@ -102,6 +102,8 @@ private:
   {
     run(Kernel::group_manifolds);
     run(Kernel::merge_manifolds);
+    run(Kernel::find_grazing);
+    run(Kernel::drop_grazing);
   }
 
   /* The matrix of shape pairs; a gap is a pair that the scene does not have. */
@@ -131,6 +133,7 @@ private:
   {
     run(Kernel::check_bodies);
     run(Kernel::finish_step, {plan().colors});
+    if (has(FEATURE_EVENTS)) list_events();
     run(Kernel::commit_bodies);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
@@ -141,6 +144,18 @@ private:
       run(Kernel::cache_rolling);
     }
     if (const auto keep = solver_named(settings().solver).commit) keep(*this);
+  }
+
+  /* Before the commit: bodies are where their contacts were found, and the cache is that of the last step. */
+  void list_events()
+  {
+    run(Kernel::pair_impulses);
+    run(Kernel::find_touching);
+    run(Kernel::count_events);
+    exclusive_scan(launcher(), Buffer::event_start, Buffer::event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_EVENTS}, {Buffer::event_start});
+    run(Kernel::write_events);
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
   }
 
   static unsigned bits_of(uint32_t values) { return std::bit_width(values); }

@@ -27,6 +27,12 @@ void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<
   if (plan_.colors > COLOR_LIMIT) run(tail, values);
 }
 
+void StepLaunches::begin_substep(uint32_t substep)
+{
+  if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
+  run(Kernel::integrate_velocities);
+}
+
 void StepLaunches::scan_pairs(Buffer starts)
 {
   exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, COUNT_BODIES, plan_.bodies);

@@ -26,6 +26,8 @@ public:
   void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
   /* The same, and `tail` over those without a colour. */
   void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
+  /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
+  void begin_substep(uint32_t substep);
   void scan_pairs(Buffer starts);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
 

@@ -10,6 +10,7 @@
 #include "host/batch_fault.h"
 #include "host/batching/batcher.h"
 #include "host/body_buffers.h"
+#include "host/contact_events.h"
 #include "host/debug.h"
 #include "host/hash.h"
 #include "host/host_stages.h"
@@ -49,6 +50,7 @@ struct World::Implementation {
       : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given)), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
+    if (settings.events) special.features |= FEATURE_EVENTS;
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
@@ -332,6 +334,12 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
   upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
 }
 
+std::vector<ContactEvent> World::contact_events()
+{
+  if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
+  return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+}
+
 Statistics World::statistics()
 {
   Statistics s = implementation_->statistics;
@@ -353,7 +361,8 @@ uint64_t World::state_hash()
   hash = hash_buffers(memory, {Buffer::cached_b, Buffer::cached_feature, Buffer::cached_color, Buffer::cached_normal_impulse, Buffer::cached_friction_impulse},
                       starts.back(), hash);
   const bool rolls = implementation_->scene_features & FEATURE_ROLLING;
-  return rolls ? hash_buffers(memory, {Buffer::cached_rolling_impulse}, starts.back(), hash) : hash;
+  if (rolls) hash = hash_buffers(memory, {Buffer::cached_rolling_impulse}, starts.back(), hash);
+  return implementation_->settings.events ? hash_buffers(memory, {Buffer::cached_touching}, starts.back(), hash) : hash;
 }
 
 void World::finish()

@@ -75,6 +75,23 @@ struct BatchFault {
 };
 std::string describe(const BatchFault &fault); /* one line */
 
+/* Two bodies that touched in the last step, or ceased to. A pair has at most one event a step, however many points or parts touch.
+ *
+ * Solids touch in a step when some point of theirs overlaps as it starts or carries an impulse within it, so what rests persists and a
+ * bounce between two steps is not missed. A trigger touches what overlaps it as the step starts. `begin`: it did not touch in the step
+ * before; `end`: it did then and does no more, or has left the neighbourhood, or was taken out of the simulation. */
+struct ContactEvent {
+  enum class Kind : uint32_t { begin, persist, end } kind;
+  uint32_t a, b;    /* indices into Scene::bodies, a < b */
+  bool trigger;     /* one of the two is a trigger */
+  uint32_t points;  /* points that touch; 0 for an end, as all that follows is */
+  float impulse;    /* N s, along the normal, over the whole step with its bounce; 0 for triggers. Of `avbd`, see docs/pipeline.md */
+  float separation; /* m, of the deepest point as the step started: negative where the two overlap */
+  Point point;      /* of the world, as the step started: where the impulse acts, or the middle of the points where there is none */
+  Vec3 normal;      /* unit, from a to b; of several parts, that of the one that pressed hardest */
+};
+const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */
+
 /* A body taken out of the simulation because it stopped being finite. */
 struct Quarantine {
   uint32_t body; /* index into Scene::bodies */
@@ -104,6 +121,10 @@ public:
   void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
   /* As set_body, but unchecked: for tests of what happens to a NaN. */
   void set_body_unchecked(uint32_t body, const BodyState &state);
+
+  /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with larger buffers
+   * tells them once. InputError without Settings::events. */
+  std::vector<ContactEvent> contact_events();
 
   Statistics statistics();
   uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */

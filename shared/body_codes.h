@@ -1,6 +1,6 @@
 /* body_codes.h - the numbers in body_traits and body_convex; kernels and the host both name them.
  *
- * body_traits: bits 0-2 shape, 3-4 motion, 8-31 material.
+ * body_traits: bits 0-2 shape, 3-4 motion, 5 trigger, 8-31 material.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
@@ -14,5 +14,8 @@ enum {
 
 /* Quarantined: taken out of the simulation, since it stopped being finite. */
 enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
+
+/* Found and reported by the pairs it is in, never solved. */
+enum { TRAIT_TRIGGER = 1 << 5 };
 
 #endif

@@ -9,7 +9,7 @@
 #define COLOR_LIMIT 63u
 #define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
 #define COLOR_NONE 254u     /* touching, not coloured yet */
-#define COLOR_INACTIVE 255u /* pair of bounds that do not touch */
+#define COLOR_INACTIVE 255u /* pair of bounds that do not touch, or one with a trigger */
 
 #define INDEX_NONE 0xffffffffu
 
@@ -55,6 +55,7 @@ enum {
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,    /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
+  COUNT_EVENTS,        /* of the step; 0 unless it was committed */
   BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
   COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2

@@ -4,7 +4,7 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/midphase/leaf_pairs.h"
-#include "shared/midphase/merge.h"
+#include "shared/midphase/grazing.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"
@@ -33,6 +33,7 @@
 #include "shared/solve/nncg.h"
 #include "shared/solve/xpbd_tail.h"
 #include "shared/solve/rolling_tail.h"
+#include "shared/events/list.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
 

@@ -18,6 +18,7 @@
 #include "shared/integrate/positions.h"
 #include "shared/integrate/commit.h"
 #include "shared/integrate/cache_rolling.h"
+#include "shared/events/impulses.h"
 #include "shared/narrowphase/box_box.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/sphere_box.h"

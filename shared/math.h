@@ -51,6 +51,8 @@ SHARED vec4 choose4(mask m, vec4 a, vec4 b)
 {
   return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
 }
+/* Of the row of four: k from 0. */
+SHARED real component(vec4 v, natural k) { return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w)); }
 
 SHARED real inner(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SHARED vec3 outer(vec3 a, vec3 b)

@@ -13,6 +13,7 @@
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
+SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return traits >> 8u; }
 
 /* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1 for b. */
@@ -55,6 +56,14 @@ SHARED vec3 offset_between(GLOBAL const row *body_position, natural from, natura
 {
   place a = load_place(body_position, from), b = load_place(body_position, to);
   return add(subtract(b.high, a.high), subtract(b.low, a.low));
+}
+
+/* The smallest half extent of a pair; of two that have none (half-spaces, flat meshes), 0. */
+SHARED real size_between(GLOBAL const row *body_shape, natural a, natural b)
+{
+  vec4 of_a = load_row(body_shape, a), of_b = load_row(body_shape, b);
+  real size_a = minimum(of_a.x, minimum(of_a.y, of_a.z)), size_b = minimum(of_b.x, minimum(of_b.y, of_b.z));
+  return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b);
 }
 
 /* Linear velocity and inverse mass, angular velocity: two rows, one 32-byte record. */

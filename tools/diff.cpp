@@ -30,6 +30,7 @@ void add_options(CLI::App &parser, DiffOptions &options)
                     "try the comparison out: on the last backend, change one number of what a kernel wrote by the least "
                     "possible (NUMBER counts floats or integers from the buffer's start; default step 0)")
       ->type_name("KERNEL:BUFFER:NUMBER[:STEP]");
+  options.scene.add_events_flag(parser);
   parser.add_option("--json", options.json.path, "write the verdict as JSON; - for standard output")->type_name("FILE");
   parser.footer("After every kernel of every step each buffer that it wrote is compared as a whole.\n"
                 "Exit status: 0 equal, 1 different.");

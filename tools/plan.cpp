@@ -169,6 +169,7 @@ Command plan_command(CLI::App &parser)
 {
   CLI::App *command = parser.add_subcommand("plan", "say what a scene needs: features, kernels, flags, buffers");
   auto options = std::make_shared<PlanOptions>(*command);
+  options->scene.add_events_flag(*command);
   command->add_option("--json", options->json.path, "write the plan as JSON; - for standard output")->type_name("FILE");
   return {command, [options] { return execute(*options); }};
 }

@@ -7,6 +7,7 @@
 #include "host/animation.h"
 #include "host/world.h"
 #include "tools/command.h"
+#include "tools/event_file.h"
 #include "tools/measure.h"
 #include "tools/output.h"
 #include "tools/progress.h"
@@ -19,7 +20,7 @@ namespace {
 struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
-  std::string save, image, trace;
+  std::string save, image, trace, events;
   JsonOutput json;
 };
 
@@ -30,6 +31,7 @@ void add_options(CLI::App &parser, RunOptions &options)
   parser.add_option("--trace", options.trace,
                     "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
       ->type_name("F.json");
+  parser.add_option("--events", options.events, "write which bodies begin, go on and cease to touch in each step, and how hard")->type_name("F.json");
   parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
   parser.footer("Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
                 "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
@@ -41,6 +43,7 @@ void check_files(const RunOptions &options)
   if (!options.image.empty()) throw InputError("--image is not supported yet; --save F.glb writes an animation");
   check_writable("--save", options.save);
   check_writable("--trace", options.trace);
+  check_writable("--events", options.events);
   options.json.check();
 }
 
@@ -175,16 +178,20 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   Recording recording(options.save, world);
   std::optional<Trace> trace;
   if (!options.trace.empty()) trace.emplace(world);
+  std::optional<EventFile> events;
+  if (!options.events.empty()) events.emplace(options.events, options.scene.scene_text(), world);
   Progress progress("simulating", steps);
   Outcome outcome{options.scene.scene_text(), steps, {}, {}, 0, 0};
   if (trace) trace->begin_step();
   outcome.measurement = measure(world, steps, [&](uint64_t done) {
     if (trace) trace->end_step(done - 1);
     recording.add_frame(done);
+    if (events) events->add_step(done - 1, world);
     progress.update(done);
     if (trace) trace->begin_step();
   });
   recording.finish();
+  if (events) events->finish();
   if (trace) write_file("--trace", options.trace, trace->json());
   outcome.statistics = world.statistics();
   outcome.hash = world.state_hash();
@@ -194,7 +201,8 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
 
 int execute(const RunOptions &options)
 {
-  const Settings settings = options.scene.settings();
+  Settings settings = options.scene.settings();
+  settings.events = !options.events.empty();
   const Placement placement = options.scene.placement();
   const uint64_t steps = options.scene.steps();
   check_files(options);

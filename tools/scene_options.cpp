@@ -68,6 +68,11 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
 }
 
+void SceneOptions::add_events_flag(CLI::App &parser)
+{
+  parser.add_flag("--events", events_, "with contact events, as `run --events F.json` has them");
+}
+
 Settings SceneOptions::settings() const
 {
   Settings settings = settings_for(solver_);
@@ -79,6 +84,7 @@ Settings SceneOptions::settings() const
   settings.narrowphase = narrowphase_;
   settings.batching = batching_;
   settings.check = check_;
+  settings.events = events_;
   settings.specialise = !no_specialise_;
   validate(settings);
   return settings;
@@ -117,6 +123,7 @@ std::string SceneOptions::typed_again() const
   add("--narrowphase", narrowphase_, defaults.narrowphase);
   add("--batching", batching_, defaults.batching);
   if (check_) text += " --check";
+  if (events_) text += " --events events.json";
   if (no_specialise_) text += " --no-specialise";
   return text;
 }

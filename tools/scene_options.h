@@ -21,6 +21,9 @@ public:
   /* `one_backend`: adds --on; diff names its backends otherwise. */
   SceneOptions(CLI::App &parser, bool one_backend);
 
+  /* For commands that list events without writing them: a flag --events. */
+  void add_events_flag(CLI::App &parser);
+
   /* After parsing. InputError on the first option that makes no sense. */
   Settings settings() const;
   Placement placement() const;
@@ -34,7 +37,7 @@ public:
 private:
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
   std::string solver_, broadphase_, narrowphase_, batching_;
-  bool no_specialise_ = false, inexact_ = false, check_ = false;
+  bool no_specialise_ = false, inexact_ = false, check_ = false, events_ = false;
 };
 
 } // namespace tandem

@@ -46,7 +46,7 @@ void launch_avbd(StepLaunches &step)
   step.run(Kernel::avbd_prepare);
   const uint32_t colors = body_colors(step.plan());
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
-    step.run(Kernel::integrate_velocities);
+    step.begin_substep(substep);
     warm_start_rolling(step);
     step.run(Kernel::avbd_begin);
     for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);

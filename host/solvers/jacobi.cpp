@@ -14,7 +14,7 @@ void launch_jacobi(StepLaunches &step)
   MassSplit contacts = MassSplit::all_of(step);
   contacts.prepare();
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
-    step.run(Kernel::integrate_velocities);
+    step.begin_substep(substep);
     contacts.warm_start();
     warm_start_rolling(step);
     contacts.solve(PASS_BIASED, iterations);

@@ -29,9 +29,9 @@ void launch_sweeps(StepLaunches &step, MassSplit &tail, uint32_t pass)
   }
 }
 
-void launch_substep(StepLaunches &step, MassSplit &tail)
+void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
-  step.run(Kernel::integrate_velocities);
+  step.begin_substep(substep);
   warm_start_contacts(step, tail);
   launch_sweeps(step, tail, PASS_BIASED);
   step.run(Kernel::integrate_positions);
@@ -45,7 +45,7 @@ void launch_nncg(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

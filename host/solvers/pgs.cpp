@@ -6,10 +6,10 @@
 namespace tandem {
 namespace {
 
-void launch_substep(StepLaunches &step, MassSplit &tail)
+void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   const uint32_t sweeps = step.settings().iterations;
-  step.run(Kernel::integrate_velocities);
+  step.begin_substep(substep);
   warm_start_contacts(step, tail);
   for (uint32_t sweep = 0; sweep < sweeps; ++sweep) launch_pgs_sweep(step, tail, PASS_BIASED);
   step.run(Kernel::integrate_positions);
@@ -33,7 +33,7 @@ void launch_pgs(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

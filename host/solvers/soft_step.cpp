@@ -23,7 +23,7 @@ uint32_t passes_of(const StepLaunches &step, const MassSplit &tail, uint32_t sub
 /* Later substeps find the impulses of the colours in solver_push; the tail adds its own each time. */
 void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
-  step.run(Kernel::integrate_velocities);
+  step.begin_substep(substep);
   if (substep == 0) step.for_each_color(Kernel::warm_start);
   tail.warm_start();
   warm_start_rolling(step);

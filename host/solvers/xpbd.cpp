@@ -5,9 +5,9 @@
 namespace tandem {
 namespace {
 
-void launch_substep(StepLaunches &step)
+void launch_substep(StepLaunches &step, uint32_t substep)
 {
-  step.run(Kernel::integrate_velocities);
+  step.begin_substep(substep);
   warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
     step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_tail, {iteration == 0});
@@ -21,7 +21,7 @@ void launch_substep(StepLaunches &step)
 void launch_xpbd(StepLaunches &step)
 {
   step.run(Kernel::xpbd_prepare);
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, substep);
   if (!step.has(FEATURE_RESTITUTION)) return;
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();

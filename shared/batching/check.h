@@ -6,7 +6,7 @@
  *
  *   mark_batches    each body: a bit for each colour that touches it, and a second where a colour does so again
  *   check_batches   each constraint: is its colour doubled at one of its bodies?
- *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and none if not?
+ *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and is no trigger's, else none?
  *
  * Sums, bits and minima: the verdict does not depend on order.
  */
@@ -14,6 +14,7 @@
 #define TANDEM_SHARED_BATCHING_CHECK_H
 
 #include "shared/batching/coloring.h"
+#include "shared/batching/match.h"
 
 #define BODY_MARKS 4u /* words of a body: 64 colours, and 64 colours again where doubled */
 
@@ -63,9 +64,12 @@ SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
   ATOMIC_MIN(counts + COUNT_FIRST_CONFLICT, i);
 }
 
-SHARED void check_pairs_item(GLOBAL const uint *manifold_count, GLOBAL const uint *pair_marks, GLOBAL uint *counts, uint i)
+SHARED void check_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits, GLOBAL const uint *pair_marks,
+                             GLOBAL uint *counts, uint i)
 {
-  if (pair_marks[i] == (manifold_count[i] > 0u ? 1u : 0u)) return;
+  uint solved = manifold_count[i] > 0u && !has_trigger(parameters, body_traits, pair_a[i], pair_b[i]) ? 1u : 0u;
+  if (pair_marks[i] == solved) return;
   ATOMIC_ADD(counts + COUNT_MISBATCHED, 1u);
   ATOMIC_MIN(counts + COUNT_FIRST_MISBATCHED, i);
 }

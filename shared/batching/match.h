@@ -70,11 +70,18 @@ SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL co
   return nearest_normal(normals, now, xyz(load_row(cached_normals, best))) == i ? best : INDEX_NONE;
 }
 
+/* A pair with a trigger is found and reported, but nothing of it is solved. */
+SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, uint a, uint b)
+{
+  return HAS_FEATURE(parameters, FEATURE_TRIGGER) ? is_trigger(body_traits[a] | body_traits[b]) : 0u;
+}
+
 SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color) { ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u)); }
 
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
                              GLOBAL const row *manifold_normal, GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
-                             GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, GLOBAL const row *cached_normal, GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
+                             GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, GLOBAL const row *cached_normal,
+                             GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
                              GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pair_a[i], b = pair_b[i];
@@ -83,7 +90,7 @@ SHARED void match_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const u
     cached = matching_manifold(manifold_normal, run_of_pair(pair_a, pair_b, counts[COUNT_PAIRS], i), cached_normal,
                                run_of_cached(cached_start, cached_b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_color[cached];
-  if (manifold_count[i] == 0u) color = COLOR_INACTIVE;
+  if (manifold_count[i] == 0u || has_trigger(parameters, body_traits, a, b)) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;
   pair_color[i] = color;

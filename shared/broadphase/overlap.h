@@ -22,12 +22,27 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* One of them must be able to move, neither be quarantined, and each must accept the other's groups. */
+/* A trigger meets whatever is none itself; one of the two must move, be it by its given velocities. Two half-spaces have no test. */
+SHARED int trigger_meets(uint traits_a, uint traits_b)
+{
+  if (is_trigger(traits_a) == is_trigger(traits_b)) return 0;
+  if (shape_of(traits_a) == (uint)SHAPE_HALF_SPACE && shape_of(traits_b) == (uint)SHAPE_HALF_SPACE) return 0;
+  return motion_of(traits_a) != (uint)MOTION_FIXED || motion_of(traits_b) != (uint)MOTION_FIXED;
+}
+
+/* Solids: one of them must be pushed to move. */
+SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint traits_b)
+{
+  if (HAS_FEATURE(parameters, FEATURE_TRIGGER) && is_trigger(traits_a | traits_b)) return trigger_meets(traits_a, traits_b);
+  return motion_of(traits_a) == (uint)MOTION_DYNAMIC || motion_of(traits_b) == (uint)MOTION_DYNAMIC;
+}
+
+/* They must be able to meet, neither be quarantined, and each must accept the other's groups. */
 SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, uint a, uint b)
 {
-  uint motion_a = motion_of(body_traits[a]), motion_b = motion_of(body_traits[b]);
-  if (motion_a != (uint)MOTION_DYNAMIC && motion_b != (uint)MOTION_DYNAMIC) return 0;
-  if (motion_a == (uint)MOTION_QUARANTINED || motion_b == (uint)MOTION_QUARANTINED) return 0;
+  uint traits_a = body_traits[a], traits_b = body_traits[b];
+  if (!bodies_meet(parameters, traits_a, traits_b)) return 0;
+  if (motion_of(traits_a) == (uint)MOTION_QUARANTINED || motion_of(traits_b) == (uint)MOTION_QUARANTINED) return 0;
   if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
   return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }

@@ -50,10 +50,10 @@ SHARED real widest_reach(GLOBAL const Parameters *parameters, motion a, real rad
   return reach_of(parameters, a, radius_a, b, radius_b, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
 }
 
-SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, uint method)
+SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, real thickness, uint method)
 {
   mask triangles = first->kind == (uint)SHAPE_TRIANGLE || second->kind == (uint)SHAPE_TRIANGLE;
-  if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles) return triangle_contact(first, second, reach, parameters->slop);
+  if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles) return triangle_contact(first, second, reach, thickness, parameters->slop);
   return convex_contact(first, second, reach, parameters->slop, method);
 }
 
@@ -73,7 +73,7 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
                                     part_of_pair(parameters, pair_leaf, b, i, 1u));
   motion motion_a = load_motion(velocities, a), motion_b = load_motion(velocities, b);
   real radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), load_row(shapes, a).w), radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), load_row(shapes, b).w);
-  manifold m = contact_of_parts(parameters, &first_shape, &second_shape, widest_reach(parameters, motion_a, radius_a, motion_b, radius_b), method);
+  manifold m = contact_of_parts(parameters, &first_shape, &second_shape, widest_reach(parameters, motion_a, radius_a, motion_b, radius_b), size_between(shapes, a, b), method);
   m = kept_within(m, reach_of(parameters, motion_a, radius_a, motion_b, radius_b, m.normal));
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }

@@ -9,9 +9,10 @@
  *                 ___\_|_/          concave or flat: no wedge                                t instead
  *                     A\B\
  *
- * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. A contact moved to the
- * triangle's own normal counts only above the triangle; the neighbour makes the one beyond. After G. van den Bergen's and
- * E. Catto's talks on mesh contacts, and Bullet's btInternalEdgeUtility.
+ * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. Two triangles that face each
+ * other are the skins of two solids, and each may be behind the other as far as the thinner of the solids is. A contact moved
+ * to the triangle's own normal counts only above the triangle; the neighbour makes the one beyond. After G. van den Bergen's
+ * and E. Catto's talks on mesh contacts, and Bullet's btInternalEdgeUtility.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
 #define TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
@@ -76,14 +77,15 @@ SHARED mask above_triangle(const triangle_sides *t, vec3 point, real slack)
   return 1;
 }
 
-/* What is known of a pair with a triangle in it. of_a, of_b: the shape is one. */
+/* What is known of a pair with a triangle in it. of_a, of_b: the shape is one. outside_a: b is on the outer side of a. */
 typedef struct {
   const convex *a, *b;
-  mask of_a, of_b;
+  mask of_a, of_b, outside_a, outside_b;
   triangle_sides sides_a, sides_b;
 } triangle_pair;
 
-SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex *b)
+/* thickness: of the thinner body. */
+SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex *b, real thickness)
 {
   pair->a = a;
   pair->b = b;
@@ -91,23 +93,23 @@ SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex
   pair->of_b = b->kind == (uint)SHAPE_TRIANGLE;
   pair->sides_a = sides_of(pair->of_a ? a : b);
   pair->sides_b = sides_of(pair->of_b ? b : a);
+  pair->outside_a = pair->of_a && in_front(&pair->sides_a, b);
+  pair->outside_b = pair->of_b && in_front(&pair->sides_b, a);
+  if (!pair->of_a || !pair->of_b || inner(pair->sides_a.normal, pair->sides_b.normal) >= R(0.0)) return;
+  pair->outside_a = pair->outside_a || gap_along(a, b, pair->sides_a.normal) > -thickness;
+  pair->outside_b = pair->outside_b || gap_along(a, b, negate(pair->sides_b.normal)) > -thickness;
 }
 
 SHARED mask normal_permitted(const triangle_pair *pair, vec3 normal)
 {
   return (!pair->of_a || surface_permits(pair->a, &pair->sides_a, normal)) && (!pair->of_b || surface_permits(pair->b, &pair->sides_b, negate(normal)));
 }
-SHARED mask on_outer_sides(const triangle_pair *pair)
-{
-  return (!pair->of_a || in_front(&pair->sides_a, pair->b)) && (!pair->of_b || in_front(&pair->sides_b, pair->a));
-}
-
-/* Along a triangle's own normal; of two the one along which less is in the way. */
+/* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape outside. */
 SHARED core_contact contact_along_face(const triangle_pair *pair)
 {
   core_contact along_a = {pair->sides_a.normal, R(-1e30)}, along_b = {negate(pair->sides_b.normal), R(-1e30)};
-  if (pair->of_a) along_a.gap = gap_along(pair->a, pair->b, along_a.normal);
-  if (pair->of_b) along_b.gap = gap_along(pair->a, pair->b, along_b.normal);
+  if (pair->outside_a) along_a.gap = gap_along(pair->a, pair->b, along_a.normal);
+  if (pair->outside_b) along_b.gap = gap_along(pair->a, pair->b, along_b.normal);
   return along_b.gap > along_a.gap ? along_b : along_a;
 }
 
@@ -149,15 +151,15 @@ SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact co
 }
 
 /* False: no contact. */
-SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real lead)
+SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real thickness, real lead)
 {
   const convex *a = &pair->a, *b = &pair->b;
   real radii = core_radius(a) + core_radius(b);
   gjk_result near = closest_points(a, b, reach + radii);
   if (!near.overlapping && near.contact.gap - radii >= reach) return 0;
   triangle_pair triangles;
-  look_at_triangles(&triangles, a, b);
-  if (!on_outer_sides(&triangles)) return 0;
+  look_at_triangles(&triangles, a, b, thickness);
+  if (!triangles.outside_a && !triangles.outside_b) return 0;
   core_contact contact = near.overlapping ? triangle_penetration(&triangles, pair->up, lead * R(0.25)) : near.contact;
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return 0;
@@ -167,12 +169,12 @@ SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real r
   return 1;
 }
 
-/* As convex_contact; at least one of the two is a triangle. */
-SHARED manifold triangle_contact(const convex *first, const convex *second, real reach, real slop)
+/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. */
+SHARED manifold triangle_contact(const convex *first, const convex *second, real reach, real thickness, real slop)
 {
   convex_pair pair = pair_of(first, second);
   contact_patch patch;
-  if (!triangle_patch(&patch, &pair, reach, lead_of_faces(&pair.a, &pair.b, slop)))
+  if (!triangle_patch(&patch, &pair, reach, thickness, lead_of_faces(&pair.a, &pair.b, slop)))
     return single_contact(rotate(pair.axes, pair.up), pair.origin, reach, 0);
   return kept_within(placed_manifold(&pair, &patch), reach);
 }

@@ -94,7 +94,6 @@ SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, 
 }
 
 SHARED natural slot_of(natural feature, natural point) { return (feature >> (point * 2u)) & 3u; }
-SHARED real component(vec4 v, natural k) { return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w)); }
 
 /* The impulse that the same feature carried in the last step; unused slots of the cache hold 0. */
 SHARED real cached_impulse(natural feature, natural point, natural old_feature, vec4 old)
@@ -150,14 +149,6 @@ SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, 
     patch.radius = patch.radius + choose(weight[k] > R(0.0), length_of(subtract(xyz(point[k]), patch.center)), (real)R(0.0));
   patch.radius = patch.radius * share;
   return patch;
-}
-
-/* The smallest half extent of a pair. */
-SHARED real size_between(GLOBAL const row *body_shape, body_pair bodies)
-{
-  vec4 a = load_row(body_shape, bodies.a), b = load_row(body_shape, bodies.b);
-  real size_a = minimum(a.x, minimum(a.y, a.z)), size_b = minimum(b.x, minimum(b.y, b.z));
-  return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b); /* a half-space has none */
 }
 
 /* What constraint_slop holds: penetration left in place so that contacts persist (small bodies would vanish in it), or
@@ -239,7 +230,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_row(constraint_friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
                       patch.radius));
-  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies), deepest));
+  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies.a, bodies.b), deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));

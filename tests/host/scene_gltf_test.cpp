@@ -180,8 +180,9 @@ TEST_CASE("what is not supported is refused with the node's name")
   CHECK_THAT(complaint(physics(R"("collider":{"geometry":{}})")), ContainsSubstring(prefix + "collider.geometry: names 0 of shape"));
   CHECK_THAT(complaint(physics(R"("joint":{"connectedNode":1,"joint":0})")),
              ContainsSubstring(prefix + "a joint is not supported yet"));
-  CHECK_THAT(complaint(physics(R"("trigger":{"geometry":{"shape":0}})")),
-             ContainsSubstring(prefix + "a trigger is not supported yet"));
+  CHECK_THAT(complaint(physics(R"("trigger":{})")), ContainsSubstring(prefix + "trigger: \"geometry\" is missing"));
+  CHECK_THAT(complaint(physics(R"("trigger":{"geometry":{"shape":0},"physicsMaterial":0})")),
+             ContainsSubstring(prefix + "trigger.physicsMaterial: unknown key"));
   CHECK_THAT(complaint(physics(R"("spring":{})")), ContainsSubstring(prefix + "spring: unknown key"));
   CHECK_THAT(complaint(physics(R"("collider":{"shape":0})")), ContainsSubstring(prefix + "collider.shape: unknown key"));
   CHECK_THAT(complaint(physics(R"("collider":{"geometry":{"shape":9}})")),
@@ -196,6 +197,56 @@ TEST_CASE("what is not supported is refused with the node's name")
              ContainsSubstring("node 1: a plane below the motion of node 'Cup' is not supported yet"));
   CHECK_THAT(complaint({.nodes = R"({"name":"Cup","children":[1,2],"extensions":{"KHR_physics_rigid_bodies":{"motion":{"isKinematic":true}}}},)" + collider(0) + "," + collider(2)}),
              ContainsSubstring("node 2: an infinite plane in the compound of node 'Cup' is not supported yet"));
+}
+
+namespace {
+
+std::string trigger(const std::string &members, const std::string &node = "")
+{
+  return "{" + node + R"("extensions":{"KHR_physics_rigid_bodies":{"trigger":{)" + members + "}}}}";
+}
+const std::string ball_trigger = trigger(R"("geometry":{"shape":1})");
+
+} // namespace
+
+TEST_CASE("triggers become bodies that nothing touches for real")
+{
+  const Scene scene = loaded({.nodes = trigger(R"("geometry":{"shape":0},"collisionFilter":0)", R"("name":"Zone","translation":[1,2,3],"scale":[2,4,6],)") + "," +
+                                       collider(2) + "," + R"({"name":"Scout","extensions":{"KHR_physics_rigid_bodies":{"motion":{"mass":3,"linearVelocity":[1,0,0]},)" +
+                                       R"("trigger":{"geometry":{"shape":1}}}}})",
+                              .document = R"("collisionFilters":[{"collisionSystems":["a"],"collideWithSystems":["b"]}])"});
+  REQUIRE(scene.bodies.size() == 3);
+  const Body &zone = scene.bodies[0], &floor = scene.bodies[1], &scout = scene.bodies[2];
+  CHECK((zone.name == "Zone" && zone.trigger && zone.motion == Motion::fixed));
+  CHECK(near(rounded(zone.position), 1, 2, 3));
+  CHECK(near(scene.shapes[zone.shape].size, 1, 2, 3));
+  CHECK(!collide(zone, floor)); /* in no system that it meets */
+  CHECK(!floor.trigger);
+  CHECK((scout.name == "Scout" && scout.trigger && scout.motion == Motion::dynamic && scout.mass == 3));
+  CHECK(scene.shapes[scout.shape].type == ShapeType::sphere);
+}
+
+TEST_CASE("a trigger of listed nodes has its parts there, under the name of the one that lists them")
+{
+  const std::string list = R"("name":"Gate","translation":[0,5,0],"children":[1],)";
+  const Scene scene = loaded({.nodes = trigger(R"("nodes":[1])", list) + "," + trigger(R"("geometry":{"shape":1})", R"("translation":[1,0,0],)")});
+  REQUIRE(scene.bodies.size() == 1);
+  CHECK((scene.bodies[0].name == "Gate" && scene.bodies[0].trigger));
+  CHECK(near(rounded(scene.bodies[0].position), 1, 5, 0));
+  const std::string place = temporary_path + ": node 'Gate': ";
+  const Scene both = loaded({.nodes = trigger(R"("nodes":[1,2])", R"("name":"Gate","children":[1,2],)") + "," + ball_trigger + "," + trigger(R"("geometry":{"shape":0})", R"("translation":[3,0,0],)")});
+  REQUIRE((both.bodies.size() == 1 && both.bodies[0].trigger && both.shapes[both.bodies[0].shape].compound));
+  CHECK(both.shapes[both.bodies[0].shape].compound->children[1].position == Vec3{3, 0, 0});
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1])", R"("name":"Gate",)") + "," + ball_trigger}),
+             ContainsSubstring(place) && ContainsSubstring("lists node 1, which is no node below it with a trigger geometry"));
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1])", list) + "," + collider(0)}), ContainsSubstring("lists node 1, which is no node below it"));
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[9])", list) + "," + collider(0)}), ContainsSubstring("node 9 does not exist"));
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[])", list) + "," + ball_trigger}), ContainsSubstring(place + "trigger.nodes: is empty"));
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1,1])", list) + "," + ball_trigger}), ContainsSubstring("trigger.nodes[1]: is listed twice"));
+  CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1],"geometry":{"shape":0})", list) + "," + ball_trigger}),
+             ContainsSubstring(place + "trigger: nodes and geometry exclude each other"));
+  const std::string moves = R"({"name":"Cup","children":[1],"extensions":{"KHR_physics_rigid_bodies":{"motion":{},"collider":{"geometry":{"shape":0}}}}},)";
+  CHECK_THAT(complaint({.nodes = moves + ball_trigger}), ContainsSubstring("node 1: a trigger that moves with the colliders of node 'Cup' is not supported yet"));
 }
 
 TEST_CASE("damaged node trees and files are refused")

@@ -60,7 +60,7 @@ bool same_bits(const Material &a, const Material &b)
 
 bool same_bits(const Body &a, const Body &b)
 {
-  return a.name == b.name && a.motion == b.motion && a.shape == b.shape && a.material == b.material &&
+  return a.name == b.name && a.motion == b.motion && a.trigger == b.trigger && a.shape == b.shape && a.material == b.material &&
          same_bits(a.position, b.position) && same_bits(a.orientation, b.orientation) &&
          same_bits(a.shape_position, b.shape_position) && same_bits(a.shape_orientation, b.shape_orientation) &&
          same_bits(a.linear_velocity, b.linear_velocity) && same_bits(a.angular_velocity, b.angular_velocity) &&
@@ -126,6 +126,7 @@ Scene scene_of_odd_numbers()
     Body body;
     body.name = i % 2 ? "b" + std::to_string(i) : "";
     body.motion = Motion(i % 3);
+    body.trigger = i % 11 == 0;
     body.shape = uint32_t(i) % 2 ? 0 : 3;
     body.material = uint32_t(i) % 2;
     for (double &x : body.position) x = double(any_vector(random)[0]) * 1.000000001;

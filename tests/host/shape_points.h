@@ -9,6 +9,7 @@
 #pragma once
 
 #include "host/geometry/convex_hull.h"
+#include "host/geometry/triangle_mesh.h"
 #include "tests/physics/solids.h"
 
 namespace tandem::shape_points {
@@ -81,7 +82,11 @@ inline std::vector<Vector> points_of(const Scene &scene, const Body &body, Rando
   case ShapeType::hull:
     for (const Vec3 &v : shape.hull->vertices) own(physics_tests::vector_of(v));
     break;
-  case ShapeType::half_space: break;
+  case ShapeType::mesh:
+    for (const Vec3 &v : shape.mesh->vertices) own(physics_tests::vector_of(v));
+    break;
+  case ShapeType::half_space:
+  case ShapeType::compound: break;
   }
   return points;
 }

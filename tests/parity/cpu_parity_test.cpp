@@ -12,6 +12,9 @@ TEST_CASE("parity on CPU: spheres") { require_parity(small_scenes()[4], cpu_back
 TEST_CASE("parity on CPU: mixed") { require_parity(small_scenes()[5], cpu_backends(), 60); }
 TEST_CASE("parity on CPU: shapes") { require_parity(small_scenes()[6], cpu_backends(), 60); }
 TEST_CASE("parity on CPU: convex-hulls") { require_parity(small_scenes()[7], cpu_backends(), 60); }
+TEST_CASE("parity on CPU: compounds") { require_parity("compounds:n=40", cpu_backends(), 60); }
+TEST_CASE("parity on CPU: hulls-on-mesh") { require_parity("hulls-on-mesh:n=40", cpu_backends(), 60); }
+TEST_CASE("parity on CPU: meshes and compounds of every kind") { require_parity(few_trees(), cpu_backends(), 60); }
 TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
 
 TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
@@ -68,7 +71,7 @@ TEST_CASE("parity on CPU: broadphases lead to one state")
 TEST_CASE("parity on CPU: a few bodies of every shape", "[sanitizer]")
 {
   const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
-  const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30", every_shape()};
+  const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30", every_shape(), few_trees()};
   for (const std::string &scene : scenes) require_parity(scene, backends, 5);
 }
 

@@ -15,6 +15,9 @@ namespace tandem::parity {
 /* One body of each convex shape, touching others from the first step. */
 inline std::string every_shape() { return TANDEM_SOURCE_DIR "/tests/scenes/every_shape.json"; }
 
+/* Meshes and compounds on and beside each other. */
+inline std::string few_trees() { return TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json"; }
+
 /* One of each built-in scene. The grid has more pairs than a tile has items, so that scans and sorts cross tiles; the others
  * start low, so that they collide within the first steps. */
 inline const std::vector<std::string> &small_scenes()
@@ -23,7 +26,8 @@ inline const std::vector<std::string> &small_scenes()
       "box-grid:nx=7,ny=6,nz=7",          "falling-boxes:n=100,height=0", "box-stack:n=50",
       "pyramid:rows=8", "spheres:n=125,height=0,restitution=0.5", "mixed:n=100",
       "shapes:n=60",                      "convex-hulls:n=60",            "rolling",
-      every_shape(),
+      every_shape(),                      "compounds:n=40",               "hulls-on-mesh:n=40",
+      few_trees(),
   };
   return scenes;
 }

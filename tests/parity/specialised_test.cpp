@@ -42,5 +42,6 @@ TEST_CASE("parity on OpenCL: specialised box-stack") { require_same_state_on_poc
 TEST_CASE("parity on OpenCL: specialised pyramid") { require_same_state_on_pocl(small_scenes()[3]); }
 TEST_CASE("parity on OpenCL: specialised spheres") { require_same_state_on_pocl(small_scenes()[4]); }
 TEST_CASE("parity on OpenCL: specialised mixed") { require_same_state_on_pocl(small_scenes()[5]); }
+TEST_CASE("parity on OpenCL: specialised trees") { require_same_state_on_pocl(few_trees()); }
 TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); } /* shapes and convex-hulls need the same features */
 TEST_CASE("parity on OpenCL: specialised rolling") { require_same_state_on_pocl(small_scenes()[8]); }

@@ -147,7 +147,7 @@ TEST_CASE("command: scene files that cannot be read", "[command]")
 
 TEST_CASE("command: files that cannot be written are refused before the run", "[command]")
 {
-  for (const char *option : {"--json", "--save", "--trace"})
+  for (const char *option : {"--json", "--save", "--trace", "--events"})
     check_refused("run " + tiny + " --steps 1000000000 " + option + " /nonexistent/file.glb", "/nonexistent/file.glb");
   check_refused("run " + tiny + " --image picture.png", "not supported yet");
   check_refused("diff " + tiny + " --json /nonexistent/file", "/nonexistent/file");
@@ -279,6 +279,32 @@ TEST_CASE("command: the hash depends on what is simulated alone", "[command]")
   CHECK(hash("--on serial --place solve=tbb:threads=1,lanes=4,narrowphase=tbb") == expected);
   CHECK(hash("--dt 1/60") == expected);
   CHECK(hash("--dt 1/50") != expected);
+}
+
+TEST_CASE("command: run writes the contact events of each step", "[command]")
+{
+  const Scratch scratch;
+  const Result run = tandem("run '" TANDEM_SOURCE_DIR "/tests/scenes/triggers.json' --steps 60 --on serial --events " + scratch.file("e.json"));
+  REQUIRE(run.status == 0);
+  const Json file = Json::parse(contents(scratch.file("e.json")));
+  CHECK(file["bodies"].size() == 8);
+  std::set<std::pair<int, int>> touching;
+  std::set<std::string> kinds;
+  int step = 0;
+  for (const Json &event : file["events"]) {
+    const std::pair<int, int> bodies{event["a"], event["b"]};
+    const std::string kind = event["kind"];
+    CHECK(bodies.first < bodies.second);
+    CHECK(event["step"] >= step);
+    step = event["step"];
+    kinds.insert(kind + (event["trigger"] ? " trigger" : ""));
+    if (kind == "begin") CHECK(touching.insert(bodies).second);
+    else if (kind == "persist") CHECK(touching.count(bodies) == 1);
+    else CHECK(touching.erase(bodies) == 1);
+    if (kind != "end") check_keys(event, {"points", "impulse", "separation", "point", "normal"});
+  }
+  CHECK(kinds.size() == 6);
+  CHECK(step < 60);
 }
 
 TEST_CASE("command: run saves an animation and a trace", "[command]")

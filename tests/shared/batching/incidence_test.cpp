@@ -79,7 +79,7 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
   backend->prepare(0, kernels);
-  const Sizes sizes{.bodies = graph.bodies, .materials = 1, .hulls = {}, .pairs = plan.capacity_pairs, .cells = 1024, .features = 0};
+  const Sizes sizes{.bodies = graph.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan.capacity_pairs, .cells = 1024, .features = 0};
   for (Buffer buffer : {Buffer::incidence, Buffer::incidence_other, Buffer::incidence_body, Buffer::incidence_body_other, Buffer::incidence_start,
                         Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));

@@ -1,0 +1,14 @@
+/* contact_events.h - from the lists that the events stage leaves on the device to what World::contact_events gives. */
+#pragma once
+
+#include <vector>
+
+#include "host/memory.h"
+#include "host/world.h"
+
+namespace tandem {
+
+/* Those of the last step. order: the scene's body at each index of the body buffers. */
+std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
+
+} // namespace tandem

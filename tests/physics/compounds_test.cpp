@@ -1,0 +1,126 @@
+/* Compounds behave as the bodies they are made of, joined. */
+#include "tests/catch.h"
+
+#include "tests/physics/solids.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+Child child_of(const Shape &shape, const Vector &at, const Quat &turn = {0, 0, 0, 1})
+{
+  Child child;
+  child.shape = shape;
+  child.position = vec3_of(at);
+  child.orientation = turn;
+  return child;
+}
+
+/* A box of eight boxes. */
+Shape box_of_boxes(float half)
+{
+  std::vector<Child> children;
+  for (int k = 0; k < 8; ++k)
+    children.push_back(child_of(box_shape(half / 2, half / 2, half / 2), {k & 1 ? half / 2 : -half / 2, k & 2 ? half / 2 : -half / 2, k & 4 ? half / 2 : -half / 2}));
+  return compound_shape(std::move(children));
+}
+
+Shape dumbbell() { return compound_shape({child_of(sphere_shape(0.2f), {-0.4, 0, 0}), child_of(sphere_shape(0.2f), {0.4, 0, 0}), child_of(box_shape(0.3f, 0.05f, 0.05f), {0, 0, 0})}); }
+
+} // namespace
+
+TEST_CASE("mass, centre and inertia of a compound are those of its children together", "[physics]")
+{
+  const MassProperties whole = mass_properties_of(box_of_boxes(0.5f)), box = mass_properties_of(box_shape(0.5f, 0.5f, 0.5f));
+  CHECK(whole.mass == Approx(box.mass).epsilon(1e-12));
+  CHECK(whole.inertia.xx == Approx(box.inertia.xx).epsilon(1e-12));
+  CHECK(std::abs(whole.inertia.xy) < 1e-12);
+  Child light = child_of(sphere_shape(1), {-1, 0, 0}), heavy = child_of(sphere_shape(1), {1, 0, 0});
+  heavy.density = 3;
+  CHECK(mass_properties_of(compound_shape({light, heavy})).center[0] == Approx(0.5));
+}
+
+TEST_CASE("a box of boxes rests and stacks as a box, on four points a pair", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene);
+  for (int k = 0; k < 4; ++k) add_solid(scene, box_of_boxes(0.25f), {0, 0.25 + 0.5 * k, 0});
+  World world(scene);
+  run(world, 300);
+  const std::vector<BodyState> states = world.bodies();
+  for (size_t k = 1; k < states.size(); ++k) {
+    CHECK(std::abs(states[k].position[1] - (0.25 + 0.5 * (double(k) - 1))) < 0.006 * double(k));
+    CHECK(std::hypot(states[k].position[0], states[k].position[2]) < 0.002);
+    CHECK(vector_of(states[k].linear_velocity).norm() < 0.005);
+  }
+  CHECK(world.statistics().manifolds == 4);
+  CHECK(world.statistics().contacts == 16);
+}
+
+TEST_CASE("compounds in free space keep their momentum", "[physics]")
+{
+  Scene scene = empty_scene({0, 0, 0});
+  Random random(9);
+  for (int k = 0; k < 20; ++k) {
+    Body &body = add_solid(scene, k % 2 ? dumbbell() : box_of_boxes(0.2f), {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random.orientation());
+    body.linear_velocity = vec3_of(-2 * vector_of(body.position));
+  }
+  World world(scene);
+  const Momentum before = momentum_of(world);
+  run(world, 90);
+  const Momentum after = momentum_of(world);
+  CHECK((after.linear - before.linear).norm() < 1e-5 * before.linear_scale);
+  CHECK((after.angular - before.angular).norm() < 1e-4 * before.linear_scale);
+}
+
+/* One foot slips, the other holds: the same compound stands still or slides by which foot is down. */
+TEST_CASE("each child has its own material", "[physics]")
+{
+  const bool slippery_down = GENERATE(true, false);
+  Scene scene = empty_scene();
+  scene.materials[0].friction_combine = Combine::minimum;
+  const uint32_t slippery = add_material(scene, 0);
+  Body &ground = add_ground(scene);
+  ground.orientation = turn_about({0, 0, 1}, 0.2);
+  Child foot = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, -0.3, 0}), head = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, 0.3, 0});
+  head.material = slippery;
+  const Shape column = compound_shape({foot, head, child_of(box_shape(0.1f, 0.3f, 0.1f), {0, 0, 0})});
+  const Vector up(-std::sin(0.2), std::cos(0.2), 0);
+  add_solid(scene, column, 0.35 * up, turn_about({0, 0, 1}, 0.2 + (slippery_down ? pi : 0)));
+  World world(scene);
+  run(world, 60);
+  const double speed = vector_of(world.bodies()[1].linear_velocity).norm();
+  if (slippery_down) CHECK(speed == Approx(gravity * std::sin(0.2)).epsilon(0.01));
+  else CHECK(speed < 0.01);
+}
+
+TEST_CASE("each child has its own filter", "[physics]")
+{
+  Scene scene = empty_scene();
+  add_ground(scene).filter_group = 2;
+  Child solid = child_of(sphere_shape(0.2f), {0, 0.5, 0}), ghost = child_of(box_shape(0.4f, 0.4f, 0.4f), {0, 0, 0});
+  ghost.filter_mask = ~2u;
+  Body &body = add_solid(scene, compound_shape({solid, ghost}), {0, 1, 0}, turn_about({1, 0, 0}, pi));
+  body.infinite_inertia = true;
+  World world(scene);
+  const double centre = vector_of(body.position).y() - 1; /* of mass, above the frame of the compound */
+  run(world, 200);
+  CHECK(world.bodies()[1].position[1] - centre == Approx(0.7).margin(0.01)); /* the ball stands, the box is passed */
+}
+
+TEST_CASE("a mesh can be a child", "[physics]")
+{
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? 0.3f : -0.3f, k & 2 ? 0.3f : -0.3f, k & 4 ? 0.3f : -0.3f});
+  const Shape cube = mesh_shape(corners, std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "cube");
+  Scene scene = empty_scene();
+  add_ground(scene);
+  add_solid(scene, compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}), {0, 0.3, 0});
+  add_solid(scene, box_shape(0.1f, 0.1f, 0.1f), {0, 1.11, 0});
+  World world(scene);
+  run(world, 200);
+  const std::vector<BodyState> states = world.bodies();
+  CHECK(std::abs(states[2].position[1] - 1.1) < 0.012);
+  CHECK(vector_of(states[2].linear_velocity).norm() < 0.01);
+}

@@ -1,0 +1,50 @@
+/* event_file.cpp - see event_file.h. One event a line, so that other tools can read it by lines too. */
+#include "tools/event_file.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+
+#include "tools/output.h"
+
+namespace tandem {
+namespace {
+
+template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+
+std::string line_of(uint64_t step, const ContactEvent &event)
+{
+  std::string line = fmt::format(R"({{"step": {}, "kind": "{}", "a": {}, "b": {}, "trigger": {})", step, name_of(event.kind), event.a, event.b, event.trigger);
+  if (event.kind == ContactEvent::Kind::end) return line + "}";
+  return line + fmt::format(R"(, "points": {}, "impulse": {}, "separation": {}, "point": {}, "normal": {}}})", event.points, event.impulse,
+                            event.separation, text(event.point), text(event.normal));
+}
+
+} // namespace
+
+EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
+    : path_(path), file_(path, std::ios::binary | std::ios::trunc)
+{
+  Json names = Json::array();
+  for (const Body &body : world.scene().bodies) names.push_back(body.name);
+  const auto dumped = [](const Json &json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  file_ << fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": {}, \"events\": [", dumped(scene), world.settings().step, dumped(names));
+}
+
+void EventFile::add_step(uint64_t step, World &world)
+{
+  for (const ContactEvent &event : world.contact_events()) {
+    file_ << (first_ ? "\n" : ",\n") << line_of(step, event);
+    first_ = false;
+  }
+}
+
+void EventFile::finish()
+{
+  file_ << "\n]}\n";
+  file_.close();
+  if (!file_) throw InputError(fmt::format("--events {}: cannot write this file: {}", path_, std::strerror(errno)));
+}
+
+} // namespace tandem
