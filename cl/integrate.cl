@@ -5,6 +5,7 @@
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"
 #include "shared/integrate/cache_rolling.h"
+#include "shared/integrate/stop_motion.h"
 
 __kernel void begin_step(__global uint *counts, RANGE)
 {
@@ -107,4 +108,11 @@ __kernel void cache_rolling(__global const uint *constraint_pair, __global const
 {
   FOR_EACH_IN_RANGE(i)
   cache_rolling_item(constraint_pair, constraint_rolling, cached_rolling_impulse, i);
+}
+
+__kernel void stop_motion(__global const row *body_orientation, __global const uint *body_share,
+                          __global row *solver_delta, __global row *solver_orientation, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  stop_motion_item(body_orientation, body_share, solver_delta, solver_orientation, i);
 }

@@ -12,7 +12,6 @@
 #include "host/specialise.h"
 #include "host/tree_tables.h"
 #include "shared/body_codes.h"
-#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -20,12 +19,6 @@ namespace {
 row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
 Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
 
-/* The two rows of a place: shared/records.h. */
-std::array<row, 2> place_of(const Point &p)
-{
-  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
-  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
-}
 Point point_of(const row *place)
 {
   return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
@@ -66,12 +59,21 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
 uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
 {
   const uint32_t shape = is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
-  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) | placed.material << 8;
+  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
+         (placed.body->continuous ? uint32_t{TRAIT_CONTINUOUS} : 0u);
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
 
 Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity; }
+
+} // namespace
+
+std::array<row, 2> place_of(const Point &p)
+{
+  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
+  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
+}
 
 Quat unit(const Quat &q)
 {
@@ -79,8 +81,6 @@ Quat unit(const Quat &q)
   if (std::abs(length - 1) < 1e-6) return q;
   return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
 }
-
-} // namespace
 
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {

@@ -5,8 +5,14 @@
 
 #include "host/memory.h"
 #include "host/world.h"
+#include "shared/platform.h"
 
 namespace tandem {
+
+/* The two rows of a place: shared/records.h. */
+std::array<row, 2> place_of(const Point &p);
+/* Of length 1; left alone where it is. */
+Quat unit(const Quat &q);
 
 /* Buffer index i holds scene body order[i]. */
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);

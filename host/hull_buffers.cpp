@@ -5,6 +5,7 @@
 
 #include "host/buffer_upload.h"
 #include "host/geometry/convex_hull.h"
+#include "host/hull_strips.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -33,13 +34,14 @@ uint32_t corners_of(const ConvexHull &hull)
 }
 
 struct Tables {
-  std::vector<uint32_t> headers, face_starts, corners, edges;
-  std::vector<row> vertices, planes;
+  std::vector<uint32_t> headers, face_starts, corners, edges, links;
+  std::vector<row> vertices, planes, strips;
 
-  void add(const ConvexHull &hull)
+  void add(const ConvexHull &hull, uint32_t map_side)
   {
     const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
-    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges), size(corners), corners_of(hull)})
+    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges), size(corners), corners_of(hull),
+                          size(strips), size(links), map_side})
       headers.push_back(word);
     for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
     for (const HullPlane &p : hull.planes)
@@ -49,12 +51,16 @@ struct Tables {
       corners.insert(corners.end(), face.begin(), face.end());
     }
     for (const HullEdge &e : hull.edges) edges.insert(edges.end(), {e.v0, e.v1, e.face_left, e.face_right});
+    append_strips(strips, std::span(vertices).last(hull.vertices.size()), 3);
+    append_strips(strips, std::span(planes).last(hull.faces.size()), 4);
+    append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
+    append_cube_map(links, std::span(vertices).last(hull.vertices.size()), map_side);
   }
 };
 
 } // namespace
 
-HullSizes hull_sizes(const Scene &scene)
+HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
 {
   HullSizes sizes;
   for (const ConvexHull *hull : distinct_hulls(scene)) {
@@ -63,6 +69,8 @@ HullSizes hull_sizes(const Scene &scene)
     sizes.faces += static_cast<uint32_t>(hull->faces.size());
     sizes.edges += static_cast<uint32_t>(hull->edges.size());
     sizes.corners += corners_of(*hull);
+    sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4);
+    sizes.links += static_cast<uint32_t>(hull->vertices.size()) + 1 + 2 * corners_of(*hull) + 6 * map_side * map_side;
   }
   return sizes;
 }
@@ -74,10 +82,10 @@ std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene)
   return numbers;
 }
 
-void upload_hulls(Memory &memory, const Scene &scene)
+void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side)
 {
   Tables tables;
-  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull);
+  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull, map_side);
   tables.face_starts.push_back(static_cast<uint32_t>(tables.corners.size()));
   upload_all(memory, Buffer::hull_header, tables.headers);
   upload_all(memory, Buffer::hull_vertex, tables.vertices);
@@ -85,6 +93,8 @@ void upload_hulls(Memory &memory, const Scene &scene)
   upload_all(memory, Buffer::hull_face_start, tables.face_starts);
   upload_all(memory, Buffer::hull_corner, tables.corners);
   upload_all(memory, Buffer::hull_edge, tables.edges);
+  upload_all(memory, Buffer::hull_strip, tables.strips);
+  upload_all(memory, Buffer::hull_link, tables.links);
 }
 
 } // namespace tandem

@@ -11,13 +11,14 @@ namespace tandem {
 
 /* How many of each the hulls of a scene have together. */
 struct HullSizes {
-  uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0;
+  uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
 };
-HullSizes hull_sizes(const Scene &scene);
+/* map_side: cells along a side of the cube maps of hull_support.h; 0: none are made. */
+HullSizes hull_sizes(const Scene &scene, uint32_t map_side);
 
 /* The place of each hull, also of those of children, in the tables. */
 std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene);
 
-void upload_hulls(Memory &memory, const Scene &scene);
+void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side);
 
 } // namespace tandem

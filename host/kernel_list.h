@@ -37,12 +37,12 @@ constexpr size_t buffer_count = 0
 
 enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
-enum class Stage : uint8_t { parallel, broadphase, midphase, narrowphase, batching, setup, solve, events, integrate, problem };
-constexpr size_t stage_count = 10;
+enum class Stage : uint8_t { parallel, broadphase, midphase, narrowphase, batching, setup, solve, events, integrate, queries, problem };
+constexpr size_t stage_count = 11;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
-  NOTHING, ONE, MATERIALS, HULLS, HULL_VERTICES, HULL_FACES, HULL_CORNERS, HULL_EDGES, TREES, TREE_NODES, TREE_LEAVES,
+  NOTHING, ONE, MATERIALS, HULLS, HULL_VERTICES, HULL_FACES, HULL_CORNERS, HULL_EDGES, HULL_STRIPS, HULL_LINKS, TREES, TREE_NODES, TREE_LEAVES,
   MESH_VERTICES, MESH_TRIANGLES, SHAPES, BODIES, BODIES_PLUS_ONE, PAIRS, PAIRS_PLUS_ONE, EVENTS, CELLS, TILES, SORTABLE, SORT_HISTOGRAM, SCAN_SUMS,
   REDUCE_PARTIAL
 };

@@ -29,6 +29,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::MESH_VERTICES: return sizes.trees.vertices;
   case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
   case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;
+  case Capacity::HULL_STRIPS: return sizes.hulls.strip_rows;
+  case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;

@@ -89,7 +89,7 @@ public:
     Friction f;
     double pressure = 0;
     for (size_t k = 0; k < 4; ++k) pressure += normal_impulse_[4 * i + k];
-    f.limit = normal_[4 * i + 3] * pressure;
+    f.limit = coefficient(i) * pressure;
     f.mass = center_[0][4 * i + 3];
     f.impulse = {friction_impulse_[4 * i], friction_impulse_[4 * i + 1]};
     const Vector slide = relative_velocity(i, at(center_[0], i), at(center_[1], i)), n = normal(i);
@@ -109,6 +109,9 @@ private:
   std::vector<double> plane(Memory &memory, Buffer buffer, size_t k) const { return memory.read_reals(buffer, 4 * count, 4 * k * stride_); }
   static Vector at(const std::vector<double> &rows, size_t i) { return {rows[4 * i], rows[4 * i + 1], rows[4 * i + 2]}; }
   Vector normal(size_t i) const { return at(normal_, i); }
+  /* packed_friction of shared/setup/contact.h. */
+  bool at_impact(size_t i) const { return normal_[4 * i + 3] < 0; }
+  double coefficient(size_t i) const { return at_impact(i) ? -1 - normal_[4 * i + 3] : normal_[4 * i + 3]; }
 
   SolverBody body(size_t i) const
   {
@@ -120,7 +123,7 @@ private:
   Vector relative_velocity(size_t i, Vector arm_a, Vector arm_b) const
   {
     const SolverBody a = body(a_[i]), b = body(b_[i]);
-    const Vector slid = b.moved - a.moved;
+    const Vector slid = at_impact(i) ? Vector(0, 0, 0) : Vector(b.moved - a.moved);
     const double share = a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
     arm_a += share * slid;
     arm_b += (share - 1) * slid;

@@ -7,6 +7,7 @@
 
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "shared/body_codes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -201,6 +202,8 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   const Shape &shape = scene.shapes[body.shape];
   if (shape.type == ShapeType::half_space && (body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1}))
     check.fail("a half_space has no pose in its body (shape_position, shape_orientation); move and turn the body");
+  if (shape.type == ShapeType::half_space && body.continuous)
+    check.fail("a half_space is not continuous: nothing comes out behind it; make the bodies that hit it so");
   if (body.motion != Motion::dynamic) return;
   if (shape.type == ShapeType::half_space) check.fail("a half_space cannot be dynamic; make it fixed or kinematic");
   check.positive("mass", body.mass);
@@ -222,6 +225,8 @@ void validate(const Scene &scene, const std::string &where)
   if (!finite(scene.gravity))
     refuse(where, "gravity", "is " + text(scene.gravity) + "; three finite numbers are needed");
   if (scene.materials.empty()) refuse(where, "materials", "there are none; a scene needs at least one");
+  if (scene.materials.size() > MOST_MATERIALS)
+    refuse(where, "materials", fmt::format("there are {}; at most {}", scene.materials.size(), MOST_MATERIALS));
   const std::string unnamed;
   for (size_t i = 0; i < scene.shapes.size(); ++i) check_shape(scene.shapes[i], {where, "shape", i, unnamed});
   for (size_t i = 0; i < scene.materials.size(); ++i)

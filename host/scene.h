@@ -124,6 +124,7 @@ struct Body {
   float angular_damping = 0.0f; /* 1/s, >= 0 */
   uint32_t filter_group = 1;           /* bit set of the groups this body is in */
   uint32_t filter_mask = 0xffffffffu;  /* groups it collides with; both bodies must agree */
+  bool continuous = false; /* collides along its way through a step, so that thin walls hold at any speed; not for half-spaces */
 };
 
 struct Scene {

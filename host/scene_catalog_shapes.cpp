@@ -83,6 +83,70 @@ Scene rolling(const SceneValues &v)
   return scene;
 }
 
+/* --- thin-wall: small solids of every kind, shot at a sheet ------------------------------------------------------- */
+
+constexpr double wall_side = 200; /* half the edge of the sheet, m */
+
+Scene thin_wall(const SceneValues &v)
+{
+  Random random(uint64_t(whole(v, "seed")));
+  Scene scene;
+  scene.gravity = {0, 0, 0};
+  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), float(wall_side), float(wall_side))));
+  wall.name = "wall";
+  wall.motion = Motion::fixed;
+  const auto first = uint32_t(scene.shapes.size());
+  for (const Shape &shape : {sphere_shape(0.02f), box_shape(0.03f, 0.02f, 0.01f), capsule_shape(0.01f, 0.03f), cylinder_shape(0.015f, 0.03f),
+                             Shape{ShapeType::cylinder, {0.02f, 0.03f, 0}}})
+    scene.shapes.push_back(shape);
+  std::vector<Vec3> points;
+  for (int k = 0; k < 16; ++k) {
+    const Vec3 at = direction(random);
+    points.push_back({0.03f * at[0], 0.02f * at[1], 0.025f * at[2]});
+  }
+  scene.shapes.push_back(hull_shape(points, "stone"));
+  const auto kinds = uint32_t(scene.shapes.size()) - first;
+  const int64_t side = cube_side(whole(v, "n")) * 2;
+  for (int64_t i = 0; i < whole(v, "n"); ++i) {
+    const Point place{-0.2 - random.uniform(0, 2), 0.2 * double(i % side - side / 2), 0.2 * double(i / side - side / 2)};
+    Body &body = add_body(scene, first + uint32_t(i) % kinds, place);
+    const double lean = random.uniform(0, number(v, "angle")) * 3.14159265358979 / 180, about = random.uniform(0, 6.2831853);
+    const double speed = number(v, "speed"), spin = random.uniform(0, number(v, "spin"));
+    const Vec3 axis = direction(random);
+    body.linear_velocity = {float(speed * std::cos(lean)), float(speed * std::sin(lean) * std::cos(about)), float(speed * std::sin(lean) * std::sin(about))};
+    body.angular_velocity = {float(spin * axis[0]), float(spin * axis[1]), float(spin * axis[2])};
+    body.orientation = random.orientation();
+    body.continuous = true;
+    body.filter_group = 2;
+    body.filter_mask = 1; /* the wall alone */
+    finish(scene, body, 0.02);
+  }
+  return scene;
+}
+
+/* --- bullet-stack: a bullet into boxes that stand before a sheet --------------------------------------------------- */
+
+Scene bullet_stack(const SceneValues &v)
+{
+  Scene scene;
+  add_ground(scene);
+  const float half = 0.1f, radius = 0.01f;
+  const int64_t height = whole(v, "height"), rows = whole(v, "rows");
+  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
+  wall.name = "wall";
+  wall.motion = Motion::fixed;
+  const uint32_t box = add_shape(scene, box_shape(half, half, half));
+  for (int64_t row = 0; row < rows; ++row)
+    for (int64_t level = 0; level < height; ++level)
+      add_body(scene, box, {-0.5 - 2.2 * double(half) * double(row), double(half) * double(2 * level + 1), 0}, 2);
+  const double aim = double(half) * double(height); /* between two boxes, or at the middle of one */
+  Body &bullet = add_body(scene, add_shape(scene, sphere_shape(radius)), {-2 - 2.2 * double(half) * double(rows), aim, 0.01}, 0.05f);
+  bullet.name = "bullet";
+  bullet.continuous = true;
+  bullet.linear_velocity = {float(number(v, "speed")), 0, 0};
+  return scene;
+}
+
 } // namespace
 
 std::vector<BuiltInScene> shape_scenes()
@@ -93,6 +157,24 @@ std::vector<BuiltInScene> shape_scenes()
       {"convex-hulls", "random convex hulls that fall into a yard", {{"n", integer, 1000, 1, most, "hulls"}, {"points", integer, 32, 4, 1000, "vertices of a hull"}, seed_parameter()},
        walled, convex_hulls},
       {"shapes", "every convex shape in one pile", {{"n", integer, 200, 1, most, "bodies"}, seed_parameter()}, walled, shapes},
+      {"thin-wall",
+       "small solids of every kind are shot at a sheet; none passes it",
+       {{"n", integer, 100, 1, most, "solids"},
+        {"speed", real, 1000, 0, 10000, "m/s"},
+        {"thickness", real, 0.002, 0.0001, 0.1, "of the sheet, m"},
+        {"angle", real, 70, 0, 85, "to its normal at most, degrees"},
+        {"spin", real, 200, 0, 10000, "at most, rad/s"},
+        seed_parameter()},
+       [](const SceneValues &v) { return 1 + uint64_t(whole(v, "n")); },
+       thin_wall},
+      {"bullet-stack",
+       "a bullet hits stacks of boxes that stand before a sheet",
+       {{"speed", real, 1000, 0, 10000, "m/s"},
+        {"height", integer, 5, 1, 15, "boxes of a stack"},
+        {"rows", integer, 3, 1, 1000, "stacks"},
+        {"thickness", real, 0.002, 0.0001, 0.1, "of the sheet, m"}},
+       [](const SceneValues &v) { return 3 + uint64_t(whole(v, "height") * whole(v, "rows")); },
+       bullet_stack},
       {"rolling", "a ball, two cylinders and a capsule roll down a ramp", {{"angle", real, 10, 0, 60, "of the ramp, degrees"}}, [](const SceneValues &) { return uint64_t{5}; }, rolling},
   };
 }

@@ -77,11 +77,13 @@ GltfFilter GltfBodies::read_filter(const JsonValue &collider) const
 
 GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at, bool trigger)
 {
-  static constexpr const char *keys[] = {"geometry", "collisionFilter", "extras", "extensions", "physicsMaterial"}; /* the last: colliders alone */
+  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
+  static constexpr const char *trigger_keys[] = {"geometry", "collisionFilter", "extras", "extensions"};
   const nlohmann::json extensions = document_.extensions_of(at.node);
   const std::string where = document_.place(at.node);
   const JsonValue json = JsonValue(extensions[bodies_extension], where).member(trigger ? "trigger" : "collider");
-  json.only_keys(std::span(keys).first(trigger ? 4 : 5));
+  if (trigger) json.only_keys(trigger_keys);
+  else json.only_keys(collider_keys);
   const RigidPlace place = rigid_place(document_, at.node, at.world);
   const GltfShape read = shapes_.read(json.member("geometry"), place.scale);
   Collider collider{read.shape, place.position, place.orientation, read_material(json), read_filter(json)};

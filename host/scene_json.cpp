@@ -55,6 +55,7 @@ template <typename Field> void each_field(const Body *, Field &&field)
   field("filter_group", &Body::filter_group);
   field("filter_mask", &Body::filter_mask);
   field("trigger", &Body::trigger);
+  field("continuous", &Body::continuous);
 }
 
 /* --- reading --------------------------------------------------------------------------------- */

@@ -11,12 +11,14 @@
 #include "host/batching/batcher.h"
 #include "host/kernel_list.h"
 #include "host/scene.h"
+#include "shared/body_codes.h"
 
 namespace tandem {
 namespace {
 
 constexpr float longest_step = 10.0f; /* s; nothing physical is left of a longer one */
 constexpr uint32_t most_passes = 1000;
+constexpr uint32_t most_cells = 256;
 
 void check_name(const char *what, const std::string &name, const std::vector<std::string> &accepted)
 {
@@ -54,14 +56,18 @@ std::string stage_list()
 } // namespace
 
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
-/* In the order of CONVEX_ in shared/narrowphase/convex_contact.h. */
-std::vector<std::string> narrowphase_names() { return {"gjk-epa", "gjk-sampled", "sat"}; }
+std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split"}; }
+/* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
+std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
 
-uint32_t narrowphase_method(const std::string &name)
+uint32_t narrowphase_method(const Settings &settings)
 {
-  const std::vector<std::string> names = narrowphase_names();
-  return static_cast<uint32_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  const uint32_t method = settings.narrowphase == "gjk-epa" ? CONVEX_EXPANSION : settings.narrowphase == "gjk-sampled" ? CONVEX_SAMPLED : CONVEX_AXES;
+  const std::vector<std::string> names = support_names();
+  return method | static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
 }
+uint32_t cube_map_cells(const Settings &settings) { return settings.support == "brute-force" ? 0 : settings.support_cells; }
+
 std::vector<std::string> batching_names()
 {
   std::vector<std::string> names;
@@ -81,6 +87,9 @@ void validate(const Settings &settings)
   check_name("solver", settings.solver, solver_names());
   check_name("broadphase", settings.broadphase, broadphase_names());
   check_name("narrowphase", settings.narrowphase, narrowphase_names());
+  check_name("support", settings.support, support_names());
+  if (settings.support_cells < 1 || settings.support_cells > most_cells)
+    throw InputError(fmt::format("support cells {}: use 1 to {}", settings.support_cells, most_cells));
   check_name("batching", settings.batching, batching_names());
   check_number("contact stiffness", settings.contact_hertz, "Hz", false);
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);

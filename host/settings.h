@@ -14,7 +14,9 @@ struct Settings {
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* brute-force, sap, grid */
-  std::string narrowphase = "gjk-epa"; /* of shapes without a test of their own */
+  std::string narrowphase = "sat";      /* of shapes without a test of their own */
+  std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
+  uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */
   std::string batching = "coloring";    /* coloring, sequential, single-group, iterative, two-stage */
   bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool events = false;    /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
@@ -32,7 +34,10 @@ struct Settings {
 std::vector<std::string> solver_names();
 std::vector<std::string> broadphase_names();
 std::vector<std::string> narrowphase_names();
-uint32_t narrowphase_method(const std::string &name); /* CONVEX_ code; one of the names */
+std::vector<std::string> support_names();
+/* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */
+uint32_t narrowphase_method(const Settings &settings);
+uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
 std::vector<std::string> batching_names();
 
 /* The defaults with the substeps and iterations that this solver wants. InputError lists the names. */

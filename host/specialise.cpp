@@ -115,6 +115,7 @@ uint32_t body_features(const Scene &scene)
   for (const Body &body : scene.bodies) {
     for_each_material(scene, body, [&](const Material &material) { features |= features_of(material); });
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
+    if (body.continuous) features |= FEATURE_CONTINUOUS;
     if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
   }
   if (filters(scene)) features |= FEATURE_FILTER;
@@ -131,7 +132,7 @@ std::vector<uint32_t> large_bodies(const Scene &scene)
   std::vector<uint32_t> boundless, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
-    else if (radius(body) > limit) large.push_back(body);
+    else if (radius(body) > limit || scene.bodies[body].continuous) large.push_back(body); /* what is fast has bounds as large */
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
@@ -155,7 +156,8 @@ float median_radius(const Scene &scene)
 bool is_general(const Scene &scene, const Body &body)
 {
   const bool posed = body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
-  return posed || scene.shapes[body.shape].type > ShapeType::half_space;
+  const ShapeType type = scene.shapes[body.shape].type;
+  return posed || type > ShapeType::half_space || (body.continuous && type != ShapeType::half_space);
 }
 
 Filter filter_of(const Body &body, const Child &child)

@@ -15,7 +15,8 @@ namespace tandem {
 struct Specialisation {
   uint32_t features = 0; /* FEATURE_ bits */
   /* Body buffers hold scene body order[i] at index i: the few bodies too large for a grid come first, so
-   * that the small ones are one stretch; otherwise the scene's order. */
+   * that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as large, as their
+   * bounds are. */
   std::vector<uint32_t> order;
   uint32_t large = 0;
 };
@@ -28,7 +29,8 @@ uint32_t all_features();
 /* The median of bounding_radius over the bodies of finite size; 0 for none. */
 float median_radius(const Scene &scene);
 
-/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body. */
+/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body, or with
+ * continuous collision. */
 bool is_general(const Scene &scene, const Body &body);
 
 /* What a body or a child meets: see Body in scene.h. */

@@ -13,6 +13,7 @@
 #include "host/primitives.h"
 #include "host/solvers/solvers.h"
 #include "host/step_launches.h"
+#include "shared/body_codes.h"
 
 namespace tandem {
 namespace {
@@ -34,6 +35,7 @@ public:
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     solver_named(settings().solver).launch(*this);
+    if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
     commit();
   }
 
@@ -114,8 +116,14 @@ private:
     if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
     if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
-    if (has(FEATURE_CONVEX)) run(Kernel::collide_convex, {narrowphase_method(settings().narrowphase)});
+    if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
     if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
+  }
+
+  void collide_convexes(uint32_t method)
+  {
+    if (settings().narrowphase != "sat-split") return run(Kernel::collide_convex, {method});
+    for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
   }
 
   void color_contacts()
@@ -127,6 +135,13 @@ private:
     sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
     run(Kernel::color_starts);
     if (settings().check) launch_check(*this);
+  }
+
+  void keep_out_of_walls()
+  {
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_MOTION}, {Buffer::body_share});
+    run(Kernel::limit_motion);
+    run(Kernel::stop_motion);
   }
 
   void commit()

@@ -47,10 +47,11 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given)), trees(tree_tables(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
     if (settings.events) special.features |= FEATURE_EVENTS;
+    if (settings.narrowphase == "sat-split" && (special.features & FEATURE_CONVEX) != 0) special.features |= FEATURE_SAT_SPLIT;
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;
@@ -147,7 +148,7 @@ struct World::Implementation {
   {
     upload_bodies(memory, scene, special.order);
     upload_shapes(memory, scene, special.order);
-    upload_hulls(memory, scene);
+    upload_hulls(memory, scene, cube_map_cells(settings));
     upload_trees(memory, scene, trees, special.order);
     trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
     upload_materials(memory, scene);
@@ -267,6 +268,14 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
+  /* Built when they are first asked for, then kept. */
+  void prepare_query(Kernel kernel)
+  {
+    Backend &backend = backend_for(wanted, kernel);
+    backend.prepare(special.features, {kernel});
+    placed[index_of(kernel)] = &backend;
+  }
+
   static constexpr uint32_t most_rounds = 1 << 20;
 
   Scene scene;
@@ -338,6 +347,23 @@ std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+}
+
+std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::cast_rays);
+  return tandem::cast_rays(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, rays);
+}
+
+std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
+{
+  check_sweep(shape, poses, displacements);
+  const minicl::ExactFloatingPoint environment;
+  implementation_->prepare_query(Kernel::sweep_shape);
+  return tandem::sweep(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, shape, poses,
+                       displacements, filter);
 }
 
 Statistics World::statistics()

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host/backend.h"
+#include "host/queries.h"
 #include "host/scene.h"
 #include "host/settings.h"
 
@@ -125,6 +126,11 @@ public:
   /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with larger buffers
    * tells them once. InputError without Settings::events. */
   std::vector<ContactEvent> contact_events();
+  /* Queries of the present state, by the batch, where the stage `queries` is placed; they change nothing. Answers in the order of
+   * the questions, with the same bits on every backend. InputError as check_rays and check_sweep. */
+  std::vector<RayHit> cast_rays(std::span<const Ray> rays);
+  /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
+  std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter = {});
 
   Statistics statistics();
   uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */

@@ -62,11 +62,19 @@ void allow_threads(size_t threads)
   allowed = threads;
 }
 
+/* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
+const KernelTable &scalar_table(const Options &options)
+{
+  if (options.reference) return reference_kernels;
+  if (options.order != Backend::Order::forward) return backward_kernels;
+  return options.lanes >= 8 && widest_lanes() >= 8 ? scalar_avx2_kernels : scalar_kernels;
+}
+
 class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
-        scalar_(options.reference ? reference_kernels : options.order == Order::forward ? scalar_kernels : backward_kernels),
+        scalar_(scalar_table(options)),
         lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(options.reference ? reference_storage() : host_storage())
   {
     allow_threads(options.threads);

@@ -1,6 +1,6 @@
 /* kernel_table.h - every kernel of kernels.def as a plain function over a range of items.
  *
- * One table per width: scalar (items one at a time), backward (the same, with the phases of
+ * One table per width: scalar (items one at a time; once more for AVX2), backward (the same, with the phases of
  * work-groups walked in reverse), and 4, 8 and 16 lanes for kernels marked LANES.
  */
 #pragma once
@@ -21,6 +21,7 @@ struct KernelTable {
 };
 
 extern const KernelTable scalar_kernels;
+extern const KernelTable scalar_avx2_kernels; /* the same, with AVX2 where the compiler has it */
 extern const KernelTable backward_kernels;
 extern const KernelTable reference_kernels; /* in double */
 extern const KernelTable lanes4_kernels;

@@ -1,6 +1,6 @@
-/* body_codes.h - the numbers in body_traits and body_convex; kernels and the host both name them.
+/* body_codes.h - the numbers in body_traits and body_convex, and of methods; kernels and the host both name them.
  *
- * body_traits: bits 0-2 shape, 3-4 motion, 5 trigger, 8-31 material.
+ * body_traits: bits 0-2 shape, 3-4 motion, 5 trigger, 8-27 material, 30 continuous collision.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
@@ -17,5 +17,14 @@ enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARAN
 
 /* Found and reported by the pairs it is in, never solved. */
 enum { TRAIT_TRIGGER = 1 << 5 };
+/* Collides along its way through the step: narrowphase/conservative_advancement.h. */
+#define TRAIT_CONTINUOUS (1u << 30u)
+#define MOST_MATERIALS (1u << 20u)
+
+/* In body_share: all of a motion, as whole numbers count it. */
+#define WHOLE_MOTION (1u << 24u)
+/* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex (hull_support.h). */
+enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2 };
+enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
 
 #endif

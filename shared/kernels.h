@@ -6,6 +6,8 @@
 #include "shared/midphase/leaf_pairs.h"
 #include "shared/midphase/grazing.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/limit_motion.h"
+#include "shared/narrowphase/sat_split.h"
 #include "shared/parallel/bitonic_sort.h"
 #include "shared/parallel/compact.h"
 #include "shared/parallel/copy.h"
@@ -34,6 +36,8 @@
 #include "shared/solve/xpbd_tail.h"
 #include "shared/solve/rolling_tail.h"
 #include "shared/events/list.h"
+#include "shared/queries/cast_rays.h"
+#include "shared/queries/sweep_shape.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
 

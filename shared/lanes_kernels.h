@@ -19,6 +19,7 @@
 #include "shared/integrate/commit.h"
 #include "shared/integrate/cache_rolling.h"
 #include "shared/events/impulses.h"
+#include "shared/integrate/stop_motion.h"
 #include "shared/narrowphase/box_box.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/sphere_box.h"

@@ -14,7 +14,8 @@
 SHARED natural shape_of(natural traits) { return traits & 7u; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
 SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
-SHARED natural material_of(natural traits) { return traits >> 8u; }
+SHARED natural material_of(natural traits) { return (traits >> 8u) & (MOST_MATERIALS - 1u); }
+SHARED mask is_continuous(natural traits) { return (traits & TRAIT_CONTINUOUS) != 0u; }
 
 /* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1 for b. */
 SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side, natural body)
@@ -88,6 +89,8 @@ SHARED void store_motion_if(mask wanted, GLOBAL row *velocity, natural body, mot
   store_row_if(wanted, velocity, body * 2u, extend(m.linear, m.inverse_mass));
   store_row_if(wanted, velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
 }
+
+SHARED vec3 velocity_at(motion m, vec3 arm) { return add(m.linear, outer(m.angular, arm)); }
 
 SHARED symmetric3 load_inertia(GLOBAL const row *inertia, natural body)
 {

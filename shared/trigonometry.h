@@ -1,4 +1,4 @@
-/* trigonometry.h - sine, cosine, and arc tangent of our own.
+/* trigonometry.h - sine, cosine, and arc tangent of our own, and the turn by an angle.
  *
  * Built-in ones differ between CPU and GPU by ulps (design section 3), so these use only operations that
  * are rounded alike everywhere. Reduction after Cody and Waite, polynomials of the Cephes library's
@@ -65,6 +65,16 @@ SHARED real arc_tangent(real y, real x)
   angle = choose(up > across, R(1.57079632679489662) - angle, angle);
   angle = choose(x < R(0.0), R(3.14159265358979324) - angle, angle);
   return choose(y < R(0.0), -angle, angle);
+}
+
+/* q turned by the rotation vector v (rad, world axes). */
+SHARED quat turned(quat q, vec3 v)
+{
+  real angle = length_of(v);
+  mask turns = angle > R(1e-9);
+  angle_functions halved = sine_cosine(R(0.5) * angle);
+  real s = choose(turns, halved.sine / choose(turns, angle, (real)R(1.0)), (real)R(0.5));
+  return quat_normalized(quat_multiply(make_quat(v.x * s, v.y * s, v.z * s, choose(turns, halved.cosine, (real)R(1.0))), q));
 }
 
 #endif

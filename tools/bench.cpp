@@ -9,6 +9,7 @@
 #include "host/world.h"
 #include "tools/bench_batching.h"
 #include "tools/bench_narrowphase.h"
+#include "tools/bench_support.h"
 #include "tools/bench_primitives.h"
 #include "tools/command.h"
 #include "tools/measure.h"
@@ -84,6 +85,17 @@ int execute_narrowphase(const BenchOptions &options)
   return 0;
 }
 
+/* Exit status 1 if climbing ever ends at another vertex. */
+int execute_support(const BenchOptions &options)
+{
+  const uint64_t directions = options.count.empty() ? 200000 : whole_number("--n", options.count, 1000, uint64_t{1} << 28);
+  options.json.check();
+  const std::vector<SupportTime> times = bench_support(directions);
+  if (!options.json.takes_standard_output()) fmt::print("support: {} directions of each hull\n{}", directions, support_text(times));
+  options.json.write({{"what", options.what}, {"n", directions}, {"hulls", support_json(times)}});
+  return std::any_of(times.begin(), times.end(), [](const SupportTime &time) { return time.differences > 0; }) ? 1 : 0;
+}
+
 void print_result(const BenchOptions &options, const Result &result)
 {
   const Spread &time = result.milliseconds;
@@ -113,12 +125,13 @@ Json result_json(const BenchOptions &options, const Result &result)
 int execute(const BenchOptions &options)
 {
   for (const char *later : {"broadphase", "solve"})
-    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching, narrowphase or step", later));
+    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching, narrowphase, support or step", later));
   if (options.what == "batching") return execute_batching(options);
   if (options.what == "narrowphase") return execute_narrowphase(options);
+  if (options.what == "support") return execute_support(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
-    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching, narrowphase or step", options.what));
+    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching, narrowphase, support or step", options.what));
   const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
   const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
   options.json.check();
@@ -132,9 +145,9 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, narrowphase, step");
+  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, narrowphase, support, step");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), step (box-grid)")->required()->type_name("");
+  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--n", options->count, "how many: 1048576 keys, 4096 pairs of each kind, 1000 bodies unless given")->type_name("N");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");

@@ -60,17 +60,19 @@ struct PairKind {
   std::vector<std::string> methods;
 };
 
-/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. */
+/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. After a comma: the support of hulls. */
 std::vector<PairKind> kinds()
 {
   const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = narrowphase_names();
+  std::vector<std::string> hulls = all;
+  hulls.insert(hulls.end(), {"sat, hill-climbing", "sat, cube-map"});
   return {{"sphere-sphere", ball, ball, Kernel::collide_sphere_sphere, own},
           {"sphere-box", ball, box, Kernel::collide_sphere_box, own},
           {"box-box", box, box, Kernel::collide_box_box, own},
           {"capsule-capsule", capsule, capsule, Kernel::collide_convex, round},
           {"cylinder-box", cylinder, box, Kernel::collide_convex, round},
           {"hull32-box", hull32, box, Kernel::collide_convex, all},
-          {"hull32-hull32", hull32, hull32, Kernel::collide_convex, all},
+          {"hull32-hull32", hull32, hull32, Kernel::collide_convex, hulls},
           {"convex-half-space", any_convex, {}, Kernel::collide_convex_half_space, own}};
 }
 
@@ -91,7 +93,7 @@ public:
   /* Seen from the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
-    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), nullptr, nullptr};
+    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), nullptr, nullptr, SUPPORT_BRUTE_FORCE};
     return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, {index_[body], index_[body], INDEX_NONE});
   }
 
@@ -107,10 +109,10 @@ private:
   World world_;
   std::vector<uint32_t> index_;
   std::vector<row> shapes_ = all<row>(Buffer::body_shape), poses_ = all<row>(Buffer::body_shape_pose), orientations_ = all<row>(Buffer::body_orientation);
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane);
+  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane), strips_ = all<row>(Buffer::hull_strip);
   std::vector<uint32_t> convexes_ = all<uint32_t>(Buffer::body_convex), headers_ = all<uint32_t>(Buffer::hull_header);
   std::vector<uint32_t> face_starts_ = all<uint32_t>(Buffer::hull_face_start), corners_ = all<uint32_t>(Buffer::hull_corner);
-  std::vector<uint32_t> edges_ = all<uint32_t>(Buffer::hull_edge);
+  std::vector<uint32_t> edges_ = all<uint32_t>(Buffer::hull_edge), links_ = all<uint32_t>(Buffer::hull_link);
 };
 
 vec3 any_direction(Random &random)
@@ -182,7 +184,8 @@ void bring_near(Scene &scene, bool on_plane)
 
 class Bench {
 public:
-  Bench(const Scene &scene, const std::string &backend, bool allow_inexact) : world_(scene, still(), Placement{backend, {}, allow_inexact})
+  Bench(const Scene &scene, const std::string &method, const std::string &backend, bool allow_inexact)
+      : settings_(still(method)), world_(scene, settings_, Placement{backend, {}, allow_inexact})
   {
     world_.step();
     world_.memory().download(Buffer::counts, plan_.known.data(), sizeof plan_.known);
@@ -191,16 +194,19 @@ public:
 
   PairTime run(const PairKind &kind, const std::string &method)
   {
-    Backend &backend = world_.backend_of(kind.kernel);
+    const std::vector<Kernel> kernels = kernels_of(kind);
+    Backend &backend = world_.backend_of(kernels[0]);
     DirectLauncher launcher(world_.memory(), backend);
     StepLaunches step(launcher, plan_, settings_);
-    const std::vector<uint32_t> values = kind.kernel == Kernel::collide_convex ? std::vector<uint32_t>{narrowphase_method(method)} : std::vector<uint32_t>{};
+    const std::vector<uint32_t> values = method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
     for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
-      step.run(kind.kernel, values);
+      for (Kernel kernel : kernels) step.run(kernel, values);
       backend.finish();
-      const double nanoseconds = backend.take_kernel_times()[index_of(kind.kernel)].nanoseconds;
+      double nanoseconds = 0;
+      const auto spent = backend.take_kernel_times();
+      for (Kernel kernel : kernels) nanoseconds += spent[index_of(kernel)].nanoseconds;
       if (k > 0) times.push_back(nanoseconds * 1e-6);
     }
     world_.set_profiling(false);
@@ -213,16 +219,23 @@ public:
   }
 
 private:
-  static Settings still()
+  static Settings still(const std::string &method)
   {
     Settings settings;
     settings.step = 1e-6f;
+    if (!method.empty()) settings.narrowphase = method.substr(0, method.find(','));
+    settings.support = method.ends_with("climbing") ? "hill-climbing" : method.ends_with("map") ? "cube-map" : "brute-force";
     return settings;
   }
+  std::vector<Kernel> kernels_of(const PairKind &kind) const
+  {
+    if (settings_.narrowphase != "sat-split") return {kind.kernel};
+    return {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts};
+  }
 
+  Settings settings_;
   World world_;
   StepPlan plan_;
-  Settings settings_;
 };
 
 double a_second(const PairTime &time) { return time.manifolds / std::max(time.milliseconds.median, 1e-9) * 1e3; }
@@ -237,8 +250,7 @@ std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pai
   for (const PairKind &kind : list) {
     Scene scene = scene_of(kind, pairs);
     bring_near(scene, !kind.b);
-    Bench bench(scene, backend, allow_inexact);
-    for (const std::string &method : kind.methods) times.push_back(bench.run(kind, method));
+    for (const std::string &method : kind.methods) times.push_back(Bench(scene, method, backend, allow_inexact).run(kind, method));
     progress.update(uint64_t(&kind - list.data()) + 1);
   }
   progress.clear();

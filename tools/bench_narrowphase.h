@@ -11,9 +11,9 @@ namespace tandem {
 
 struct PairTime {
   std::string pair, kernel;
-  std::string method;     /* --narrowphase; empty for shapes with a test of their own */
+  std::string method;     /* --narrowphase, and after a comma --support; empty for shapes with a test of their own */
   uint32_t pairs = 0, manifolds = 0, points = 0; /* manifolds: pairs with a point */
-  Spread milliseconds;    /* of the kernel alone */
+  Spread milliseconds;    /* of the kernels alone */
 };
 
 /* `pairs` separate pairs of each kind. InputError as make_backend. */

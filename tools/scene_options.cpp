@@ -48,6 +48,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   solver_ = defaults.solver;
   broadphase_ = defaults.broadphase;
   narrowphase_ = defaults.narrowphase;
+  support_ = defaults.support;
+  support_cells_ = fmt::format("{}", defaults.support_cells);
   batching_ = defaults.batching;
   const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
     parser.add_option(name, value, what)->type_name(type)->capture_default_str();
@@ -62,6 +64,8 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
   option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
+  option("--support", support_, one_of("support of hulls", support_names()), "NAME");
+  option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
   option("--batching", batching_, one_of("batching", batching_names()), "NAME");
   parser.add_flag("--check", check_, "prove in every step that no batch touches a moving body twice and that every contact is in one; exit status 1 if not");
   parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
@@ -82,6 +86,8 @@ Settings SceneOptions::settings() const
   if (!iterations_.empty()) settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = broadphase_;
   settings.narrowphase = narrowphase_;
+  settings.support = support_;
+  settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
   settings.batching = batching_;
   settings.check = check_;
   settings.events = events_;
@@ -121,6 +127,8 @@ std::string SceneOptions::typed_again() const
   add("--solver", solver_, defaults.solver);
   add("--broadphase", broadphase_, defaults.broadphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);
+  add("--support", support_, defaults.support);
+  add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
   add("--batching", batching_, defaults.batching);
   if (check_) text += " --check";
   if (events_) text += " --events events.json";

@@ -62,6 +62,14 @@ SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL cons
                        minimum(R(0.0), minimum(drift.z, fallen.z)));
   vec3 high = make_vec3(maximum(R(0.0), maximum(drift.x, fallen.x)), maximum(R(0.0), maximum(drift.y, fallen.y)),
                         maximum(R(0.0), maximum(drift.z, fallen.z)));
+  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
+    /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
+    real way = maximum(length_of(drift), length_of(fallen)) + turn * size.w;
+    vec3 anywhere = make_vec3(way, way, way);
+    mask continuous = is_continuous(load_natural(body_traits, i));
+    low = choose3(continuous, negate(anywhere), low);
+    high = choose3(continuous, anywhere, high);
+  }
   store_row(bounds, i * 2u, extend(add(subtract(center, extent), low), R(0.0)));
   store_row(bounds, i * 2u + 1u, extend(add(add(center, extent), high), R(0.0)));
 }

@@ -99,7 +99,8 @@ SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *coun
     store_extent_local(extents, item, e);
   }
   join_tree(extents);
-  FOR_EACH_ITEM(first, 1u) store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
+  /* A device launches a group even where there is no tile. */
+  FOR_EACH_ITEM(first, group * TILE < small ? 1u : 0u) store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
 }
 
 /* Cells along one axis, at least 1 and at most what 30 bits of three axes allow. */
@@ -160,6 +161,7 @@ SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *
 {
   extent whole = load_extent_tile(bounds_sums, i);
   uint bodies = counts[COUNT_SMALL];
+  if (bodies == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
   lay_out_grid(whole, parameters->cell_size, grid, counts);
   counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
 }

@@ -20,16 +20,6 @@
 #include "shared/records.h"
 #include "shared/trigonometry.h"
 
-/* q turned by the rotation vector v (rad, world axes). */
-SHARED quat turned(quat q, vec3 v)
-{
-  real angle = length_of(v);
-  mask turns = angle > R(1e-9);
-  angle_functions halved = sine_cosine(R(0.5) * angle);
-  real s = choose(turns, halved.sine / choose(turns, angle, (real)R(1.0)), (real)R(0.5));
-  return quat_normalized(quat_multiply(make_quat(v.x * s, v.y * s, v.z * s, choose(turns, halved.cosine, (real)R(1.0))), q));
-}
-
 /* I(q)^-1 L for principal inverse moments d. */
 SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
 {

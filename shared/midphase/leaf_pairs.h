@@ -57,12 +57,22 @@ SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 off
   return result;
 }
 
+/* A body with continuous collision may be turned anywhere within the step: bounds_of a body in broadphase/bounds.h. */
+SHARED real way_anywhere(const midphase_scene *scene, motion m)
+{
+  vec3 gravity = make_vec3(scene->parameters->gravity_x, scene->parameters->gravity_y, scene->parameters->gravity_z);
+  return scene->parameters->step * (length_of(m.linear) + scene->parameters->step * length_of(gravity));
+}
+
 /* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of manifold.h. */
 SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
 {
   real radius_a = load_row(scene->shapes, a).w, radius_b = load_row(scene->shapes, b).w;
-  real turn = length_of(load_motion(scene->velocities, a).angular) * radius_a + length_of(load_motion(scene->velocities, b).angular) * radius_b;
-  return scene->parameters->speculative_distance + scene->parameters->step * turn + R(1e-6) * (length_of(offset) + radius_a + radius_b);
+  motion motion_a = load_motion(scene->velocities, a), motion_b = load_motion(scene->velocities, b);
+  real turn = length_of(motion_a.angular) * radius_a + length_of(motion_b.angular) * radius_b;
+  real margin = scene->parameters->speculative_distance + scene->parameters->step * turn + R(1e-6) * (length_of(offset) + radius_a + radius_b);
+  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) || !is_continuous(scene->traits[a] | scene->traits[b])) return margin;
+  return margin + way_anywhere(scene, motion_a) + way_anywhere(scene, motion_b);
 }
 SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
 {

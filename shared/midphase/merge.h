@@ -98,11 +98,13 @@ SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   manifold_group all = {group, counts_of_points, points, stride, i, end};
   real radius_a = load_row(shapes, pair_a[i]).w, radius_b = load_row(shapes, pair_b[i]).w;
   real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
-  manifold m = joined_manifold(&all, xyz(load_row(normals, i)), size);
+  vec4 normal = load_row(normals, i);
+  manifold m = joined_manifold(&all, xyz(normal), size);
   manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
   for (uint j = i + 1u; j < end; ++j)
     if (group[j] == i) store_manifold_if(1, nothing, stride, normals, points, counts_of_points, features, j);
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  store_row(normals, i, normal); /* with the moment of its impact */
 }
 
 #endif

@@ -114,7 +114,7 @@ SHARED manifold face_contacts(box_pair pair)
   real slack = (extent_r + extent_i) * R(2e-6);
 
   clip_point candidate[CLIP_CANDIDATES], four[4];
-  clip_faces(candidate, face, rectangle, slack);
+  clip_face_by_rectangle(candidate, face, rectangle, slack);
   reduce_points(four, candidate, minimum(extent_r, extent_i), slack);
 
   /* From plane coordinates to offsets from the centre of a. */

@@ -4,7 +4,7 @@
  *   sphere     .      .       .         x        .  a header of its own (sphere_box.h ...)
  *   box               .       .         x        x  here
  *   half-space                -         x        -  neither moves
- *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its body's centre;
+ *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its body's centre or continuous;
  *                                                 compound and mesh, of which a pair holds one child or triangle (midphase/leaf_pairs.h)
  *
  * Branches follow the data: shapes of one pair differ too much for lanes.
@@ -12,6 +12,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
 
+#include "shared/narrowphase/conservative_advancement.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 #include "shared/narrowphase/triangle_contact.h"
@@ -57,50 +58,121 @@ SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const conv
   return convex_contact(first, second, reach, parameters->slop, method);
 }
 
+/* A pair of convex shapes, seen from the centre of the first one's body in world axes. */
+typedef struct {
+  convex first, second;
+  motion motion_a, motion_b;
+  real radius_a, radius_b; /* what turning can swing round: 0 of a sphere */
+  vec3 offset;             /* centre of the second one's body */
+  real reach;              /* whatever the normal */
+  real thickness;          /* of the thinner body */
+  mask continuous;
+} convex_query;
+
+enum { QUERY_OF_OTHERS = 0, QUERY_APART = 1, QUERY_NEAR = 2 };
+
+/* QUERY_APART: not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_ in its low
+ * byte, SUPPORT_ in the next. */
+SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                             GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers,
+                             GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
+                             GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                             GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                             GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters, uint method, uint i)
+{
+  uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
+  if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return QUERY_OF_OTHERS;
+  query->motion_a = load_motion(velocities, a);
+  query->motion_b = load_motion(velocities, b);
+  real around_a = load_row(shapes, a).w, around_b = load_row(shapes, b).w;
+  query->radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), around_a);
+  query->radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), around_b);
+  query->reach = widest_reach(parameters, query->motion_a, query->radius_a, query->motion_b, query->radius_b);
+  query->offset = offset_between(positions, a, b);
+  real farthest = around_a + around_b + query->reach;
+  if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return QUERY_APART;
+  query->thickness = size_between(shapes, a, b);
+  query->continuous = HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[a] | traits[b]);
+  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, method >> 8u};
+  query->first = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pair_leaf, a, i, 0u));
+  query->second = load_convex(shapes, convexes, poses, orientations, tables, query->offset, part_of_pair(parameters, pair_leaf, b, i, 1u));
+  return QUERY_NEAR;
+}
+
+SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
+{
+  return kept_within(m, reach_of(parameters, query->motion_a, query->radius_a, query->motion_b, query->radius_b, m.normal));
+}
+
+/* The manifold of a pair, at the moment of its impact where that is asked for. */
+SHARED void store_contact(GLOBAL const Parameters *parameters, convex_query *query, uint method, uint stride, GLOBAL row *normals, GLOBAL row *points,
+                          GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+{
+  encounter met = {CONTACT_AT_START, R(0.0)};
+  if (query->continuous)
+    met = meet(parameters, &query->first, &query->second, query->offset, query->motion_a, query->radius_a, query->motion_b, query->radius_b);
+  real reach = met.kind == CONTACT_MISSED ? parameters->speculative_distance : query->reach;
+  manifold m = within_reach(parameters, query, contact_of_parts(parameters, &query->first, &query->second, reach, query->thickness, method));
+  if (met.kind != CONTACT_AT_START) {
+    vec3 offset = add_scaled(query->offset, subtract(query->motion_b.linear, query->motion_a.linear), met.time);
+    m = as_seen_from_start(m, met, offset, query->motion_a, query->motion_b, parameters->step);
+  }
+  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
+}
+
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                 GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
                                 GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
+                                GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                                GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
+                                GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
+                                GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
-  uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
-  if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, mesh_vertices, mesh_triangles};
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  convex first_shape = load_convex(shapes, convexes, poses, orientations, tables, none, part_of_pair(parameters, pair_leaf, a, i, 0u));
-  convex second_shape = load_convex(shapes, convexes, poses, orientations, tables, offset_between(positions, a, b),
-                                    part_of_pair(parameters, pair_leaf, b, i, 1u));
-  motion motion_a = load_motion(velocities, a), motion_b = load_motion(velocities, b);
-  real radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), load_row(shapes, a).w), radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), load_row(shapes, b).w);
-  manifold m = contact_of_parts(parameters, &first_shape, &second_shape, widest_reach(parameters, motion_a, radius_a, motion_b, radius_b), size_between(shapes, a, b), method);
-  m = kept_within(m, reach_of(parameters, motion_a, radius_a, motion_b, radius_b, m.normal));
-  store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return; /* nothing then is left for a compiler of devices to do */
+  convex_query query;
+  uint stride = counts[CAPACITY_PAIRS];
+  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
+                               links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
+  if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
+  if (near == QUERY_NEAR) store_contact(parameters, &query, method & 255u, stride, normals, points, counts_of_points, features, i);
 }
 
 SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                            GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
                                            GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
                                            GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                           GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                           GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                                           GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                                           GLOBAL const row *orientations, GLOBAL const row *velocities,
                                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
                                            GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX_HALF_SPACE)) return;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, mesh_vertices, mesh_triangles};
+  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
                              part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
   vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
-  real reach = reach_of(parameters, load_motion(velocities, body), load_row(shapes, body).w, load_motion(velocities, plane), R(0.0), negate(up));
-  manifold m = convex_on_half_space(&shape, up, inner(up, to_plane), reach);
+  motion moves = load_motion(velocities, body), of_plane = load_motion(velocities, plane);
+  real radius = load_row(shapes, body).w, height = inner(up, to_plane), reach = reach_of(parameters, moves, radius, of_plane, R(0.0), negate(up));
+  encounter met = {CONTACT_AT_START, R(0.0)};
+  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[body]))
+    met = meet_plane(parameters, &shape, up, &height, moves, radius, of_plane);
+  manifold m = convex_on_half_space(&shape, up, height, met.kind == CONTACT_MISSED ? parameters->speculative_distance : reach);
+  if (met.kind != CONTACT_AT_START) {
+    to_plane = add_scaled(to_plane, subtract(of_plane.linear, moves.linear), met.time);
+    m = as_seen_from_start(m, met, to_plane, moves, of_plane, parameters->step);
+  }
   if (!body_first) {
     m.normal = up;
     for (int slot = 0; slot < 4; ++slot) m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
 }
 
 #endif

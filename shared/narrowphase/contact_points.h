@@ -1,6 +1,7 @@
 /* contact_points.h - at most four points of a stream of any length, that span nearly all it spans, and its deepest.
  *
- * The choice of point_reduction.h for points that pass by instead of lying in an array: the stream runs once a pass.
+ * The choice of point_reduction.h for points that pass by instead of lying in an array. The first pass keeps them, and the
+ * others read them there; a stream too long for that runs once a pass.
  *
  *   pass 0   the farthest along a fixed direction (slot 0), and the deepest
  *   pass 1   the farthest from slot 0 (slot 2)
@@ -16,17 +17,21 @@
 #include "shared/narrowphase/point_reduction.h"
 
 #define REDUCTION_PASSES 4
+#define STREAM_KEPT 16u
 
 typedef struct {
   int pass;
   real lead, narrow; /* what a point must lead by: along a length, in an area */
   leader first, deepest, second, right, left, outermost;
+  clip_point kept[STREAM_KEPT]; /* the valid points of the stream */
+  uint points;
 } reduction;
 
 SHARED void start_reduction(reduction *r, real span, real noise)
 {
   clip_point nobody = {R(0.0), R(0.0), R(0.0), 0};
   r->pass = 0;
+  r->points = 0u;
   r->lead = span * R(1e-4) + noise;
   r->narrow = R(0.0);
   r->first = r->deepest = leader_above(nobody, R(-1e30));
@@ -45,7 +50,10 @@ SHARED real outside_triangle(const reduction *r, clip_point candidate)
 
 SHARED void reduce_step(reduction *r, clip_point candidate)
 {
+  if (!candidate.valid) return;
   if (r->pass == 0) {
+    if (r->points < STREAM_KEPT) r->kept[r->points] = candidate;
+    r->points = r->points + 1u;
     r->first = challenged(r->first, candidate, candidate.u * R(0.93) + candidate.v * R(0.37), r->lead);
     r->deepest = challenged(r->deepest, candidate, -candidate.separation, r->lead);
   } else if (r->pass == 1) {
@@ -57,6 +65,14 @@ SHARED void reduce_step(reduction *r, clip_point candidate)
   } else {
     r->outermost = challenged(r->outermost, candidate, outside_triangle(r, candidate), r->outermost.score * R(1e-3));
   }
+}
+
+/* A pass over the points kept. False if there were too many. */
+SHARED mask reduce_kept(reduction *r)
+{
+  if (r->points > STREAM_KEPT) return 0;
+  for (uint k = 0u; k < r->points; ++k) reduce_step(r, r->kept[k]);
+  return 1;
 }
 
 /* Between two passes. False where no further pass is needed. */

@@ -12,31 +12,8 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_H
 
+#include "shared/narrowphase/hull_support.h"
 #include "shared/narrowphase/manifold.h"
-
-/* Largest relative error of one rounding. */
-#ifdef TANDEM_REFERENCE
-#define ROUNDING 1.2e-16
-#else
-#define ROUNDING 6.0e-8f
-#endif
-
-/* Hulls of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
- * edges, first corner, corners. */
-typedef struct {
-  GLOBAL const uint *headers;     /* 8 a hull */
-  GLOBAL const row *vertices;     /* x y z: about the origin of the shape's axes */
-  GLOBAL const row *planes;       /* a face: outward unit normal, distance from the origin */
-  GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
-  GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
-  GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
-  GLOBAL const row *mesh_vertices;    /* x y z: about the origin of the mesh's axes */
-  GLOBAL const uint *mesh_triangles;  /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours across 0-1, 1-2, 2-0 */
-} hull_tables;
-
-typedef struct {
-  uint first_vertex, vertices, first_face, faces, first_edge, edges;
-} hull_ranges;
 
 /* size: sphere radius - -; box half extents; capsule and cylinder (bottom radius, half height, top radius) along Y;
  * hull half extents of a box around it that is centred at the origin of its axes. */
@@ -63,15 +40,11 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
   shape.center = add(offset, rotate(rotation, middle));
   shape.aligned = 0;
   shape.tables = tables;
-  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u};
+  hull_ranges none = {0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u};
   shape.hull = none;
   shape.triangle = INDEX_NONE;
   shape.second = shape.third = make_vec3(R(0.0), R(0.0), R(0.0));
-  if (kind == (uint)SHAPE_HULL) {
-    GLOBAL const uint *header = tables.headers + hull * 8u;
-    hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5]};
-    shape.hull = ranges;
-  }
+  if (kind == (uint)SHAPE_HULL) shape.hull = ranges_of_hull(&tables, hull);
   return shape;
 }
 
@@ -149,16 +122,7 @@ SHARED vec3 support_of_capsule_core(vec3 size, vec3 direction)
 }
 SHARED natural support_vertex(const convex *shape, vec3 direction)
 {
-  natural best = 0u;
-  real highest = R(0.0);
-  for (uint k = 0u; k < shape->hull.vertices; ++k) {
-    real height = inner(xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)), direction);
-    if (k == 0u || height > highest) {
-      highest = height;
-      best = k;
-    }
-  }
-  return best;
+  return hull_support(&shape->tables, &shape->hull, direction, shape->size);
 }
 SHARED vec3 hull_vertex(const convex *shape, natural k) { return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)); }
 

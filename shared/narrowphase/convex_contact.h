@@ -20,8 +20,6 @@
 #include "shared/narrowphase/polygon_clip.h"
 #include "shared/narrowphase/sampled_depth.h"
 
-enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2 };
-
 /* What a face must not be worse by than the best axis, to be it (box_axes.h). */
 SHARED real lead_of_faces(const convex *a, const convex *b, real slop)
 {
@@ -78,10 +76,13 @@ SHARED core_contact core_contact_of(const convex_pair *pair, real limit, real le
     return near.contact;
   }
   if (method == (uint)CONVEX_SAMPLED) return sampled_penetration(a, b, pair->up, near.contact.normal);
-  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) return separating_hull_axis(a, b, lead).contact;
+  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) return separating_hull_axis(a, b, lead, R(1e30)).contact;
   /* Between the cap of a cylinder and a face not quite parallel to it lies a rim that need not be resolved. */
   return expanded_and_refined(a, b, pair->up, lead * R(0.25));
 }
+
+/* Rounding error of a corner. */
+SHARED real slack_of_corners(const convex *b) { return R(32.0) * ROUNDING * bounding_radius_of(b); }
 
 SHARED contact_axes contact_axes_of(vec3 normal)
 {
@@ -98,37 +99,57 @@ typedef struct {
   natural code;
 } contact_patch;
 
-/* Where the two supporting features overlap. False if the overlap misses the deepest point of the shapes: the contact then
- * lies where no features meet face to face. */
+/* Two supporting features about to be clipped. */
+typedef struct {
+  outline a, b;
+  clipping clip;
+  mask b_moves;
+} feature_overlap;
+
+SHARED void start_overlap(feature_overlap *overlap, const convex *a, const support_face *face_a, const convex *b, const support_face *face_b,
+                          const contact_axes *axes, real reach)
+{
+  make_outline(&overlap->a, a, face_a, axes);
+  make_outline(&overlap->b, b, face_b, axes);
+  overlap->b_moves = face_b->corners <= face_a->corners;
+  clipping *clip = &overlap->clip;
+  clip->moving = overlap->b_moves ? &overlap->b : &overlap->a;
+  clip->reference = overlap->b_moves ? &overlap->a : &overlap->b;
+  measure_sides(overlap->b_moves ? &overlap->a : &overlap->b);
+  clip->sense = overlap->b_moves ? R(1.0) : R(-1.0);
+  clip->radii = core_radius(a) + core_radius(b);
+  clip->reach = reach;
+  clip->slack = slack_of_corners(b);
+}
+
+/* Height of the surface of b above a point. */
+SHARED real height_of_b(const feature_overlap *overlap, const convex *a, const convex *b, clip_point p)
+{
+  real on_a = height_of(&overlap->a, p.u, p.v) + core_radius(a), on_b = height_of(&overlap->b, p.u, p.v) - core_radius(b);
+  return overlap->b_moves ? on_a + p.separation : on_b;
+}
+
+/* The overlap misses the deepest point of the shapes: the contact then lies where no features meet face to face. */
+SHARED mask misses_deepest(const reduction *r, real gap) { return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead; }
+SHARED natural code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
+
+/* Where the two supporting features overlap. False if there is no contact of that kind. */
 SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, real reach)
 {
   patch->axes = contact_axes_of(contact.normal);
   support_face face_a = support_face_of(a, contact.normal), face_b = support_face_of(b, negate(contact.normal));
-  patch->code = (face_a.feature & 0xfffu) | (face_b.feature & 0xfffu) << 12u;
+  patch->code = code_of_features(face_a.feature, face_b.feature);
   if (face_a.corners == 1u || face_b.corners == 1u) return 0;
-  outline outline_a, outline_b;
-  make_outline(&outline_a, a, &face_a, &patch->axes);
-  make_outline(&outline_b, b, &face_b, &patch->axes);
-  real size = bounding_radius_of(b);
-  mask b_moves = face_b.corners <= face_a.corners;
-  clipping clip;
-  clip.moving = b_moves ? &outline_b : &outline_a;
-  clip.reference = b_moves ? &outline_a : &outline_b;
-  clip.sense = b_moves ? R(1.0) : R(-1.0);
-  clip.radii = core_radius(a) + core_radius(b);
-  clip.reach = reach;
-  clip.slack = R(32.0) * ROUNDING * size;
+  feature_overlap overlap;
+  start_overlap(&overlap, a, &face_a, b, &face_b, &patch->axes, reach);
   reduction r;
-  start_reduction(&r, size, clip.slack);
-  do stream_overlap(&r, &clip);
-  while (next_pass(&r));
-  if (!r.deepest.point.valid || r.deepest.point.separation > contact.gap - clip.radii + r.lead) return 0;
+  start_reduction(&r, bounding_radius_of(b), overlap.clip.slack);
+  stream_overlap(&r, &overlap.clip);
+  while (next_pass(&r))
+    if (!reduce_kept(&r)) stream_overlap(&r, &overlap.clip);
+  if (misses_deepest(&r, contact.gap - overlap.clip.radii)) return 0;
   finish_reduction(patch->point, &r);
-  for (int slot = 0; slot < 4; ++slot) {
-    clip_point p = patch->point[slot];
-    real on_a = height_of(&outline_a, p.u, p.v) + core_radius(a), on_b = height_of(&outline_b, p.u, p.v) - core_radius(b);
-    patch->height[slot] = b_moves ? on_a + p.separation : on_b;
-  }
+  for (int slot = 0; slot < 4; ++slot) patch->height[slot] = height_of_b(&overlap, a, b, patch->point[slot]);
   return 1;
 }
 
@@ -162,6 +183,35 @@ SHARED manifold placed_manifold(const convex_pair *pair, const contact_patch *pa
   return m;
 }
 
+/* Too far apart for one. */
+SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
+{
+  vec3 placed = rotate(pair->axes, normal);
+  return single_contact(pair->swapped ? negate(placed) : placed, pair->origin, gap, 0);
+}
+
+/* Where an axis separates polytopes at no face: their closest points, sought from that axis on. */
+SHARED core_contact closest_beyond_axis(const convex *a, const convex *b, core_contact axis, real limit, mask *apart, vec3 *on_b)
+{
+  *apart = 0;
+  *on_b = b->center;
+  if (axis.gap <= R(0.0)) return axis;
+  gjk_result near = closest_points_from(a, b, limit, negate(axis.normal));
+  if (near.overlapping) return axis;
+  *apart = 1;
+  *on_b = near.on_b;
+  return near.contact;
+}
+
+/* A contact of polytopes found by their axes alone. 1: it has its patch. 0: too far apart. -1: no features meet there, the closest
+ * or deepest points are wanted. */
+SHARED int patch_by_axes(contact_patch *patch, const convex_pair *pair, core_contact *contact, real lead, real reach)
+{
+  *contact = separating_hull_axis(&pair->a, &pair->b, lead, reach).contact;
+  if (contact->gap >= reach) return 0;
+  return overlap_patch(patch, &pair->a, &pair->b, *contact, reach) ? 1 : -1;
+}
+
 /* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made. slop:
  * penetration left in place. */
 SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, natural method)
@@ -170,14 +220,19 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
   const convex *a = &pair.a, *b = &pair.b;
   real radii = core_radius(a) + core_radius(b), noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
   real lead = lead_of_faces(a, b, slop);
+  contact_patch patch;
+  core_contact contact;
   mask apart;
   vec3 on_b;
-  core_contact contact = core_contact_of(&pair, reach + radii, lead, method, &apart, &on_b);
-  if (contact.gap - radii >= reach) {
-    vec3 normal = rotate(pair.axes, contact.normal);
-    return single_contact(pair.swapped ? negate(normal) : normal, pair.origin, contact.gap - radii, 0);
+  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) {
+    int found = patch_by_axes(&patch, &pair, &contact, lead, reach);
+    if (found == 0) return no_contact(&pair, contact.normal, contact.gap);
+    if (found > 0) return kept_within(placed_manifold(&pair, &patch), reach);
+    contact = closest_beyond_axis(a, b, contact, reach, &apart, &on_b);
+  } else {
+    contact = core_contact_of(&pair, reach + radii, lead, method, &apart, &on_b);
   }
-  contact_patch patch;
+  if (contact.gap - radii >= reach) return no_contact(&pair, contact.normal, contact.gap - radii);
   if (!overlap_patch(&patch, a, b, prefer_faces(contact, a, b, lead), reach)) {
     contact = prefer_faces(contact, a, b, noise);
     if (!overlap_patch(&patch, a, b, contact, reach))

@@ -77,7 +77,7 @@ SHARED clip_point corner_under(clip_face face, real area, real inverse_area, rea
   return point;
 }
 
-SHARED void clip_faces(clip_point *candidate, clip_face face, clip_rectangle inside, real slack)
+SHARED void clip_face_by_rectangle(clip_point *candidate, clip_face face, clip_rectangle inside, real slack)
 {
   real tiny = slack * R(1e-4);
   real p_u = guarded_inverse(face.p.x, tiny), p_v = guarded_inverse(face.p.y, tiny);

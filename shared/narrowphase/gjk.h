@@ -170,14 +170,13 @@ SHARED vec3 carried_point(const simplex *s)
   return point;
 }
 
-/* limit: a gap beyond it need not be known any better. */
-SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)
+/* limit: a gap beyond it need not be known any better. v: a first guess of the way from b to a. */
+SHARED gjk_result closest_points_from(const convex *a, const convex *b, real limit, vec3 v)
 {
   gjk_result result;
   simplex *s = &result.last;
   s->count = 0;
   result.overlapping = 0;
-  vec3 v = subtract(a->center, b->center);
   real distance = length_of(v), squared = R(0.0);
   if (distance <= R(0.0)) v = make_vec3(distance = R(1.0), R(0.0), R(0.0));
   result.contact.gap = R(-1e30);
@@ -230,6 +229,10 @@ SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)
     result.on_a = add(result.on_b, v);
   }
   return result;
+}
+SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)
+{
+  return closest_points_from(a, b, limit, subtract(a->center, b->center));
 }
 
 #endif

@@ -1,7 +1,7 @@
-/* hull_axes.h - the axis along which two polytopes are farthest apart, or overlap least, by trying all that can be it.
+/* hull_axes.h - the axis along which two polytopes are farthest apart, or overlap least.
  *
- * All faces of both, and of the pairs of edges those that meet on the Gauss map: an edge is there the arc between the
- * normals of its two faces, and only where an arc of a crosses an arc of -b have the edges a face of a - b between them.
+ * It is the normal of a face of either, or square to two edges that meet on the Gauss map: an edge is there the arc between
+ * the normals of its two faces, and only where an arc of a crosses an arc of -b have the edges a face of a - b between them.
  * (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013.)
  *
  *           left of a                Ties prefer faces, and those of the larger shape, as in box_axes.h: faces carry up to
@@ -9,6 +9,16 @@
  *     ---------+---------
  *   left of -b |
  *          right of a
+ *
+ * Nearly all of it is ruled out by a few points of the other shape, here called probes. No gap beyond a face is larger than
+ * how far any one probe lies beyond it:
+ *
+ *        a  \   . p                  1  the face beyond which the nearest probe lies farthest is the only one worth a look;
+ *      ______\__.____ face              the point of b that really lies nearest to it is the next probe. Two or three
+ *             \  b                     looks leave no face that could be better: the best is found, and proven.
+ *                                    2  an edge's axes lie on the arc between the normals of its faces, so beyond 0 or
+ *                                       below it no edge is better than the better one of its two faces. Where a face
+ *                                       touches a face that rules out every edge.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_AXES_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_AXES_H
@@ -17,30 +27,174 @@
 
 enum { AXIS_OF_FACE_A = 0, AXIS_OF_FACE_B = 1, AXIS_OF_EDGES = 2 };
 
+#define PROBES 6u
+#define FACE_LOOKS 16
+#define EDGES_LISTED 24u
+
 typedef struct {
   core_contact contact;
   uint kind;
   uint feature_a, feature_b; /* the face, or the two edges */
 } hull_axis;
 
-/* The deepest of the gaps over the faces of `shape`. sense: 1 if its outward normals point from a to b. */
-SHARED hull_axis best_face(hull_axis best, const convex *a, const convex *b, uint kind, real lead)
+/* Of the faces of one shape the one beyond which the other lies farthest. */
+typedef struct {
+  vec3 probe[PROBES]; /* points of the other shape, in the axes of this one */
+  uint probes;
+  uint main; /* the probe nearest to the face, or deepest behind it */
+  uint face;
+  real gap;   /* beyond that face */
+} face_search;
+
+/* --- faces -------------------------------------------------------------------------------------------- */
+
+SHARED void add_probe(face_search *s, const convex *shape, vec3 point)
 {
-  const convex *shape = kind == (uint)AXIS_OF_FACE_A ? a : b;
-  mask of_a = kind == (uint)AXIS_OF_FACE_A;
-  for (uint k = 0u; k < faces_of(shape); ++k) {
-    vec4 plane = plane_of_face(shape, k);
-    vec3 outward = from_shape_axes(shape, xyz(plane));
-    vec3 against = support_of(of_a ? b : a, negate(outward));
-    real gap = inner(subtract(against, shape->center), outward) - plane.w;
-    if (gap <= best.contact.gap + lead) continue;
-    best.contact.gap = gap;
-    best.contact.normal = of_a ? outward : negate(outward);
-    best.kind = kind;
-    best.feature_a = best.feature_b = k;
-    lead = minimum(lead, ROUNDING * magnitude(gap));
+  s->probe[s->probes % PROBES] = to_shape_axes(shape, subtract(point, shape->center));
+  s->probes = s->probes + 1u;
+}
+
+SHARED uint probes_of(const face_search *s) { return s->probes < PROBES ? s->probes : PROBES; }
+
+typedef struct { strip x, y, z, distance; } plane_strip;
+
+SHARED void load_plane_strip(plane_strip *planes, const convex *shape, uint k)
+{
+  if (shape->kind == (uint)SHAPE_HULL) {
+    uint at = shape->hull.first_strip + (strips_of(shape->hull.vertices) * 3u + k * 4u) * ROWS_OF_STRIP;
+    load_strip(&planes->x, shape->tables.strips, at);
+    load_strip(&planes->y, shape->tables.strips, at + ROWS_OF_STRIP);
+    load_strip(&planes->z, shape->tables.strips, at + 2u * ROWS_OF_STRIP);
+    load_strip(&planes->distance, shape->tables.strips, at + 3u * ROWS_OF_STRIP);
+    return;
   }
-  return best;
+  vec3 size = shape->size;
+  real one = R(1.0), none = R(0.0);
+  planes->x = STRIP_OF(one, -one, none, none, none, none, one, one);
+  planes->y = STRIP_OF(none, none, one, -one, none, none, none, none);
+  planes->z = STRIP_OF(none, none, none, none, one, -one, none, none);
+  planes->distance = STRIP_OF(size.x, size.x, size.y, size.y, size.z, size.z, size.x, size.x);
+}
+
+/* How far a point lies beyond each of eight faces. */
+SHARED void beyond_planes(strip *beyond, const plane_strip *planes, vec3 p)
+{
+  *beyond = planes->x * p.x + planes->y * p.y + planes->z * p.z - planes->distance;
+}
+
+/* Of eight faces: what no gap beyond each can exceed. */
+SHARED void bound_by_probes(strip *bound, const face_search *s, const convex *shape, uint k)
+{
+  plane_strip planes;
+  load_plane_strip(&planes, shape, k);
+  beyond_planes(bound, &planes, s->probe[0]);
+  for (uint j = 1u; j < probes_of(s); ++j) {
+    strip beyond;
+    beyond_planes(&beyond, &planes, s->probe[j]);
+    *bound = STRIP_CHOOSE(beyond < *bound, beyond, *bound);
+  }
+}
+
+SHARED highest_entry farthest_bound(const face_search *s, const convex *shape)
+{
+  strip_leader best;
+  start_strip_leader(&best);
+  for (uint k = 0u; k < strips_of(faces_of(shape)); ++k) {
+    strip bound;
+    bound_by_probes(&bound, s, shape, k);
+    challenge_by_strip(&best, &bound, k * STRIP);
+  }
+  return highest_of_strip(&best);
+}
+
+/* The point of the other shape nearest to a face, or deepest behind it, becomes a probe. */
+SHARED void look_at_face(face_search *s, const convex *shape, const convex *other, uint k)
+{
+  vec4 plane = plane_of_face(shape, k);
+  vec3 nearest = support_of(other, negate(from_shape_axes(shape, xyz(plane))));
+  uint at = s->probes % PROBES;
+  add_probe(s, shape, nearest);
+  real gap = inner(xyz(plane), s->probe[at]) - plane.w;
+  if (gap <= s->gap) return;
+  s->gap = gap;
+  s->face = k;
+  s->main = at;
+}
+
+/* least: gaps up to this do not matter; enough: one beyond it need not be exceeded. */
+SHARED void search_faces(face_search *s, const convex *shape, const convex *other, real least, real enough)
+{
+  s->gap = R(-1e30);
+  s->face = s->main = 0u;
+  for (int look = 0; look < FACE_LOOKS; ++look) {
+    highest_entry top = farthest_bound(s, shape);
+    if (top.height <= maximum(s->gap, least)) return;
+    look_at_face(s, shape, other, top.at);
+    if (s->gap >= top.height || s->gap > enough) return;
+  }
+  for (uint k = 0u; k < faces_of(shape); ++k) look_at_face(s, shape, other, k);
+}
+
+/* --- edges -------------------------------------------------------------------------------------------- */
+
+/* Edges that may matter. More than fit: all. */
+typedef struct {
+  uint edge[EDGES_LISTED];
+  uint count;
+} edge_list;
+
+SHARED void list_edge(edge_list *list, uint edge)
+{
+  uint kept = list->count < EDGES_LISTED ? list->count : EDGES_LISTED;
+  for (uint k = 0u; k < kept; ++k)
+    if (list->edge[k] == edge) return;
+  if (kept < EDGES_LISTED) list->edge[kept] = edge;
+  list->count = list->count + 1u;
+}
+SHARED uint edges_listed(const edge_list *list, const convex *shape) { return list->count <= EDGES_LISTED ? list->count : edges_of(shape); }
+SHARED uint listed_edge(const edge_list *list, uint k) { return list->count <= EDGES_LISTED ? list->edge[k] : k; }
+
+/* Does every probe leave room for an axis on the arc between the normals of the two faces? */
+SHARED mask edge_may_matter(const face_search *s, const convex *shape, uint left, uint right, real least)
+{
+  vec4 plane_left = plane_of_face(shape, left), plane_right = plane_of_face(shape, right);
+  for (uint j = 0u; j < probes_of(s); ++j)
+    if (inner(xyz(plane_left), s->probe[j]) - plane_left.w <= least && inner(xyz(plane_right), s->probe[j]) - plane_right.w <= least) return 0;
+  return 1;
+}
+
+SHARED void list_edges_of_face(edge_list *list, const face_search *s, const convex *shape, uint face, real least)
+{
+  if (shape->kind != (uint)SHAPE_HULL) {
+    for (uint k = 0u; k < 12u; ++k)
+      if (face_of_box_edge(k, 0u) == face || face_of_box_edge(k, 1u) == face)
+        if (edge_may_matter(s, shape, face_of_box_edge(k, 0u), face_of_box_edge(k, 1u), least)) list_edge(list, k);
+    return;
+  }
+  GLOBAL const uint *start = shape->tables.face_starts + shape->hull.first_face + face;
+  GLOBAL const uint *edge_of_corner = shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u + shape->hull.corners;
+  for (uint c = start[0]; c < start[1]; ++c) {
+    uint edge = edge_of_corner[c - shape->hull.first_corner];
+    if (edge == INDEX_NONE) continue;
+    GLOBAL const uint *entry = shape->tables.edges + 4u * (shape->hull.first_edge + edge);
+    if (edge_may_matter(s, shape, entry[2], entry[3], least)) list_edge(list, edge);
+  }
+}
+
+/* The edges that no probe rules out: one of their faces must then lie before the main one. */
+SHARED void list_edges(edge_list *list, const face_search *s, const convex *shape, real least)
+{
+  list->count = 0u;
+  for (uint k = 0u; k < strips_of(faces_of(shape)); ++k) {
+    plane_strip planes;
+    strip beyond;
+    real bounds[8];
+    load_plane_strip(&planes, shape, k);
+    beyond_planes(&beyond, &planes, s->probe[s->main]);
+    store_strip(bounds, &beyond);
+    for (uint n = 0u; n < STRIP; ++n)
+      if (bounds[n] > least && k * STRIP + n < faces_of(shape)) list_edges_of_face(list, s, shape, k * STRIP + n, least);
+  }
 }
 
 /* Do the arcs of the two edges cross on the Gauss map? */
@@ -63,13 +217,15 @@ SHARED polytope_edge placed_edge(const convex *shape, uint k)
 }
 
 /* noise: what rounding makes of the gap between two edges square to each other; the nearer to parallel, the more. */
-SHARED hull_axis best_edges(hull_axis best, const convex *a, const convex *b, real noise)
+SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *list_a, const convex *b, const edge_list *list_b, real noise)
 {
   real highest = best.contact.gap;
-  for (uint k = 0u; k < edges_of(b); ++k) {
-    polytope_edge edge_b = placed_edge(b, k);
-    for (uint j = 0u; j < edges_of(a); ++j) {
-      polytope_edge edge_a = edge_of(a, j); /* the larger shape is seen in its own axes */
+  for (uint k = 0u; k < edges_listed(list_b, b); ++k) {
+    uint index_b = listed_edge(list_b, k);
+    polytope_edge edge_b = placed_edge(b, index_b);
+    for (uint j = 0u; j < edges_listed(list_a, a); ++j) {
+      uint index_a = listed_edge(list_a, j);
+      polytope_edge edge_a = edge_of(a, index_a); /* the larger shape is seen in its own axes */
       if (!arcs_cross(&edge_a, &edge_b)) continue;
       edge_a.start = add(edge_a.start, a->center);
       vec3 axis = outer(edge_a.along, edge_b.along);
@@ -82,26 +238,64 @@ SHARED hull_axis best_edges(hull_axis best, const convex *a, const convex *b, re
       best.contact.gap = gap;
       best.contact.normal = axis;
       best.kind = AXIS_OF_EDGES;
-      best.feature_a = j;
-      best.feature_b = k;
+      best.feature_a = index_a;
+      best.feature_b = index_b;
     }
   }
   return best;
 }
 
-/* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. */
-SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lead)
+/* --- both --------------------------------------------------------------------------------------------- */
+
+SHARED hull_axis axis_of_face(const face_search *s, const convex *shape, uint kind)
 {
-  hull_axis none;
+  vec3 outward = from_shape_axes(shape, xyz(plane_of_face(shape, s->face)));
+  hull_axis axis;
+  axis.contact.normal = kind == (uint)AXIS_OF_FACE_A ? outward : negate(outward);
+  axis.contact.gap = s->gap;
+  axis.kind = kind;
+  axis.feature_a = axis.feature_b = s->face;
+  return axis;
+}
+
+/* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. limit: a gap beyond it
+ * need not be the largest. Where a face shows the two to be apart edges are not tried: the closest points are then wanted. */
+SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lead, real limit)
+{
+  vec3 between = subtract(b->center, a->center);
+  real distance = length_of(between);
+  hull_axis best;
+  best.contact.normal = distance > R(0.0) ? scale(between, R(1.0) / distance) : make_vec3(R(0.0), R(1.0), R(0.0));
+  vec3 of_a = support_of(a, best.contact.normal), of_b = support_of(b, negate(best.contact.normal));
+  best.contact.gap = inner(subtract(of_b, of_a), best.contact.normal);
+  best.kind = AXIS_OF_EDGES;
+  best.feature_a = best.feature_b = 0u;
+  if (best.contact.gap > limit) return best;
+
+  face_search faces_a, faces_b;
+  faces_a.probes = faces_b.probes = 0u;
+  add_probe(&faces_a, a, of_b);
+  search_faces(&faces_a, a, b, R(-1e30), limit);
+  best = axis_of_face(&faces_a, a, AXIS_OF_FACE_A);
+  if (faces_a.gap > limit) return best;
+
+  add_probe(&faces_b, b, of_a);
+  for (uint k = 0u; k < 3u; ++k)
+    add_probe(&faces_b, b, point_of_shape(a, corner_of_face(a, faces_a.face, k * corners_of_face(a, faces_a.face) / 3u)));
+  search_faces(&faces_b, b, a, faces_a.gap + lead, limit);
+  if (faces_b.gap > faces_a.gap + lead) best = axis_of_face(&faces_b, b, AXIS_OF_FACE_B);
+
+  if (best.contact.gap > R(0.0)) return best;
+  real least = best.contact.gap + lead, surely = minimum(least, R(0.0));
+  edge_list list_a, list_b;
+  list_edges(&list_a, &faces_a, a, surely);
+  if (list_a.count == 0u) return best;
+  list_edges(&list_b, &faces_b, b, surely);
+  if (list_b.count == 0u) return best;
+  hull_axis none = best;
   none.contact.gap = R(-1e30);
-  none.contact.normal = make_vec3(R(0.0), R(1.0), R(0.0));
-  none.kind = AXIS_OF_FACE_A;
-  none.feature_a = none.feature_b = 0u;
-  hull_axis best = best_face(none, a, b, AXIS_OF_FACE_A, R(0.0));
-  best = best_face(best, a, b, AXIS_OF_FACE_B, lead);
-  real noise = R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
-  hull_axis edges = best_edges(none, a, b, noise);
-  return edges.contact.gap > best.contact.gap + lead ? edges : best;
+  hull_axis edges = best_edges(none, a, &list_a, b, &list_b, R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)));
+  return edges.contact.gap > least ? edges : best;
 }
 
 #endif

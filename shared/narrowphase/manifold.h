@@ -95,4 +95,15 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *no
   store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
 }
 
+/* What the store above leaves of a manifold without points. */
+SHARED void store_no_manifold(uint stride, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+{
+  row nothing;
+  nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);
+  normals[i] = nothing;
+  for (uint k = 0u; k < 4u; ++k) points[stride * k + i] = nothing;
+  counts_of_points[i] = 0u;
+  features[i] = 0u;
+}
+
 #endif

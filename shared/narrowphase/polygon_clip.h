@@ -5,8 +5,8 @@
  *        .---x-----.     |            the reference (x; M. Cyrus, J. Beck, "Generalized two- and three-dimensional
  *         \  |      \    |            clipping", 1978), or a corner of the reference inside the moving outline (+).
  *          \ x-------x---+
- *           `---------`              The points are not kept: reduce_step() is told of one after the other, and the stream
- *                                    runs once for each of its few passes. So no outline has too many corners.
+ *           `---------`              The points are not collected: reduce_step() is told of one after the other. So no outline
+ *                                    has too many corners.
  *
  * A segment is an outline of one edge; between two segments the stream holds the ends of the stretch along which they run
  * together, or the one point where they cross.
@@ -39,6 +39,7 @@ typedef struct {
   real turn;             /* 1: the outline runs counter-clockwise; -1 */
   real slope_u, slope_v; /* of the height */
   vec3 kept[OUTLINE_KEPT];
+  real side[OUTLINE_KEPT]; /* of a reference: the length of the side that ends at the corner */
 } outline;
 
 SHARED vec3 outline_corner(const outline *o, uint k)
@@ -57,6 +58,16 @@ SHARED void make_outline(outline *o, const convex *shape, const support_face *fa
   o->slope_v = face->corners > 2u ? -normal.y / normal.z : R(0.0);
   for (uint k = 0u; k < OUTLINE_KEPT; ++k)
     if (k < face->corners) o->kept[k] = in_contact_axes(axes, face_corner(shape, face, k));
+}
+
+SHARED real length_of_side(vec3 side) { return square_root(side.x * side.x + side.y * side.y); }
+SHARED void measure_sides(outline *o)
+{
+  vec3 from = outline_corner(o, o->corners - 1u);
+  for (uint k = 0u; k < OUTLINE_KEPT && k < o->corners; ++k) {
+    o->side[k] = length_of_side(subtract(o->kept[k], from));
+    from = o->kept[k];
+  }
 }
 
 /* Height of a feature above the point (u, v). */
@@ -90,9 +101,8 @@ SHARED clip_point clipped_point(const clipping *clip, vec3 at, real height_of_ot
 }
 
 /* Cuts the stretch enter..leave of p + t edge to the inner side of from + s side. */
-SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, vec3 side, real turn, real slack)
+SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, vec3 side, real length, real turn, real slack)
 {
-  real length = square_root(side.x * side.x + side.y * side.y);
   real inside = (side.x * (p.y - from.y) - side.y * (p.x - from.x)) * turn + slack * length;
   real rate = (side.x * edge.y - side.y * edge.x) * turn;
   real parallel = ROUNDING * length * (magnitude(edge.x) + magnitude(edge.y));
@@ -112,7 +122,8 @@ SHARED void stream_moving_edge(reduction *r, const clipping *clip, vec3 p, vec3 
   real enter = R(0.0), leave = R(1.0);
   for (uint k = 0u; k < reference->corners && enter <= leave; ++k) {
     vec3 to = outline_corner(reference, k);
-    cut_by_side(&enter, &leave, p, edge, from, subtract(to, from), reference->turn, clip->slack);
+    vec3 side = subtract(to, from);
+    cut_by_side(&enter, &leave, p, edge, from, side, k < OUTLINE_KEPT ? reference->side[k] : length_of_side(side), reference->turn, clip->slack);
     from = to;
   }
   if (enter > leave) return;

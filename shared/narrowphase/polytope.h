@@ -60,6 +60,12 @@ SHARED polytope_edge edge_of_box(vec3 extent, uint k)
   edge.along = multiply(from_axis(axis, R(2.0) * sense, R(0.0), R(0.0)), extent);
   return edge;
 }
+/* Face to the left (side 0) or right (1) of an edge of a box. */
+SHARED uint face_of_box_edge(uint edge, uint side)
+{
+  uint axis = ((edge >> 2u) + 1u + side) % 3u;
+  return axis * 2u + (((edge >> side) & 1u) == 1u ? 0u : 1u);
+}
 SHARED polytope_edge edge_of(const convex *shape, uint k)
 {
   if (shape->kind != (uint)SHAPE_HULL) return edge_of_box(shape->size, k);

@@ -62,35 +62,32 @@ SHARED uint box_face_toward(vec3 own)
   return axis * 2u + (coordinate(own, axis) < R(0.0) ? 1u : 0u);
 }
 
-SHARED mask face_has_vertex(const convex *shape, uint k, natural vertex)
-{
-  GLOBAL const uint *start = shape->tables.face_starts + shape->hull.first_face + k;
-  for (uint c = start[0]; c < start[1]; ++c)
-    if (shape->tables.corners[c] == vertex) return 1;
-  return 0;
-}
 /* Of the faces at the farthest vertex: a face elsewhere may be squarer to the direction, yet lie lower. */
 SHARED uint hull_face_toward(const convex *shape, vec3 own)
 {
   natural vertex = support_vertex(shape, own);
+  GLOBAL const uint *links = shape->tables.links + shape->hull.first_link;
   uint best = 0u;
   real most = R(-2.0);
-  for (uint k = 0u; k < shape->hull.faces; ++k) {
-    real cosine = inner(xyz(plane_of_face(shape, k)), own);
-    if (cosine <= most + FACE_LEAD || !face_has_vertex(shape, k, vertex)) continue;
+  for (uint k = links[vertex]; k < links[vertex + 1u]; ++k) {
+    real cosine = inner(xyz(plane_of_face(shape, links[k])), own);
+    if (cosine <= most + FACE_LEAD) continue;
     most = cosine;
-    best = k;
+    best = links[k];
   }
   return best;
 }
 
-SHARED support_face polytope_feature(const convex *shape, vec3 own)
+SHARED support_face face_of_polytope(const convex *shape, uint k)
 {
-  uint k = shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own);
   support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), k);
   face.corners = corners_of_face(shape, k);
   face.normal = from_shape_axes(shape, xyz(plane_of_face(shape, k)));
   return face;
+}
+SHARED support_face polytope_feature(const convex *shape, vec3 own)
+{
+  return face_of_polytope(shape, shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own));
 }
 
 SHARED support_face cylinder_feature(const convex *shape, vec3 own)

@@ -47,8 +47,6 @@ typedef struct {
   vec3 offset;
 } body_pair;
 
-SHARED vec3 velocity_at(motion m, vec3 arm) { return add(m.linear, outer(m.angular, arm)); }
-
 SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
 {
   return subtract(velocity_at(bodies.motion_b, arm_b), velocity_at(bodies.motion_a, arm_a));
@@ -126,6 +124,11 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
   return (b - a) * inner(make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), normal);
 }
 
+/* What constraint_normal keeps beside the normal. Of bodies that meet within the step the arms are those of that moment, and
+ * stay so: the number is then below 0. */
+SHARED real packed_friction(real friction, mask at_impact) { return choose(at_impact, R(-1.0) - friction, friction); }
+SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
+
 /* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist. Of a fast
  * spinning box the manifold also holds corners that are far ahead; they take part only where no point is near. */
 typedef struct { vec3 center; real radius; } friction_patch;
@@ -185,7 +188,13 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
   body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
-  vec3 normal = xyz(load_row(manifold_normal, pair));
+  vec4 manifold = load_row(manifold_normal, pair);
+  vec3 normal = xyz(manifold);
+  mask at_impact = manifold.w > R(0.0);
+  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
+    vec3 approached = add_scaled(bodies.offset, subtract(bodies.motion_b.linear, bodies.motion_a.linear), manifold.w);
+    bodies.offset = choose3(at_impact, approached, bodies.offset);
+  }
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
   natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a), shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
   surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)), material_of(load_natural(body_traits, shape_b)));
@@ -221,7 +230,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_natural(constraint_pair, i, pair);
   store_natural(constraint_a, i, bodies.a);
   store_natural(constraint_b, i, bodies.b);
-  store_row(constraint_normal, i, extend(normal, friction));
+  store_row(constraint_normal, i, extend(normal, packed_friction(friction, at_impact)));
   store_row(constraint_center, i, extend(center, friction_mass(bodies, center, center_b, normal)));
   store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, normal)));
   store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));

@@ -21,6 +21,7 @@ typedef struct {
   symmetric3 inertia_a, inertia_b;
   vec3 normal;
   real friction;
+  real follows; /* 1: arms follow what the bodies slide past each other; 0: they are those of an impact */
 } contact;
 
 SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
@@ -35,7 +36,8 @@ SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *
   c.inertia_b = load_inertia(solver_inertia, c.b);
   vec4 normal = load_row(constraint_normal, i);
   c.normal = xyz(normal);
-  c.friction = normal.w;
+  c.friction = friction_of(normal.w);
+  c.follows = choose(normal.w < R(0.0), (real)R(0.0), (real)R(1.0));
   return c;
 }
 
@@ -87,13 +89,14 @@ SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
 }
 
 /* What the bodies have slid past each other since their arms were measured. Arms must end in one point of the world, or an
- * impulse through them adds angular momentum: a body that cannot move takes the whole difference, two that can share it. */
+ * impulse through them adds angular momentum: a body that cannot move takes the whole difference, two that can share it. Arms of
+ * an impact within the step are those of its moment, whatever the bodies have moved or will. */
 typedef struct { vec3 a, b; } arm_shift;
 
 SHARED arm_shift shift_of_arms(contact c, vec3 slid)
 {
   real share = choose(c.motion_a.inverse_mass == R(0.0), (real)R(1.0), choose(c.motion_b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
-  arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
+  arm_shift s = {scale(slid, share * c.follows), scale(slid, (share - R(1.0)) * c.follows)};
   return s;
 }
 

@@ -234,9 +234,10 @@ TEST_CASE("a trigger of listed nodes has its parts there, under the name of the 
   CHECK((scene.bodies[0].name == "Gate" && scene.bodies[0].trigger));
   CHECK(near(rounded(scene.bodies[0].position), 1, 5, 0));
   const std::string place = temporary_path + ": node 'Gate': ";
-  const Scene both = loaded({.nodes = trigger(R"("nodes":[1,2])", R"("name":"Gate","children":[1,2],)") + "," + ball_trigger + "," + trigger(R"("geometry":{"shape":0})", R"("translation":[3,0,0],)")});
-  REQUIRE((both.bodies.size() == 1 && both.bodies[0].trigger && both.shapes[both.bodies[0].shape].compound));
-  CHECK(both.shapes[both.bodies[0].shape].compound->children[1].position == Vec3{3, 0, 0});
+  const Scene two = loaded({.nodes = trigger(R"("nodes":[1,2])", R"("name":"Gate","children":[1,2],)") + "," + ball_trigger + "," + ball_trigger});
+  REQUIRE(two.bodies.size() == 1);
+  CHECK(two.bodies[0].trigger);
+  CHECK(two.shapes[two.bodies[0].shape].compound->children.size() == 2);
   CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1])", R"("name":"Gate",)") + "," + ball_trigger}),
              ContainsSubstring(place) && ContainsSubstring("lists node 1, which is no node below it with a trigger geometry"));
   CHECK_THAT(complaint({.nodes = trigger(R"("nodes":[1])", list) + "," + collider(0)}), ContainsSubstring("lists node 1, which is no node below it"));

@@ -67,7 +67,7 @@ bool same_bits(const Body &a, const Body &b)
          same_bits(a.mass, b.mass) && same_bits(a.inertia, b.inertia) && a.infinite_inertia == b.infinite_inertia &&
          same_bits(a.gravity_factor, b.gravity_factor) && same_bits(a.linear_damping, b.linear_damping) &&
          same_bits(a.angular_damping, b.angular_damping) && a.filter_group == b.filter_group &&
-         a.filter_mask == b.filter_mask;
+         a.filter_mask == b.filter_mask && a.continuous == b.continuous;
 }
 
 void check_same(const Scene &a, const Scene &b)
@@ -140,6 +140,7 @@ Scene scene_of_odd_numbers()
     body.linear_damping = std::abs(any_float(random));
     body.filter_group = uint32_t(random.next());
     body.filter_mask = uint32_t(random.next());
+    body.continuous = random.below(2) == 1;
     scene.bodies.push_back(body);
   }
   for (uint32_t shape = 4; shape < scene.shapes.size(); ++shape) {

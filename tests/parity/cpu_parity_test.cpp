@@ -17,6 +17,9 @@ TEST_CASE("parity on CPU: hulls-on-mesh") { require_parity("hulls-on-mesh:n=40",
 TEST_CASE("parity on CPU: meshes and compounds of every kind") { require_parity(few_trees(), cpu_backends(), 60); }
 TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
 
+TEST_CASE("parity on CPU: thin-wall") { require_parity(small_scenes()[10], cpu_backends(), 12); }
+TEST_CASE("parity on CPU: bullet-stack") { require_parity(small_scenes()[11], cpu_backends(), 12); }
+
 TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
 {
   for (const std::string &narrowphase : narrowphase_names())
@@ -27,6 +30,29 @@ TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
       CAPTURE(narrowphase);
       require_parity(every_shape(), cpu_backends(), 30, settings);
     }
+}
+
+/* One kernel or four, and exact ways to a hull's farthest vertex. */
+TEST_CASE("parity on CPU: what must not change a result of convex shapes")
+{
+  for (const std::string &scene : {std::string("convex-hulls:n=60"), every_shape()}) {
+    const uint64_t expected = state_after(scene, "serial", 60);
+    Settings split, climbing;
+    split.narrowphase = "sat-split";
+    climbing.support = "hill-climbing";
+    CHECK(state_after(scene, "serial", 60, split) == expected);
+    CHECK(state_after(scene, "tbb:threads=2", 60, climbing) == expected);
+  }
+}
+
+TEST_CASE("parity on CPU: supports of hulls")
+{
+  for (const std::string &support : support_names()) {
+    Settings settings;
+    settings.support = support;
+    CAPTURE(support);
+    require_parity("convex-hulls:n=40", cpu_backends(), 30, settings);
+  }
 }
 
 /* Broadphases find the same pairs in different ways, batchings colour them differently: each must be exact by itself. */

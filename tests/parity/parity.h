@@ -28,6 +28,7 @@ inline const std::vector<std::string> &small_scenes()
       "shapes:n=60",                      "convex-hulls:n=60",            "rolling",
       every_shape(),                      "compounds:n=40",               "hulls-on-mesh:n=40",
       few_trees(),
+      "thin-wall:n=40",               "bullet-stack:rows=2,height=3",
   };
   return scenes;
 }

@@ -9,8 +9,11 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <span>
 #include <stdint.h>
 #include <vector>
+
+#include "host/hull_strips.h"
 
 /* Types of memory are wider too, so all of it lives in a namespace of its own, as in minicl/reference.cpp. */
 #define TANDEM_REFERENCE

@@ -15,6 +15,7 @@
 #include <set>
 #include <vector>
 
+#include "host/hull_strips.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 
@@ -50,12 +51,13 @@ struct Hull {
   std::vector<Face> faces;
   std::vector<std::array<uint32_t, 4>> edges;
 
-  std::vector<uint> headers, face_starts, corners, edge_table;
-  std::vector<row> rows, planes;
+  std::vector<uint> headers, face_starts, corners, edge_table, links;
+  uint support = SUPPORT_BRUTE_FORCE;
+  std::vector<row> rows, planes, strips;
 
   hull_tables tables() const
   {
-    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data(), nullptr, nullptr};
+    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data(), strips.data(), links.data(), nullptr, nullptr, support};
   }
 };
 
@@ -94,6 +96,7 @@ inline void sort_corners(const std::vector<Vector> &points, Hull::Face &face)
 
 inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
 {
+  constexpr uint map_side = 8;
   auto hull = std::make_shared<Hull>();
   for (const Vector &p : given) hull->vertices.push_back(p.cast<float>().cast<double>());
   double size = 0;
@@ -124,7 +127,13 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
   }
   for (const Vector &p : hull->vertices) hull->rows.push_back({memory_real(p.x()), memory_real(p.y()), memory_real(p.z()), 0});
   for (const auto &edge : hull->edges) hull->edge_table.insert(hull->edge_table.end(), edge.begin(), edge.end());
-  hull->headers = {0, uint(n), 0, uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size())};
+  hull->headers = {0, uint(n), 0, uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()), 0, 0, map_side};
+  std::vector<std::vector<uint32_t>> faces;
+  for (const Hull::Face &face : hull->faces) faces.push_back(face.corners);
+  ::tandem::append_strips(hull->strips, hull->rows, 3);
+  ::tandem::append_strips(hull->strips, hull->planes, 4);
+  ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
+  ::tandem::append_cube_map(hull->links, std::span(hull->rows), map_side);
   return hull;
 }
 

@@ -1,0 +1,146 @@
+/* hull_support.h - the tables of convex hulls, and three ways to the vertex of a hull farthest in a direction.
+ *
+ *   SUPPORT_BRUTE_FORCE    all of them, eight at once (strip.h): best up to some hundred vertices, and never branches
+ *   SUPPORT_HILL_CLIMBING  from the vertex that a cube map names uphill; for large hulls. The same vertex, always
+ *   SUPPORT_CUBE_MAP       the vertex that the map names: near the farthest, by how much docs/pipeline.md says
+ *
+ *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex farthest
+ *      | 3 | 3 | 7 |     in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans, 2012, 2013.)
+ *      +---+---+---+
+ *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are the corners
+ *      '---+---+---'     of all faces around a vertex, so that a face may be a little uneven. Heights within rounding of each
+ *                        other (a face or edge square to the direction) are no proof: then all are looked at.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
+#define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
+
+#include "shared/body_codes.h"
+#include "shared/math.h"
+#include "shared/strip.h"
+
+/* Largest relative error of one rounding. */
+#ifdef TANDEM_REFERENCE
+#define ROUNDING 1.2e-16
+#else
+#define ROUNDING 6.0e-8f
+#endif
+
+/* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
+ * edges, first corner, corners, first row of strips, first link, cells along a side of the cube map. */
+#define HULL_HEADER 11u
+typedef struct {
+  GLOBAL const uint *headers;     /* HULL_HEADER a hull */
+  GLOBAL const row *vertices;     /* x y z: about the origin of the shape's axes */
+  GLOBAL const row *planes;       /* a face: outward unit normal, distance from the origin */
+  GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
+  GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
+  GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
+  GLOBAL const row *strips;       /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h) */
+  GLOBAL const uint *links;       /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
+                                     vertex, ascending; for each corner the edge to the next; the cube map */
+  GLOBAL const row *mesh_vertices;   /* x y z: about the origin of the mesh's axes */
+  GLOBAL const uint *mesh_triangles; /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours across 0-1, 1-2, 2-0 */
+  uint support;                   /* SUPPORT_ */
+} hull_tables;
+
+typedef struct {
+  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link, map_side;
+} hull_ranges;
+
+SHARED uint strips_of(uint entries) { return (entries + STRIP - 1u) / STRIP; }
+
+SHARED hull_ranges ranges_of_hull(const hull_tables *tables, uint hull)
+{
+  GLOBAL const uint *header = tables->headers + hull * HULL_HEADER;
+  hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5], header[6], header[7], header[8], header[9], header[10]};
+  return ranges;
+}
+
+/* Ties go to the lowest vertex. */
+SHARED natural highest_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
+{
+  strip_leader best;
+  start_strip_leader(&best);
+  for (uint k = 0u; k < strips_of(hull->vertices); ++k) {
+    uint at = hull->first_strip + k * 3u * ROWS_OF_STRIP;
+    strip x, y, z;
+    load_strip(&x, tables->strips, at);
+    load_strip(&y, tables->strips, at + ROWS_OF_STRIP);
+    load_strip(&z, tables->strips, at + 2u * ROWS_OF_STRIP);
+    strip height = x * direction.x + y * direction.y + z * direction.z;
+    challenge_by_strip(&best, &height, k * STRIP);
+  }
+  return highest_of_strip(&best).at;
+}
+
+/* Which of `cells` along a side of the cube, for -1 <= x <= 1. */
+SHARED uint cell_of_side(real x, uint cells)
+{
+  int cell = truncate_to_int((x + R(1.0)) * R(0.5) * to_real(cells));
+  return cell < 0 ? 0u : (uint)cell < cells ? (uint)cell : cells - 1u;
+}
+/* Side: 0 1 +x -x, 2 3 +y -y, 4 5 +z -z; rows of cells along the two axes after it. */
+SHARED uint cell_of_cube(vec3 direction, uint cells)
+{
+  vec3 size = absolute(direction);
+  mask x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
+  real along = x ? direction.x : y ? direction.y : direction.z, most = x ? size.x : y ? size.y : size.z;
+  real u = x ? direction.y : y ? direction.z : direction.x, v = x ? direction.z : y ? direction.x : direction.y;
+  uint side = (x ? 0u : y ? 2u : 4u) + (along < R(0.0) ? 1u : 0u);
+  if (!(most > R(0.0))) return 0u;
+  return (side * cells + cell_of_side(v / most, cells)) * cells + cell_of_side(u / most, cells);
+}
+SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
+{
+  return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners + cell_of_cube(direction, hull->map_side)];
+}
+
+SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull, uint k, vec3 direction)
+{
+  return inner(xyz(load_row(tables->vertices, hull->first_vertex + k)), direction);
+}
+
+/* The highest of a vertex and those with which it shares a face; rival: another one is as high, for all that can be told. */
+SHARED natural uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding, mask *rival)
+{
+  GLOBAL const uint *links = tables->links + hull->first_link;
+  uint best = from;
+  real highest = height_of_vertex(tables, hull, from, direction);
+  *rival = 0;
+  for (uint f = links[from]; f < links[from + 1u]; ++f) {
+    GLOBAL const uint *start = tables->face_starts + hull->first_face + links[f];
+    for (uint c = start[0]; c < start[1]; ++c) {
+      uint k = tables->corners[c];
+      real height = height_of_vertex(tables, hull, k, direction);
+      if (k == best || height < highest - rounding) continue;
+      *rival = height <= highest + rounding;
+      if (height <= highest) continue;
+      highest = height;
+      best = k;
+    }
+  }
+  return best;
+}
+SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
+{
+  real rounding = R(16.0) * ROUNDING * length_of(size);
+  natural at = vertex_of_cube_map(tables, hull, direction);
+  for (uint step = 0u; step < hull->vertices; ++step) {
+    mask rival;
+    natural next = uphill(tables, hull, at, direction, rounding, &rival);
+    if (next == at && rival) break;
+    if (next == at) return at;
+    at = next;
+  }
+  return highest_vertex(tables, hull, direction);
+}
+
+/* size: half extents of a box around the hull, centred at the origin of its axes. */
+SHARED natural hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
+{
+  if (tables->support == (uint)SUPPORT_HILL_CLIMBING) return climbed_vertex(tables, hull, direction, size);
+  if (tables->support == (uint)SUPPORT_CUBE_MAP) return vertex_of_cube_map(tables, hull, direction);
+  return highest_vertex(tables, hull, direction);
+}
+
+#endif

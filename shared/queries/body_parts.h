@@ -1,0 +1,85 @@
+/* body_parts.h - the convex parts of a body that a straight way comes near: its one shape, or leaves of its tree.
+ *
+ *        from o- - - - - - ->  way        Tree walks are those of midphase/tree.h; a box counts as near unless one of the axes of box
+ *                 +----+                  and way separates them (Ericson, "Real-Time Collision Detection", 2005, section 5.3.3).
+ *                 |    |
+ */
+#ifndef TANDEM_SHARED_QUERIES_BODY_PARTS_H
+#define TANDEM_SHARED_QUERIES_BODY_PARTS_H
+
+#include "shared/midphase/tree.h"
+#include "shared/narrowphase/collide_convex.h"
+#include "shared/queries/nearest.h"
+
+/* What queries know of the scene. */
+typedef struct {
+  GLOBAL const Parameters *parameters;
+  GLOBAL const uint *traits, *convexes, *body_trees;
+  GLOBAL const row *shapes, *poses, *orientations;
+  hull_tables tables;
+  tree_tables trees;
+} query_scene;
+
+/* A way through one body, in the axes of its tree. */
+typedef struct {
+  uint body, node, end, first_child; /* nodes from `node` to `end` are still to come; of a body without a tree one */
+  mask has_tree;
+  tree t;
+  vec3 center; /* of the body, seen from the start of the query */
+  vec3 middle, half;
+  real radius;
+} part_walk;
+
+/* way: from the start of the query; radius: of what goes along it. */
+SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, vec3 way, real radius)
+{
+  part_walk walk;
+  walk.body = body;
+  walk.center = center;
+  walk.node = 0u;
+  walk.end = 1u;
+  walk.has_tree = HAS_FEATURE(scene->parameters, FEATURE_TREES) && scene->body_trees[body * 2u] != INDEX_NONE;
+  if (!walk.has_tree) return walk;
+  quat turned = quat_from(load_row(scene->orientations, body)), own = quat_from(load_row(scene->poses, body * 4u + 1u));
+  mat3 rotation = rotation_of(quat_multiply(turned, own));
+  vec3 origin = add(center, rotate(rotation_of(turned), xyz(load_row(scene->poses, body * 4u))));
+  walk.first_child = scene->body_trees[body * 2u + 1u];
+  walk.t = load_tree(scene->trees, scene->body_trees[body * 2u]);
+  walk.end = walk.t.nodes;
+  walk.half = rotate_back(rotation, scale(way, R(0.5)));
+  walk.middle = subtract(walk.half, rotate_back(rotation, origin));
+  walk.radius = radius + R(1e-6) * (length_of(origin) + length_of(way) + load_row(scene->shapes, body).w);
+  return walk;
+}
+
+SHARED mask way_near_box(const part_walk *walk, box_bounds box)
+{
+  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half), c = absolute(from_box);
+  vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)), across = absolute(outer(from_box, walk->half));
+  vec3 h = make_vec3(extent.x + walk->radius, extent.y + walk->radius, extent.z + walk->radius);
+  if (c.x > h.x + d.x || c.y > h.y + d.y || c.z > h.z + d.z) return 0;
+  return across.x <= h.y * d.z + h.z * d.y && across.y <= h.z * d.x + h.x * d.z && across.z <= h.x * d.y + h.y * d.x;
+}
+
+/* The next leaf; false when there is none. */
+SHARED mask next_part(const query_scene *scene, part_walk *walk, convex *part)
+{
+  if (!walk->has_tree) {
+    if (walk->node++ > 0u) return 0;
+    *part = shape_of_body(scene->traits, scene->shapes, scene->convexes, scene->poses, scene->orientations, scene->tables, walk->center, walk->body);
+    return 1;
+  }
+  while (walk->node < walk->end) {
+    uint word = word_of_node(scene->trees, &walk->t, walk->node);
+    mask near = way_near_box(walk, bounds_of_node(scene->trees, &walk->t, walk->node));
+    walk->node = walk->node + (near ? 1u : subtree_size(word));
+    if (!near || !is_leaf(word)) continue;
+    GLOBAL const uint *entry = scene->trees.leaves + (walk->t.first_leaf + word) * 2u;
+    body_part leaf = {walk->body, entry[0] == INDEX_NONE ? walk->body : walk->first_child + entry[0], entry[1]};
+    *part = load_convex(scene->shapes, scene->convexes, scene->poses, scene->orientations, scene->tables, walk->center, leaf);
+    return 1;
+  }
+  return 0;
+}
+
+#endif

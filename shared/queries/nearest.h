@@ -1,0 +1,79 @@
+/* nearest.h - what every query asks of every body: may it be hit, can it be, and is it nearer than the nearest so far.
+ *
+ * The loop over bodies stands in each query and asks three things; an acceleration structure only has to hand out fewer of
+ * them, in any order: nearest_hit does not depend on it.
+ */
+#ifndef TANDEM_SHARED_QUERIES_NEAREST_H
+#define TANDEM_SHARED_QUERIES_NEAREST_H
+
+#include "shared/narrowphase/convex.h"
+
+typedef struct {
+  uint body;     /* its number in the scene, INDEX_NONE for nothing */
+  real fraction; /* of the way */
+  vec3 normal;   /* of the body's surface, unit, outward; against the way where it starts inside */
+  vec3 point;    /* on it, from the start */
+} first_hit;
+
+SHARED first_hit nothing_hit(void)
+{
+  first_hit hit = {INDEX_NONE, R(0.0), {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}};
+  return hit;
+}
+
+/* Of hits at one place the body of the lower number. */
+SHARED first_hit nearer_hit(first_hit a, first_hit b)
+{
+  if (a.body == INDEX_NONE) return b;
+  if (b.body == INDEX_NONE) return a;
+  if (b.fraction != a.fraction) return b.fraction < a.fraction ? b : a;
+  return b.body < a.body ? b : a;
+}
+
+/* query_body: number in the scene, group, mask; query_filter: group, mask. */
+SHARED mask may_hit(GLOBAL const uint *traits, GLOBAL const uint *query_body, GLOBAL const uint *query_filter, uint body, uint query)
+{
+  if (motion_of(traits[body]) == (uint)MOTION_QUARANTINED) return 0;
+  return (query_body[4u * body + 1u] & query_filter[2u * query + 1u]) != 0u && (query_body[4u * body + 2u] & query_filter[2u * query]) != 0u;
+}
+
+/* Whether a ball that moves comes near one that does not; both radii with what rounding may take. way: from the start. */
+SHARED mask passes_near(vec3 center, vec3 way, real radius)
+{
+  real square = length_squared(way), along = inner(center, way);
+  real t = square > R(0.0) ? clamped(along / square, R(0.0), R(1.0)) : R(0.0);
+  real rounding = R(8.0) * ROUNDING * (length_of(center) + square_root(square));
+  real most = radius + rounding;
+  return length_squared(add_scaled(center, way, -t)) <= most * most * R(1.000001);
+}
+
+/* Seen from a place of the world: a body's centre, from two floats less two floats. */
+SHARED vec3 seen_from(GLOBAL const row *positions, uint body, place from)
+{
+  place p = load_place(positions, body);
+  return add(subtract(p.high, from.high), subtract(p.low, from.low));
+}
+
+/* Any body's shape, also one that the narrowphase has a test of its own for. */
+SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                            GLOBAL const row *orientations, hull_tables tables, vec3 center, uint body)
+{
+  uint kind = shape_of(traits[body]), hull = 0u;
+  quat turned = quat_from(load_row(orientations, body));
+  if (kind == (uint)SHAPE_OTHER) {
+    kind = convexes[body * 2u];
+    hull = convexes[body * 2u + 1u];
+    center = add(center, rotate(rotation_of(turned), xyz(load_row(poses, body * 4u))));
+    turned = quat_multiply(turned, quat_from(load_row(poses, body * 4u + 1u)));
+  }
+  return convex_of(kind, xyz(load_row(shapes, body)), rotation_of(turned), center, make_vec3(R(0.0), R(0.0), R(0.0)), hull, tables);
+}
+
+SHARED void store_hit(first_hit hit, GLOBAL row *hits, GLOBAL row *points, GLOBAL uint *bodies, uint i)
+{
+  store_row(hits, i, extend(hit.normal, hit.fraction));
+  store_row(points, i, extend(hit.point, R(0.0)));
+  bodies[i] = hit.body;
+}
+
+#endif

@@ -1,0 +1,84 @@
+/* Rays and sweeps give the same bits on every backend. */
+#include <cstring>
+
+#include "host/random.h"
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+using namespace tandem::parity;
+
+namespace {
+
+struct Answers {
+  std::vector<RayHit> rays;
+  std::vector<SweepHit> sweeps;
+  size_t found = 0;
+};
+
+Answers ask(const std::string &scene, const std::string &backend, size_t queries, int steps)
+{
+  Settings settings;
+  settings.specialise = false; /* one build for all scenes */
+  World world(load_scene(scene), settings, Placement{backend, {}, false});
+  for (int k = 0; k < steps; ++k) world.step();
+  Random random(5);
+  const auto uniform3 = [&](double size) { return Point{random.uniform(-size, size), random.uniform(0, 2 * size), random.uniform(-size, size)}; };
+  std::vector<Ray> rays(queries);
+  std::vector<Pose> poses(queries);
+  std::vector<Vec3> ways(queries);
+  for (size_t k = 0; k < queries; ++k) {
+    rays[k].origin = uniform3(6);
+    poses[k] = {uniform3(6), random.orientation()};
+    const Point ray_to = uniform3(3), sweep_to = uniform3(3);
+    for (size_t axis = 0; axis < 3; ++axis) {
+      rays[k].direction[axis] = float(1.5 * (ray_to[axis] - rays[k].origin[axis]));
+      ways[k][axis] = float(sweep_to[axis] - poses[k].position[axis]);
+    }
+  }
+  Answers answers;
+  answers.rays = world.cast_rays(rays);
+  for (const Shape &shape : {sphere_shape(0.1f), box_shape(0.2f, 0.1f, 0.15f), world.scene().shapes.front()}) {
+    if (shape.type == ShapeType::half_space) continue;
+    const std::vector<SweepHit> hits = world.sweep(shape, poses, ways);
+    answers.sweeps.insert(answers.sweeps.end(), hits.begin(), hits.end());
+  }
+  for (const RayHit &hit : answers.rays) answers.found += hit.body != no_body;
+  for (const SweepHit &hit : answers.sweeps) answers.found += hit.body != no_body;
+  return answers;
+}
+
+bool same_bits(const std::vector<QueryHit> &a, const std::vector<QueryHit> &b)
+{
+  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const QueryHit &p, const QueryHit &q) {
+           return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0 && std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 &&
+                  std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
+         });
+}
+
+void require_equal_answers(const std::string &scene, const std::vector<std::string> &backends, size_t queries, int steps)
+{
+  const Answers expected = ask(scene, "serial", queries, steps);
+  CAPTURE(scene);
+  REQUIRE(expected.found > queries / 4);
+  for (const std::string &backend : backends) {
+    CAPTURE(backend);
+    const Answers found = ask(scene, backend, queries, steps);
+    CHECK(same_bits(found.rays, expected.rays));
+    CHECK(same_bits(found.sweeps, expected.sweeps));
+  }
+}
+
+} // namespace
+
+TEST_CASE("parity on CPU: queries")
+{
+  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40", "convex-hulls:n=30"}) require_equal_answers(scene, cpu_backends(), 300, 5);
+}
+
+TEST_CASE("parity on CPU: threads share queries", "[sanitizer]") { require_equal_answers("shapes:n=30", {"tbb:threads=4"}, 500, 1); }
+
+TEST_CASE("parity on OpenCL: queries")
+{
+  if (!has_pocl()) return;
+  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40"}) require_equal_answers(scene, {"cl:pocl"}, 300, 2);
+}
