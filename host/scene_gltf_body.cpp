@@ -103,9 +103,9 @@ void GltfBodies::place_alone(const BodyNodes &nodes, Body &body)
   body.filter_group = collider.filter.group;
   body.filter_mask = collider.filter.mask;
   set_frame({collider.position, collider.orientation, {}}, body);
-  const bool apart = at.node != nodes.body.node, plane = collider.shape.type == ShapeType::half_space;
+  const bool apart = nodes.moves && at.node != nodes.body.node, plane = collider.shape.type == ShapeType::half_space;
   if (apart && plane) document_.refuse(at.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
-  if (!plane && (apart || collider.position != frame.position)) move_frame(body, frame.position, frame.orientation);
+  if (!plane && (apart || (at.node == nodes.body.node && collider.position != frame.position))) move_frame(body, frame.position, frame.orientation);
 }
 
 /* Children stand in the frame of the node with the motion; its scale went into their places and sizes. */

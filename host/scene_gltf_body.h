@@ -5,6 +5,8 @@
  *   several                       a compound of them: each a child, with material and filter of its own
  *   none                          a ball that meets nothing: the motion goes on
  *
+ * Triggers likewise, which have no material.
+ *
  * Not a public header.
  */
 #pragma once

@@ -100,10 +100,11 @@ Shape read_hull(const JsonValue &json)
 {
   only_one(json, "points", "obj");
   const std::optional<JsonValue> file = json.find("obj");
-  std::vector<Vec3> points = file ? read_obj(*file).vertices : read_points(json.member("points"));
+  const JsonValue source = file ? *file : json.member("points");
+  std::vector<Vec3> points = file ? read_obj(source).vertices : read_points(source);
   std::vector<Triangle> none;
   take_scale(json, points, none);
-  return hull_shape(points, json.place());
+  return hull_shape(points, source.place());
 }
 
 Shape read_mesh(const JsonValue &json)
@@ -222,7 +223,7 @@ void read_shape(const JsonValue &json, Shape &shape)
   std::vector<const char *> known = keys_of(name);
   std::optional<JsonValue> size = json.find("size");
   for (const char *key : replaced_by_size(name)) only_one(json, "size", key);
-  known.push_back("type");
+  known.insert(known.begin(), "type");
   json.only_keys(known);
   if (name == hull) shape = read_hull(json);
   else if (name == mesh) shape = read_mesh(json);

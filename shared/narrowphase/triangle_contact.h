@@ -104,6 +104,13 @@ SHARED mask normal_permitted(const triangle_pair *pair, vec3 normal)
 {
   return (!pair->of_a || surface_permits(pair->a, &pair->sides_a, normal)) && (!pair->of_b || surface_permits(pair->b, &pair->sides_b, negate(normal)));
 }
+/* The way out leads into the back of a triangle: another face of its solid touches. Of two triangles, one may well be seen so. */
+SHARED mask leads_behind(const triangle_pair *pair, vec3 normal)
+{
+  if (pair->of_a && pair->of_b) return 0;
+  return (pair->of_a && inner(normal, pair->sides_a.normal) < -LEAN_NOISE) || (pair->of_b && inner(normal, pair->sides_b.normal) > LEAN_NOISE);
+}
+
 /* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape outside. */
 SHARED core_contact contact_along_face(const triangle_pair *pair)
 {
@@ -161,6 +168,7 @@ SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real r
   look_at_triangles(&triangles, a, b, thickness);
   if (!triangles.outside_a && !triangles.outside_b) return 0;
   core_contact contact = near.overlapping ? triangle_penetration(&triangles, pair->up, lead * R(0.25)) : near.contact;
+  if (leads_behind(&triangles, contact.normal)) return 0;
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return 0;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
