@@ -34,7 +34,7 @@ public:
   Tables(const Shape &shape, uint32_t cells) : world_(scene_of(shape), settings_of(cells), Placement{"serial", {}, false}) {}
   hull_tables of(uint32_t support) const
   {
-    return {headers_.data(), vertices_.data(), planes_.data(), starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), support};
+    return {headers_.data(), vertices_.data(), planes_.data(), starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), nullptr, nullptr, support};
   }
 
 private:
