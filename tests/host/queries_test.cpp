@@ -90,6 +90,8 @@ struct Solid {
     case ShapeType::sphere: return p.norm() - e.x();
     case ShapeType::box: return (p.cwiseAbs() - e).maxCoeff();
     case ShapeType::half_space: return p.y();
+    case ShapeType::mesh:
+    case ShapeType::compound: break; /* tests/physics/meshes_test.cpp has rays of their own */
     case ShapeType::hull: {
       double most = -1e300;
       for (const HullPlane &plane : shape().hull->planes)
