@@ -25,15 +25,17 @@ std::string json_of_binary(const std::string &text)
   return text.size() - 20 < length ? "{}" : text.substr(20, length);
 }
 
-/* The parser cuts numbers to 32 bits: one too large would name another node. */
+/* The parser cuts numbers to 32 bits: one too large would name another node. Here the complaint also knows who names it. */
 void check_node_numbers(const nlohmann::json &file, const std::string &where)
 {
+  const bool has_nodes = file.is_object() && file.contains("nodes") && file["nodes"].is_array();
+  const double nodes = has_nodes ? double(file["nodes"].size()) : 0;
   const auto check = [&](const nlohmann::json &owner, const std::string &owner_label, const char *key) {
     const auto list = owner.is_object() ? owner.find(key) : owner.end();
     if (!owner.is_object() || list == owner.end() || !list->is_array()) return;
     for (size_t i = 0; i < list->size(); ++i)
-      if (const nlohmann::json &number = (*list)[i]; number.is_number() && !(number.get<double>() >= 0 && number.get<double>() <= INT32_MAX))
-        throw InputError(fmt::format("{}: {}: {}[{}]: node {} does not exist; a number from 0 to the last node's is needed", where, owner_label, key, i, number.dump()));
+      if (const nlohmann::json &number = (*list)[i]; number.is_number() && !(number.get<double>() >= 0 && number.get<double>() < nodes))
+        throw InputError(fmt::format("{}: {}: {}[{}]: node {} does not exist; the file has {}", where, owner_label, key, i, number.dump(), nodes));
   };
   const auto check_all = [&](const char *list, const char *kind, const char *key) {
     const nlohmann::json none = nlohmann::json::array();

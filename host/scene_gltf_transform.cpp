@@ -108,8 +108,8 @@ RigidPlace rigid_place(const GltfDocument &document, int index, const Transform 
   for (int j = 0; j < 3; ++j) {
     const double factor = length(world.column[j]);
     if (!(factor > 0) || !std::isfinite(factor))
-      document.refuse(index, fmt::format("its scale is {} along {}; a body has a scale other than 0 along each axis, and a collider that or 0 along all three, "
-                                         "which disables it", factor, "XYZ"[j]));
+      document.refuse(index, fmt::format("its scale is {} along {}; another than 0 along each axis is needed (0 along all three disables a collider)",
+                                         factor, "XYZ"[j]));
     for (double &x : rotation.column[j]) x /= factor;
     place.scale[size_t(j)] = factor;
   }

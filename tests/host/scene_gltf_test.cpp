@@ -165,7 +165,7 @@ TEST_CASE("what is not supported is refused with the node's name")
   CHECK_THAT(complaint({.nodes = cup(R"("mass":0,"inertiaDiagonal":[1,1,1])")}),
              ContainsSubstring(prefix) && ContainsSubstring("infinite mass with a finite inertia"));
   CHECK_THAT(complaint({.nodes = cup("", 1, R"("scale":[1,0,1],)")}),
-             ContainsSubstring(prefix) && ContainsSubstring("its scale is 0 along Y; a body has a scale other than 0"));
+             ContainsSubstring(prefix) && ContainsSubstring("its scale is 0 along Y; another than 0 along each axis is needed"));
   CHECK_THAT(complaint({.nodes = R"({"scale":[1,3,1],"children":[1]},)" + cup("", 0, R"("rotation":[0,0,0.6,0.8],)")}),
              ContainsSubstring(prefix) && ContainsSubstring("sheared"));
   auto physics = [](const std::string &text) {
