@@ -21,6 +21,8 @@
 
 /* Sine of the angle by which a normal may lean where it must not: the noise of normals near touching. */
 #define LEAN_NOISE R(1e-3)
+/* Cosine of 2.5 degrees. */
+#define SAME_FACE R(0.999)
 
 /* A triangle in the axes of the pair. */
 typedef struct {
@@ -149,11 +151,19 @@ SHARED mask face_patch(contact_patch *patch, const triangle_pair *pair, core_con
   return 1;
 }
 
+/* So near a triangle's own normal that the triangle is the face they meet on: of a tilted box's bottom and many triangles each then has its
+ * own depth, not that of the box's lowest corner. */
+SHARED mask nearly_along_face(const triangle_pair *pair, vec3 normal)
+{
+  return (pair->outside_a && inner(normal, pair->sides_a.normal) > SAME_FACE) || (pair->outside_b && inner(normal, pair->sides_b.normal) < -SAME_FACE);
+}
+
 /* A face of the shapes near the normal, where the surface permits it. */
 SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact contact, real lead)
 {
   if (!normal_permitted(pair, contact.normal)) return contact_along_face(pair);
   core_contact face = prefer_faces(contact, pair->a, pair->b, lead);
+  if (nearly_along_face(pair, face.normal)) return contact_along_face(pair);
   return normal_permitted(pair, face.normal) ? face : contact;
 }
 

@@ -26,7 +26,7 @@ typedef struct {
   mask has_tree;
   tree t;
   vec3 center; /* of the body, seen from the start of the query */
-  vec3 middle, half;
+  vec3 middle, half_way;
   real radius;
 } part_walk;
 
@@ -46,16 +46,16 @@ SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, ve
   walk.first_child = scene->body_trees[body * 2u + 1u];
   walk.t = load_tree(scene->trees, scene->body_trees[body * 2u]);
   walk.end = walk.t.nodes;
-  walk.half = rotate_back(rotation, scale(way, R(0.5)));
-  walk.middle = subtract(walk.half, rotate_back(rotation, origin));
+  walk.half_way = rotate_back(rotation, scale(way, R(0.5)));
+  walk.middle = subtract(walk.half_way, rotate_back(rotation, origin));
   walk.radius = radius + R(1e-6) * (length_of(origin) + length_of(way) + load_row(scene->shapes, body).w);
   return walk;
 }
 
 SHARED mask way_near_box(const part_walk *walk, box_bounds box)
 {
-  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half), c = absolute(from_box);
-  vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)), across = absolute(outer(from_box, walk->half));
+  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half_way), c = absolute(from_box);
+  vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)), across = absolute(outer(from_box, walk->half_way));
   vec3 h = make_vec3(extent.x + walk->radius, extent.y + walk->radius, extent.z + walk->radius);
   if (c.x > h.x + d.x || c.y > h.y + d.y || c.z > h.z + d.z) return 0;
   return across.x <= h.y * d.z + h.z * d.y && across.y <= h.z * d.x + h.x * d.z && across.z <= h.x * d.y + h.y * d.x;

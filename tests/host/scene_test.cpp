@@ -108,7 +108,7 @@ TEST_CASE("validation refuses what the solver could not bear")
       [](Scene &s) { s.bodies[0].mass = infinity; },
       [](Scene &s) { s.bodies[0].mass = 1e-42f; },
       [](Scene &s) {
-        s.bodies[0].inertia = {1, 0, 1};
+        s.bodies[0].inertia = {1, nan_value, 1};
       },
       [](Scene &s) {
         s.bodies[0].inertia = {1, -1, 1};

@@ -100,33 +100,29 @@ TEST_CASE("collisions of every shape conserve linear and angular momentum", "[ph
   }
 }
 
+/* What stands in the ground is lifted out of it, by no more than its depth. */
 TEST_CASE("a stone that is dropped comes to rest and never gains energy", "[physics]")
 {
   const int points = GENERATE(6, 12, 32);
-  double most = 0;
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     Random random(seed);
     Scene scene = empty_scene();
     add_ground(scene);
     add_solid(scene, stone(random, points, 0.4), {0, 1.2, 0}, random.orientation());
     World world(scene);
-    const double scale = gravity * 0.4;
-    double energy = mechanical_energy(world), growth = 0;
+    double energy = mechanical_energy(world), beyond = -INFINITY;
     for (int step = 0; step < 480; ++step) {
       world.step();
-      const double now = mechanical_energy(world);
-      growth = std::max(growth, (now - energy) / scale);
+      const double now = mechanical_energy(world), lift = gravity * world.statistics().max_penetration;
+      beyond = std::max(beyond, now - energy - lift);
       energy = now;
     }
     const BodyState state = world.bodies()[1];
-    CAPTURE(points, seed, growth, vector_of(state.linear_velocity).norm(), vector_of(state.angular_velocity).norm());
-    CHECK(growth < 1e-3);
+    CAPTURE(points, seed, beyond, vector_of(state.linear_velocity).norm(), vector_of(state.angular_velocity).norm());
+    CHECK(beyond < 1e-4); /* J, of 12: rounding, and the integration of its tumbling */
     CHECK(vector_of(state.linear_velocity).norm() < 0.001);
     CHECK(vector_of(state.angular_velocity).norm() < 0.005);
-    most = std::max(most, growth);
   }
-  CAPTURE(points, most);
-  CHECK(most < 1e-3);
 }
 
 namespace {

