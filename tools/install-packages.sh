@@ -41,6 +41,7 @@ tests  need clang                 checks that the shared headers are OpenCL C
 tests  want pocl-opencl-icd       PoCL: the OpenCL device of the parity tests
 tests  want mesa-opencl-icd       rusticl: a second OpenCL device for parity
 tests  want oclgrind              an OpenCL simulator that reports races and bad accesses
+tests  want libccd-dev           an outside oracle of overlaps
 tests  want ccache                rebuilds only what changed
 END
 }
