@@ -91,7 +91,7 @@ struct Solid {
     case ShapeType::box: return (p.cwiseAbs() - e).maxCoeff();
     case ShapeType::half_space: return p.y();
     case ShapeType::mesh:
-    case ShapeType::compound: break; /* tests/physics/meshes_test.cpp has rays of their own */
+    case ShapeType::compound: break; /* queries_trees_test.cpp has them */
     case ShapeType::hull: {
       double most = -1e300;
       for (const HullPlane &plane : shape().hull->planes)
