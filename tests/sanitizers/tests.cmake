@@ -10,7 +10,7 @@ if(TANDEM_SANITIZE MATCHES thread)
 endif()
 
 function(sanitizer_test name)
-  tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 300 COMMAND ${launcher} ${ARGN})
+  tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900 COMMAND ${launcher} ${ARGN})
 endfunction()
 
 sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
