@@ -32,6 +32,7 @@ struct PlacedShape {
   Quat orientation;
   uint32_t material;
   Filter filter;
+  float radius; /* of the whole body: kernels ask for that of no child */
 };
 
 /* Those of the bodies, then the children of each. */
@@ -40,7 +41,7 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
   std::vector<PlacedShape> placed;
   for (uint32_t index : order) {
     const Body &body = scene.bodies[index];
-    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material, filter_of(scene, body)});
+    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material, filter_of(scene, body), bounding_radius(scene, body)});
   }
   for (uint32_t index : order) {
     const Body &body = scene.bodies[index];
@@ -50,7 +51,7 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
       const ShapePlace place = place_of_child(body, child);
       const auto &[x, y, z] = place.position;
       const auto &[qx, qy, qz, qw] = place.orientation;
-      placed.push_back({&body, &child.shape, {float(x), float(y), float(z)}, {float(qx), float(qy), float(qz), float(qw)}, child.material.value_or(body.material), filter_of(body, child)});
+      placed.push_back({&body, &child.shape, {float(x), float(y), float(z)}, {float(qx), float(qy), float(qz), float(qw)}, child.material.value_or(body.material), filter_of(body, child), 0});
     }
   }
   return placed;
@@ -112,7 +113,7 @@ void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_
     const Shape &shape = *placed.shape;
     const Quat q = unit(placed.orientation);
     const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
-    sizes.push_back(row_of_vec(kernel_size(shape), bounding_radius(scene, *placed.body)));
+    sizes.push_back(row_of_vec(kernel_size(shape), placed.radius));
     traits.push_back(traits_of(scene, placed));
     filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
     convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});

@@ -122,6 +122,14 @@ SHARED vec3 axis_x(mat3 m) { return make_vec3(m.x.x, m.y.x, m.z.x); }
 SHARED vec3 axis_y(mat3 m) { return make_vec3(m.x.y, m.y.y, m.z.y); }
 SHARED vec3 axis_z(mat3 m) { return make_vec3(m.x.z, m.y.z, m.z.z); }
 
+/* The rotation from the axes of `from` into those of `to`. */
+SHARED mat3 relative_rotation(mat3 to, mat3 from)
+{
+  vec3 x = rotate_back(to, axis_x(from)), y = rotate_back(to, axis_y(from)), z = rotate_back(to, axis_z(from));
+  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+  return m;
+}
+
 /* R diag(d) R^T = least I + R diag(d - least) R^T: the rows of R are square to one another only to rounding, and what all three
  * share would leave that rounding, times its own size, in every element off the diagonal. */
 SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)

@@ -37,14 +37,20 @@ SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint 
   return motion_of(traits_a) == (uint)MOTION_DYNAMIC || motion_of(traits_b) == (uint)MOTION_DYNAMIC;
 }
 
+/* Each accepts the other's groups. Numbers of shapes: those of bodies, or of children behind them. */
+SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint *body_filter, uint a, uint b)
+{
+  if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
+  return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
+}
+
 /* They must be able to meet, neither be quarantined, and each must accept the other's groups. */
 SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, uint a, uint b)
 {
   uint traits_a = body_traits[a], traits_b = body_traits[b];
   if (!bodies_meet(parameters, traits_a, traits_b)) return 0;
   if (motion_of(traits_a) == (uint)MOTION_QUARANTINED || motion_of(traits_b) == (uint)MOTION_QUARANTINED) return 0;
-  if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
-  return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
+  return filters_accept(parameters, body_filter, a, b);
 }
 
 /* Where a body's pairs go: its own stretch of the list, from pair_start[body], kept sorted by b. */

@@ -106,14 +106,6 @@ SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion
   return box;
 }
 
-/* The rotation from the axes of `from` into those of `to`. */
-SHARED mat3 rotation_between(mat3 to, mat3 from)
-{
-  vec3 x = rotate_back(to, axis_x(from)), y = rotate_back(to, axis_y(from)), z = rotate_back(to, axis_z(from));
-  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
-  return m;
-}
-
 /* What a tree is asked about a body that has none. to_single: the body's centre seen from the centre of the tree's body. */
 SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single, real margin)
 {
@@ -124,7 +116,7 @@ SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body 
   probe.normal = rotate_back(owner->rotation, axis_y(turned));
   probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin + maximum(inner(axis_y(turned), motion), R(0.0));
   vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->poses, single * 4u + 2u))));
-  probe.box = swept_box(rotation_between(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
+  probe.box = swept_box(relative_rotation(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
                         xyz(load_row(scene->poses, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
   return probe;
 }
@@ -141,15 +133,9 @@ SHARED leaf leaf_of_tree(const midphase_scene *scene, const tree_body *owner, co
   return part;
 }
 
-SHARED mask leaves_meet(const midphase_scene *scene, leaf a, leaf b)
-{
-  if (!HAS_FEATURE(scene->parameters, FEATURE_FILTER)) return 1;
-  return (scene->filters[a.shape * 2u] & scene->filters[b.shape * 2u + 1u]) != 0u && (scene->filters[b.shape * 2u] & scene->filters[a.shape * 2u + 1u]) != 0u;
-}
-
 SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint body_a, leaf a, uint body_b, leaf b)
 {
-  if (!leaves_meet(scene, a, b)) return;
+  if (!filters_accept(scene->parameters, scene->filters, a.shape, b.shape)) return;
   uint place = list->at + list->found;
   list->found = list->found + 1u;
   if (!list->writes || place >= list->end) return;
@@ -188,7 +174,7 @@ typedef struct { uint a, b; } node_pair;
 SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const tree_body *a, const tree_body *b, real margin)
 {
   tree tree_a = load_tree(scene->trees, a->tree_number), tree_b = load_tree(scene->trees, b->tree_number);
-  mat3 rotation = rotation_between(b->rotation, a->rotation);
+  mat3 rotation = relative_rotation(b->rotation, a->rotation);
   vec3 shift = rotate_back(b->rotation, subtract(a->center, b->center)), motion = rotate_back(b->rotation, relative_motion(scene, b->body, a->body));
   node_pair stack[TANDEM_STACK];
   uint height = 1u;

@@ -155,12 +155,6 @@ typedef struct {
   mask swapped; /* a here is b of the caller */
 } convex_pair;
 
-SHARED mat3 relative_rotation(mat3 to, mat3 from)
-{
-  vec3 x = rotate_back(to, axis_x(from)), y = rotate_back(to, axis_y(from)), z = rotate_back(to, axis_z(from));
-  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
-  return m;
-}
 SHARED convex_pair pair_of(const convex *a, const convex *b)
 {
   convex_pair pair;
