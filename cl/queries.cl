@@ -1,4 +1,5 @@
 /* queries.cl - entries: rays and sweeps against all bodies, between steps. */
+#define ASKED_ABOUT_ANY_SHAPE
 #include "cl/entry.h"
 #include "shared/queries/cast_rays.h"
 #include "shared/queries/sweep_shape.h"

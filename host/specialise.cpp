@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/settings.h"
 #include "host/shape_bounds.h"
+#include "shared/body_codes.h"
 #include "shared/features.h"
 
 namespace tandem {
@@ -39,13 +41,45 @@ Presence presence_of(const Scene &scene)
   return present;
 }
 
+/* Of bodies, and of children of compounds. */
+bool any_shape(const Scene &scene, std::initializer_list<ShapeType> types)
+{
+  const auto wanted = [&](const Shape &shape) { return std::find(types.begin(), types.end(), shape.type) != types.end(); };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) {
+    const Shape &shape = scene.shapes[body.shape];
+    if (wanted(shape)) return true;
+    return shape.compound && std::any_of(shape.compound->children.begin(), shape.compound->children.end(), [&](const Child &child) { return wanted(child.shape); });
+  });
+}
+
 uint32_t convex_features(const Scene &scene)
 {
-  const auto any = [&](const auto &wanted) { return std::any_of(scene.bodies.begin(), scene.bodies.end(), wanted); };
-  if (!any([&](const Body &body) { return is_general(scene, body); })) return 0;
-  const bool above = any([&](const Body &body) { return scene.shapes[body.shape].type == ShapeType::half_space; });
-  const bool trees = any([&](const Body &body) { return scene.shapes[body.shape].type >= ShapeType::mesh; });
-  return uint32_t{FEATURE_CONVEX} | (above ? uint32_t{FEATURE_CONVEX_HALF_SPACE} : 0u) | (trees ? uint32_t{FEATURE_TREES} : 0u);
+  const bool general = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
+  if (!general) return 0;
+  uint32_t features = FEATURE_CONVEX;
+  if (any_shape(scene, {ShapeType::half_space})) features |= FEATURE_CONVEX_HALF_SPACE;
+  if (any_shape(scene, {ShapeType::hull})) features |= FEATURE_HULL;
+  if (any_shape(scene, {ShapeType::capsule, ShapeType::cylinder})) features |= FEATURE_ROUND;
+  if (any_shape(scene, {ShapeType::mesh, ShapeType::compound})) features |= FEATURE_TREES;
+  return features;
+}
+
+/* Polytopes find their depth by axes; triangles, and all else that is not sampled, by expansion. */
+uint32_t narrowphase_features(const Scene &scene, uint32_t features, const Settings &settings)
+{
+  if ((features & FEATURE_CONVEX) == 0) return 0;
+  const uint32_t method = narrowphase_method(settings) & 255u;
+  if (method == CONVEX_SAMPLED) return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
+  if (method == CONVEX_EXPANSION) return FEATURE_EXPANSION;
+  const bool others = any_shape(scene, {ShapeType::sphere, ShapeType::capsule, ShapeType::cylinder, ShapeType::mesh});
+  return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) | (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
+}
+
+uint32_t support_features(uint32_t features, const Settings &settings)
+{
+  if ((features & FEATURE_HULL) == 0) return 0;
+  const uint32_t support = narrowphase_method(settings) >> 8;
+  return support == SUPPORT_HILL_CLIMBING ? uint32_t{FEATURE_HILL_CLIMBING} : support == SUPPORT_CUBE_MAP ? uint32_t{FEATURE_CUBE_MAP} : 0u;
 }
 
 uint32_t pair_features(const Presence &present)
@@ -189,10 +223,12 @@ Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
 
 uint32_t all_features() { return (1u << FEATURE_COUNT) - 1; }
 
-Specialisation specialise(const Scene &scene)
+Specialisation specialise(const Scene &scene, const Settings &settings)
 {
   Specialisation result;
   result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
+  result.features |= narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
+  if (settings.events) result.features |= FEATURE_EVENTS;
   result.order = large_bodies(scene);
   result.large = static_cast<uint32_t>(result.order.size());
   std::vector<bool> taken(scene.bodies.size());

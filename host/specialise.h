@@ -12,6 +12,8 @@
 
 namespace tandem {
 
+struct Settings;
+
 struct Specialisation {
   uint32_t features = 0; /* FEATURE_ bits */
   /* Body buffers hold scene body order[i] at index i: the few bodies too large for a grid come first, so
@@ -21,7 +23,7 @@ struct Specialisation {
   uint32_t large = 0;
 };
 
-Specialisation specialise(const Scene &scene);
+Specialisation specialise(const Scene &scene, const Settings &settings);
 
 /* All that the shapes of a scene could need, for comparing builds: every feature set. */
 uint32_t all_features();

@@ -47,11 +47,9 @@ public:
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), wanted(placement), special(specialise(given)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
+      : scene(given), settings(chosen), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
   {
-    if (settings.events) special.features |= FEATURE_EVENTS;
-    if (settings.narrowphase == "sat-split" && (special.features & FEATURE_CONVEX) != 0) special.features |= FEATURE_SAT_SPLIT;
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
     plan.features = special.features;

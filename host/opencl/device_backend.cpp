@@ -38,9 +38,8 @@ struct BuiltKernel {
 constexpr uint64_t value_tag = uint64_t{1} << 63;
 constexpr uint64_t never_set = ~uint64_t{0};
 
-/* Programs and kernels of one set of features. */
+/* The kernels of one set of features. */
 struct Build {
-  std::array<cl::Program, stage_count> programs;
   std::array<BuiltKernel, kernel_count> kernels;
 };
 
@@ -127,9 +126,10 @@ private:
   void create_kernel(Kernel kernel, uint32_t features)
   {
     const KernelRow &row = row_of(kernel);
-    cl::Program &program = current_->programs[static_cast<size_t>(row.stage)];
-    if (!program())
-      program = build_program(context_, embedded_program(name_of(row.stage)), fmt::format("-D FEATURES={:#x}u", features));
+    const EmbeddedProgram &embedded = embedded_program(name_of(row.stage));
+    const uint32_t read = features & features_read(embedded);
+    cl::Program &program = programs_[{embedded.name, read}];
+    if (!program()) program = build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read));
     BuiltKernel &built = current_->kernels[index_of(kernel)];
     try {
       cl::Kernel created(program, row.name);
@@ -202,6 +202,7 @@ private:
   DeviceContext context_;
   DeviceStorage storage_;
   size_t group_size_;
+  std::map<std::pair<std::string, uint32_t>, cl::Program> programs_; /* by name, and the features it reads */
   std::map<uint32_t, Build> builds_; /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;

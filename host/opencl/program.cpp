@@ -3,12 +3,16 @@
  * The embedded text keeps #line directives, so a compiler's log names the file and line people edit. */
 #include "host/opencl/program.h"
 
+#include <cctype>
 #include <cstring>
 #include <optional>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "host/opencl/program_cache.h"
+#include "shared/features.h"
 
 namespace tandem::opencl {
 namespace {
@@ -65,6 +69,26 @@ const EmbeddedProgram &embedded_program(const std::string &name)
   for (unsigned i = 0; i < embedded_program_count; ++i)
     if (name == embedded_programs[i].name) return embedded_programs[i];
   throw std::logic_error(fmt::format("cl/{}.cl is not embedded", name));
+}
+
+uint32_t features_read(const EmbeddedProgram &program)
+{
+  static const std::pair<std::string, uint32_t> names[] = {
+#define FEATURE(name, what) {"FEATURE_" #name, FEATURE_##name},
+#include "shared/features.def"
+#undef FEATURE
+  };
+  const std::string_view source = program.source;
+  const auto is_named = [&](const std::string &name) {
+    const auto goes_on = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    size_t at = source.find(name);
+    while (at != source.npos && at + name.size() < source.size() && goes_on(source[at + name.size()])) at = source.find(name, at + 1);
+    return at != source.npos;
+  };
+  uint32_t features = 0;
+  for (const auto &[name, bit] : names)
+    if (is_named(name)) features |= bit;
+  return features;
 }
 
 std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options)

@@ -1,6 +1,7 @@
 /* program.h - from an embedded source to a built program. */
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "host/embedded_kernels.h"
@@ -13,6 +14,9 @@ const EmbeddedProgram &embedded_program(const std::string &name);
 
 /* Built with the context's options and these, from the cache where it can be. BuildError carries the compiler's log. */
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options = "");
+
+/* FEATURE_ bits that a program asks for: builds that differ in others alone are one. */
+uint32_t features_read(const EmbeddedProgram &program);
 
 /* What names a built program in the cache. */
 std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);

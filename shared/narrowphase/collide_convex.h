@@ -53,7 +53,7 @@ SHARED real widest_reach(GLOBAL const Parameters *parameters, motion a, real rad
 
 SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, real thickness, uint method)
 {
-  mask triangles = first->kind == (uint)SHAPE_TRIANGLE || second->kind == (uint)SHAPE_TRIANGLE;
+  mask triangles = is_triangle(first) || is_triangle(second);
   if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles) return triangle_contact(first, second, reach, thickness, parameters->slop);
   return convex_contact(first, second, reach, parameters->slop, method);
 }

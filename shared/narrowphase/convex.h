@@ -29,6 +29,11 @@ typedef struct {
   hull_tables tables;
 } convex;
 
+SHARED mask is_hull(const convex *shape) { return MAY_OCCUR(FEATURE_HULL) && shape->kind == (uint)SHAPE_HULL; }
+SHARED mask is_cylinder(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) && shape->kind == (uint)SHAPE_CYLINDER; }
+SHARED mask is_capsule(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) && shape->kind == (uint)SHAPE_CAPSULE; }
+SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(FEATURE_TREES) && shape->kind == (uint)SHAPE_TRIANGLE; }
+
 /* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other than
  * 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
 SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, natural hull, hull_tables tables)
@@ -44,7 +49,7 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
   shape.hull = none;
   shape.triangle = INDEX_NONE;
   shape.second = shape.third = make_vec3(R(0.0), R(0.0), R(0.0));
-  if (kind == (uint)SHAPE_HULL) shape.hull = ranges_of_hull(&tables, hull);
+  if (is_hull(&shape)) shape.hull = ranges_of_hull(&tables, hull);
   return shape;
 }
 
@@ -71,22 +76,22 @@ SHARED vec3 point_of_shape(const convex *shape, vec3 own) { return add(from_shap
 SHARED real core_radius(const convex *shape)
 {
   if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
-  return shape->kind == (uint)SHAPE_CAPSULE ? minimum(shape->size.x, shape->size.z) : R(0.0);
+  return is_capsule(shape) ? minimum(shape->size.x, shape->size.z) : R(0.0);
 }
 
 /* From the origin of the shape's axes to its farthest point, or somewhat more. */
 SHARED real bounding_radius_of(const convex *shape)
 {
   real widest = maximum(shape->size.x, shape->size.z);
-  if (shape->kind == (uint)SHAPE_SPHERE || shape->kind == (uint)SHAPE_TRIANGLE) return shape->size.x;
-  return shape->kind == (uint)SHAPE_CAPSULE || shape->kind == (uint)SHAPE_CYLINDER ? shape->size.y + widest : length_of(shape->size);
+  if (shape->kind == (uint)SHAPE_SPHERE || is_triangle(shape)) return shape->size.x;
+  return is_capsule(shape) || is_cylinder(shape) ? shape->size.y + widest : length_of(shape->size);
 }
 SHARED real least_size(const convex *shape)
 {
   real widest = maximum(shape->size.x, shape->size.z);
   if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
-  if (shape->kind == (uint)SHAPE_CAPSULE) return widest;
-  if (shape->kind == (uint)SHAPE_CYLINDER) return minimum(widest, shape->size.y);
+  if (is_capsule(shape)) return widest;
+  if (is_cylinder(shape)) return minimum(widest, shape->size.y);
   return minimum(shape->size.x, minimum(shape->size.y, shape->size.z));
 }
 
@@ -139,10 +144,10 @@ SHARED vec3 support_of(const convex *shape, vec3 direction)
 {
   vec3 own = to_shape_axes(shape, direction), point = make_vec3(R(0.0), R(0.0), R(0.0));
   if (shape->kind == (uint)SHAPE_BOX) point = support_of_box(shape->size, own);
-  else if (shape->kind == (uint)SHAPE_HULL) point = hull_vertex(shape, support_vertex(shape, own));
-  else if (shape->kind == (uint)SHAPE_CYLINDER) point = support_of_cylinder(shape->size, own);
-  else if (shape->kind == (uint)SHAPE_CAPSULE) point = support_of_capsule_core(shape->size, own);
-  else if (shape->kind == (uint)SHAPE_TRIANGLE) point = support_of_triangle(shape, own);
+  else if (is_hull(shape)) point = hull_vertex(shape, support_vertex(shape, own));
+  else if (is_cylinder(shape)) point = support_of_cylinder(shape->size, own);
+  else if (is_capsule(shape)) point = support_of_capsule_core(shape->size, own);
+  else if (is_triangle(shape)) point = support_of_triangle(shape, own);
   return point_of_shape(shape, point);
 }
 

@@ -31,11 +31,11 @@ SHARED real lead_of_faces(const convex *a, const convex *b, real slop)
 SHARED vec3 flat_normal_toward(const convex *shape, vec3 direction)
 {
   vec3 own = to_shape_axes(shape, direction), none = make_vec3(R(0.0), R(0.0), R(0.0));
-  if (shape->kind == (uint)SHAPE_CYLINDER) {
+  if (is_cylinder(shape)) {
     mask has_cap = (own.y > R(0.0) ? shape->size.z : shape->size.x) > R(0.0);
     return has_cap ? from_shape_axes(shape, make_vec3(R(0.0), sign_of(own.y), R(0.0))) : none;
   }
-  if (shape->kind == (uint)SHAPE_TRIANGLE) return triangle_feature(shape, own).normal;
+  if (is_triangle(shape)) return triangle_feature(shape, own).normal;
   if (!is_polytope(shape)) return none;
   uint k = shape->kind == (uint)SHAPE_BOX ? box_face_toward(own) : hull_face_toward(shape, own);
   return from_shape_axes(shape, xyz(plane_of_face(shape, k)));
@@ -56,29 +56,47 @@ SHARED core_contact prefer_faces(core_contact contact, const convex *a, const co
   return contact;
 }
 
-/* Round shapes outlast the room of the polytope; a distance query then gives what it lacks. */
-SHARED core_contact expanded_and_refined(const convex *a, const convex *b, vec3 up, real tolerance)
+/* Depth and normal of two cores that overlap. hint: as sampled_penetration; tolerance: how much deeper than the least depth the
+ * answer may be. Round shapes outlast the room of the polytope, and fixed directions miss the least depth: distance queries then
+ * give what is lacking. */
+SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 hint, real tolerance, natural method)
 {
-  epa_result found = penetration_by_expansion(a, b, up, tolerance);
-  real exact = tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) + R(1e-5) * magnitude(found.contact.gap);
-  return found.error > exact ? refined_by_distance(found.contact, a, b) : found.contact;
+  core_contact found = {up, R(-1e30)};
+  mask rough = 1;
+  if (MAY_OCCUR(FEATURE_SAMPLED) && method == (uint)CONVEX_SAMPLED) {
+    found = sampled_penetration(a, b, up, hint);
+  } else if (MAY_OCCUR(FEATURE_EXPANSION)) {
+    epa_result expanded = penetration_by_expansion(a, b, up, tolerance);
+    found = expanded.contact;
+    rough = expanded.error > tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) + R(1e-5) * magnitude(found.gap);
+  }
+  return rough ? refined_by_distance(found, a, b) : found;
 }
 
-/* limit: cores farther apart than this make no contact. on_b: their closest point, where they are apart. */
-SHARED core_contact core_contact_of(const convex_pair *pair, real limit, real lead, natural method, mask *apart, vec3 *on_b)
+/* What the shapes show along their normal, before any features are looked at. */
+typedef struct {
+  core_contact contact;
+  mask apart; /* the cores: on_b is then their closest point */
+  vec3 on_b;
+} core_meeting;
+
+/* by_axes: the contact is the best axis of two polytopes; their closest points are only wanted where it parts them. limit: cores
+ * farther apart than this make no contact. */
+SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, natural method, mask by_axes, core_contact axis)
 {
   const convex *a = &pair->a, *b = &pair->b;
-  gjk_result near = closest_points(a, b, limit);
-  *apart = !near.overlapping;
-  *on_b = b->center;
-  if (!near.overlapping) {
-    *on_b = near.on_b;
-    return near.contact;
+  core_meeting met = {axis, 0, b->center};
+  if (by_axes && axis.gap <= R(0.0)) return met;
+  gjk_result near = closest_points_from(a, b, limit, by_axes ? negate(axis.normal) : subtract(a->center, b->center));
+  met.apart = !near.overlapping;
+  if (met.apart) {
+    met.contact = near.contact;
+    met.on_b = near.on_b;
+  } else if (!by_axes) {
+    /* Between the cap of a cylinder and a face not quite parallel to it lies a rim that need not be resolved. */
+    met.contact = penetration(a, b, pair->up, near.contact.normal, lead * R(0.25), method);
   }
-  if (method == (uint)CONVEX_SAMPLED) return sampled_penetration(a, b, pair->up, near.contact.normal);
-  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) return separating_hull_axis(a, b, lead, R(1e30)).contact;
-  /* Between the cap of a cylinder and a face not quite parallel to it lies a rim that need not be resolved. */
-  return expanded_and_refined(a, b, pair->up, lead * R(0.25));
+  return met;
 }
 
 /* Rounding error of a corner. */
@@ -144,9 +162,9 @@ SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b
   start_overlap(&overlap, a, &face_a, b, &face_b, &patch->axes, reach);
   reduction r;
   start_reduction(&r, bounding_radius_of(b), overlap.clip.slack);
-  stream_overlap(&r, &overlap.clip);
-  while (next_pass(&r))
-    if (!reduce_kept(&r)) stream_overlap(&r, &overlap.clip);
+  do {
+    if (r.pass == 0 || !reduce_kept(&r)) stream_overlap(&r, &overlap.clip);
+  } while (next_pass(&r));
   if (misses_deepest(&r, contact.gap - overlap.clip.radii)) return 0;
   finish_reduction(patch->point, &r);
   for (int slot = 0; slot < 4; ++slot) patch->height[slot] = height_of_b(&overlap, a, b, patch->point[slot]);
@@ -190,28 +208,6 @@ SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
   return single_contact(pair->swapped ? negate(placed) : placed, pair->origin, gap, 0);
 }
 
-/* Where an axis separates polytopes at no face: their closest points, sought from that axis on. */
-SHARED core_contact closest_beyond_axis(const convex *a, const convex *b, core_contact axis, real limit, mask *apart, vec3 *on_b)
-{
-  *apart = 0;
-  *on_b = b->center;
-  if (axis.gap <= R(0.0)) return axis;
-  gjk_result near = closest_points_from(a, b, limit, negate(axis.normal));
-  if (near.overlapping) return axis;
-  *apart = 1;
-  *on_b = near.on_b;
-  return near.contact;
-}
-
-/* A contact of polytopes found by their axes alone. 1: it has its patch. 0: too far apart. -1: no features meet there, the closest
- * or deepest points are wanted. */
-SHARED int patch_by_axes(contact_patch *patch, const convex_pair *pair, core_contact *contact, real lead, real reach)
-{
-  *contact = separating_hull_axis(&pair->a, &pair->b, lead, reach).contact;
-  if (contact->gap >= reach) return 0;
-  return overlap_patch(patch, &pair->a, &pair->b, *contact, reach) ? 1 : -1;
-}
-
 /* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made. slop:
  * penetration left in place. */
 SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, natural method)
@@ -220,24 +216,23 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
   const convex *a = &pair.a, *b = &pair.b;
   real radii = core_radius(a) + core_radius(b), noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
   real lead = lead_of_faces(a, b, slop);
+  mask by_axes = MAY_OCCUR(FEATURE_AXES) && method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b);
+  core_contact contact = {pair.up, R(-1e30)};
+  if (by_axes) {
+    contact = separating_hull_axis(a, b, lead, reach).contact;
+    if (contact.gap >= reach) return no_contact(&pair, contact.normal, contact.gap);
+  }
+  /* Where features meet: along the axis found, along a face's normal that is nearly as good, along one equal but for rounding. */
+  core_meeting met = {contact, 0, b->center};
   contact_patch patch;
-  core_contact contact;
-  mask apart;
-  vec3 on_b;
-  if (method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b)) {
-    int found = patch_by_axes(&patch, &pair, &contact, lead, reach);
-    if (found == 0) return no_contact(&pair, contact.normal, contact.gap);
-    if (found > 0) return kept_within(placed_manifold(&pair, &patch), reach);
-    contact = closest_beyond_axis(a, b, contact, reach, &apart, &on_b);
-  } else {
-    contact = core_contact_of(&pair, reach + radii, lead, method, &apart, &on_b);
+  mask found = 0;
+  for (int attempt = by_axes ? 0 : 1; attempt < 3 && !found; ++attempt) {
+    if (attempt == 1) met = core_meeting_of(&pair, reach + radii, lead, method, by_axes, contact);
+    if (attempt == 1 && met.contact.gap - radii >= reach) return no_contact(&pair, met.contact.normal, met.contact.gap - radii);
+    contact = attempt == 0 ? contact : prefer_faces(met.contact, a, b, attempt == 1 ? lead : noise);
+    found = overlap_patch(&patch, a, b, contact, reach);
   }
-  if (contact.gap - radii >= reach) return no_contact(&pair, contact.normal, contact.gap - radii);
-  if (!overlap_patch(&patch, a, b, prefer_faces(contact, a, b, lead), reach)) {
-    contact = prefer_faces(contact, a, b, noise);
-    if (!overlap_patch(&patch, a, b, contact, reach))
-      point_patch(&patch, a, b, contact, apart ? on_b : deepest_point_of_b(a, b, contact));
-  }
+  if (!found) point_patch(&patch, a, b, contact, met.apart ? met.on_b : deepest_point_of_b(a, b, contact));
   return kept_within(placed_manifold(&pair, &patch), reach);
 }
 

@@ -140,11 +140,25 @@ SHARED mask has_vertex(const polytope *hull, vec3 w)
   return 0;
 }
 
-/* The farther of the supports along a direction and against it, measured from a point. */
+/* The supports along a direction and against it. */
+typedef struct { vec3 ahead, behind; } difference_span;
+
+SHARED difference_span span_of_difference(const convex *a, const convex *b, vec3 direction)
+{
+  difference_span span;
+  span.ahead = span.behind = make_vec3(R(0.0), R(0.0), R(0.0));
+  for (int end = 0; end < 2; ++end) {
+    span.ahead = span.behind;
+    span.behind = support_of_difference(a, b, end == 0 ? direction : negate(direction));
+  }
+  return span;
+}
+
+/* The farther of the two, measured from a point. */
 SHARED vec3 farther_support(const convex *a, const convex *b, vec3 direction, vec3 from)
 {
-  vec3 ahead = support_of_difference(a, b, direction), behind = support_of_difference(a, b, negate(direction));
-  return inner(subtract(from, behind), direction) > inner(subtract(ahead, from), direction) ? behind : ahead;
+  difference_span span = span_of_difference(a, b, direction);
+  return inner(subtract(from, span.behind), direction) > inner(subtract(span.ahead, from), direction) ? span.behind : span.ahead;
 }
 
 SHARED vec3 unit_or(vec3 v, vec3 otherwise)
@@ -160,23 +174,23 @@ SHARED int spread_points(vec3 *point, const convex *a, const convex *b, real fla
   real widest = R(-1.0);
   for (int k = 0; k < 3; ++k) {
     vec3 direction = make_vec3(k == 0 ? R(1.0) : R(0.0), k == 1 ? R(1.0) : R(0.0), k == 2 ? R(1.0) : R(0.0));
-    vec3 ahead = support_of_difference(a, b, direction), behind = support_of_difference(a, b, negate(direction));
-    real width = length_of(subtract(ahead, behind));
+    difference_span span = span_of_difference(a, b, direction);
+    real width = length_of(subtract(span.ahead, span.behind));
     if (width <= widest) continue;
     widest = width;
-    point[0] = behind;
-    point[1] = ahead;
+    point[0] = span.behind;
+    point[1] = span.ahead;
   }
   if (widest <= flat) return 1;
   vec3 line = scale(subtract(point[1], point[0]), R(1.0) / widest);
   tangents across = tangents_of(line);
-  vec3 direction = across.first;
-  point[2] = farther_support(a, b, direction, point[0]);
-  if (magnitude(inner(subtract(point[2], point[0]), direction)) <= flat) {
-    direction = across.second;
+  mask wide = 0;
+  for (int k = 0; k < 2 && !wide; ++k) {
+    vec3 direction = k == 0 ? across.first : across.second;
     point[2] = farther_support(a, b, direction, point[0]);
-    if (magnitude(inner(subtract(point[2], point[0]), direction)) <= flat) return 2;
+    wide = magnitude(inner(subtract(point[2], point[0]), direction)) > flat;
   }
+  if (!wide) return 2;
   vec3 normal = unit_or(outer(line, subtract(point[2], point[0])), across.second);
   point[3] = farther_support(a, b, normal, point[0]);
   return magnitude(inner(subtract(point[3], point[0]), normal)) <= flat ? 3 : 4;
@@ -198,7 +212,8 @@ SHARED core_contact flat_contact(const vec3 *point, int points, const convex *a,
     normal = length_squared(sideways) > R(1e-4) ? unit_or(sideways, up) : tangents_of(line).first;
     if (points > 2) normal = unit_or(outer(line, subtract(point[2], point[0])), normal);
   }
-  core_contact forward = contact_along(a, b, normal), backward = contact_along(a, b, negate(normal));
+  difference_span span = span_of_difference(a, b, normal);
+  core_contact forward = {normal, -inner(span.ahead, normal)}, backward = {negate(normal), inner(span.behind, normal)};
   return backward.gap > forward.gap ? backward : forward;
 }
 

@@ -96,9 +96,12 @@ SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
     near.weight[k] = of_c / sum;
     return near;
   }
-  nearest_point best = nearest_of_edge(s, i, j);
-  if (degenerate || of_b <= R(0.0)) best = nearer_of(best, nearest_of_edge(s, i, k));
-  if (degenerate || of_a <= R(0.0)) best = nearer_of(best, nearest_of_edge(s, j, k));
+  nearest_point best;
+  for (int side = 0; side < 3; ++side) {
+    if (side > 0 && !degenerate && (side == 1 ? of_b : of_a) > R(0.0)) continue;
+    nearest_point near = nearest_of_edge(s, side < 2 ? i : j, side == 0 ? j : k);
+    best = side > 0 ? nearer_of(best, near) : near;
+  }
   return best;
 }
 
@@ -113,14 +116,15 @@ SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size
   return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
 }
 
-/* squared < 0: the tetrahedron holds the origin. size: of its coordinates. */
-SHARED nearest_point nearest_of_tetrahedron(const simplex *s, real size)
+/* Of a triangle, or of the faces of a tetrahedron; squared < 0: that holds the origin. size: of its coordinates. Every function here is
+ * called from one place, since compilers of devices copy it to each. */
+SHARED nearest_point nearest_of_faces(const simplex *s, real size)
 {
-  nearest_point best = nearest_of_vertex(s, 3);
+  nearest_point best = nearest_of_vertex(s, 0);
   mask outside = 0;
-  for (int l = 0; l < 4; ++l) {
+  for (int l = s->count == 3 ? 3 : 0; l < 4; ++l) {
     int i = l == 0 ? 1 : 0, j = l <= 1 ? 2 : 1, k = l <= 2 ? 3 : 2;
-    if (!outside_face(s, i, j, k, l, size)) continue;
+    if (s->count == 4 && !outside_face(s, i, j, k, l, size)) continue;
     nearest_point near = nearest_of_triangle(s, i, j, k);
     best = outside ? nearer_of(best, near) : near;
     outside = 1;
@@ -132,9 +136,7 @@ SHARED nearest_point nearest_of_tetrahedron(const simplex *s, real size)
 SHARED nearest_point nearest_of_simplex(const simplex *s, real size)
 {
   if (s->count == 1) return nearest_of_vertex(s, 0);
-  if (s->count == 2) return nearest_of_edge(s, 0, 1);
-  if (s->count == 3) return nearest_of_triangle(s, 0, 1, 2);
-  return nearest_of_tetrahedron(s, size);
+  return s->count == 2 ? nearest_of_edge(s, 0, 1) : nearest_of_faces(s, size);
 }
 
 /* Only the points that carry the nearest point stay. */

@@ -28,7 +28,7 @@
 enum { AXIS_OF_FACE_A = 0, AXIS_OF_FACE_B = 1, AXIS_OF_EDGES = 2 };
 
 #define PROBES 6u
-#define FACE_LOOKS 16
+#define FACE_LOOKS 16u
 #define EDGES_LISTED 24u
 
 typedef struct {
@@ -60,7 +60,7 @@ typedef struct { strip x, y, z, distance; } plane_strip;
 
 SHARED void load_plane_strip(plane_strip *planes, const convex *shape, uint k)
 {
-  if (shape->kind == (uint)SHAPE_HULL) {
+  if (is_hull(shape)) {
     uint at = shape->hull.first_strip + (strips_of(shape->hull.vertices) * 3u + k * 4u) * ROWS_OF_STRIP;
     load_strip(&planes->x, shape->tables.strips, at);
     load_strip(&planes->y, shape->tables.strips, at + ROWS_OF_STRIP);
@@ -126,13 +126,14 @@ SHARED void search_faces(face_search *s, const convex *shape, const convex *othe
 {
   s->gap = R(-1e30);
   s->face = s->main = 0u;
-  for (int look = 0; look < FACE_LOOKS; ++look) {
-    highest_entry top = farthest_bound(s, shape);
-    if (top.height <= maximum(s->gap, least)) return;
+  for (uint look = 0u; look < FACE_LOOKS + faces_of(shape); ++look) {
+    mask bounded = look < FACE_LOOKS;
+    highest_entry top = {R(1e30), look - FACE_LOOKS};
+    if (bounded) top = farthest_bound(s, shape);
+    if (bounded && top.height <= maximum(s->gap, least)) return;
     look_at_face(s, shape, other, top.at);
-    if (s->gap >= top.height || s->gap > enough) return;
+    if (bounded && (s->gap >= top.height || s->gap > enough)) return;
   }
-  for (uint k = 0u; k < faces_of(shape); ++k) look_at_face(s, shape, other, k);
 }
 
 /* --- edges -------------------------------------------------------------------------------------------- */
@@ -165,7 +166,7 @@ SHARED mask edge_may_matter(const face_search *s, const convex *shape, uint left
 
 SHARED void list_edges_of_face(edge_list *list, const face_search *s, const convex *shape, uint face, real least)
 {
-  if (shape->kind != (uint)SHAPE_HULL) {
+  if (!is_hull(shape)) {
     for (uint k = 0u; k < 12u; ++k)
       if (face_of_box_edge(k, 0u) == face || face_of_box_edge(k, 1u) == face)
         if (edge_may_matter(s, shape, face_of_box_edge(k, 0u), face_of_box_edge(k, 1u), least)) list_edge(list, k);

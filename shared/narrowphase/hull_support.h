@@ -15,6 +15,7 @@
 #define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 
 #include "shared/body_codes.h"
+#include "shared/features.h"
 #include "shared/math.h"
 #include "shared/strip.h"
 
@@ -138,8 +139,8 @@ SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull
 /* size: half extents of a box around the hull, centred at the origin of its axes. */
 SHARED natural hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
-  if (tables->support == (uint)SUPPORT_HILL_CLIMBING) return climbed_vertex(tables, hull, direction, size);
-  if (tables->support == (uint)SUPPORT_CUBE_MAP) return vertex_of_cube_map(tables, hull, direction);
+  if (MAY_OCCUR(FEATURE_HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING) return climbed_vertex(tables, hull, direction, size);
+  if (MAY_OCCUR(FEATURE_CUBE_MAP) && tables->support == (uint)SUPPORT_CUBE_MAP) return vertex_of_cube_map(tables, hull, direction);
   return highest_vertex(tables, hull, direction);
 }
 

@@ -115,6 +115,15 @@ SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, 
   }
 }
 
+/* The ends of what is left of an edge of the moving feature. */
+SHARED void stream_stretch(reduction *r, const clipping *clip, vec3 entry, vec3 exit)
+{
+  for (int end = 0; end < 2; ++end) {
+    vec3 at = end == 0 ? entry : exit;
+    reduce_step(r, clipped_point(clip, at, height_of(clip->reference, at.x, at.y), clip->sense));
+  }
+}
+
 SHARED void stream_moving_edge(reduction *r, const clipping *clip, vec3 p, vec3 q)
 {
   const outline *reference = clip->reference;
@@ -127,9 +136,7 @@ SHARED void stream_moving_edge(reduction *r, const clipping *clip, vec3 p, vec3 
     from = to;
   }
   if (enter > leave) return;
-  vec3 entry = add_scaled(p, edge, enter), exit = leave >= R(1.0) ? q : add_scaled(p, edge, leave);
-  reduce_step(r, clipped_point(clip, entry, height_of(reference, entry.x, entry.y), clip->sense));
-  reduce_step(r, clipped_point(clip, exit, height_of(reference, exit.x, exit.y), clip->sense));
+  stream_stretch(r, clip, add_scaled(p, edge, enter), leave >= R(1.0) ? q : add_scaled(p, edge, leave));
 }
 
 SHARED mask within_outline(const outline *o, vec3 p, real slack)
@@ -173,9 +180,7 @@ SHARED void stream_segments(reduction *r, const clipping *clip)
     leave = minimum(leave, maximum(first, second));
     if (enter > leave) return;
   }
-  vec3 entry = add_scaled(p, edge, enter), exit = add_scaled(p, edge, leave);
-  reduce_step(r, clipped_point(clip, entry, height_of(clip->reference, entry.x, entry.y), clip->sense));
-  reduce_step(r, clipped_point(clip, exit, height_of(clip->reference, exit.x, exit.y), clip->sense));
+  stream_stretch(r, clip, add_scaled(p, edge, enter), add_scaled(p, edge, leave));
 }
 
 /* The whole stream, in the same order every time. Features of one point have none. */
@@ -187,17 +192,14 @@ SHARED void stream_overlap(reduction *r, const clipping *clip)
     stream_segments(r, clip);
     return;
   }
-  if (moving == 2u) {
-    stream_moving_edge(r, clip, clip->moving->kept[0], clip->moving->kept[1]);
-    return;
-  }
-  vec3 from = outline_corner(clip->moving, moving - 1u);
-  for (uint k = 0u; k < moving; ++k) {
+  mask segment = moving == 2u;
+  vec3 from = outline_corner(clip->moving, segment ? 0u : moving - 1u);
+  for (uint k = segment ? 1u : 0u; k < moving; ++k) {
     vec3 to = outline_corner(clip->moving, k);
     stream_moving_edge(r, clip, from, to);
     from = to;
   }
-  stream_reference_corners(r, clip);
+  if (!segment) stream_reference_corners(r, clip);
 }
 
 #endif

@@ -16,27 +16,27 @@ SHARED vec3 from_axis(uint axis, real x, real y, real z)
   return axis == 0u ? make_vec3(x, y, z) : axis == 1u ? make_vec3(z, x, y) : make_vec3(y, z, x);
 }
 
-SHARED mask is_polytope(const convex *shape) { return shape->kind == (uint)SHAPE_BOX || shape->kind == (uint)SHAPE_HULL; }
-SHARED uint faces_of(const convex *shape) { return shape->kind == (uint)SHAPE_HULL ? shape->hull.faces : 6u; }
-SHARED uint edges_of(const convex *shape) { return shape->kind == (uint)SHAPE_HULL ? shape->hull.edges : 12u; }
+SHARED mask is_polytope(const convex *shape) { return shape->kind == (uint)SHAPE_BOX || is_hull(shape); }
+SHARED uint faces_of(const convex *shape) { return is_hull(shape) ? shape->hull.faces : 6u; }
+SHARED uint edges_of(const convex *shape) { return is_hull(shape) ? shape->hull.edges : 12u; }
 
 /* Outward unit normal and distance from the origin. */
 SHARED vec4 plane_of_face(const convex *shape, uint k)
 {
-  if (shape->kind == (uint)SHAPE_HULL) return load_row(shape->tables.planes, shape->hull.first_face + k);
+  if (is_hull(shape)) return load_row(shape->tables.planes, shape->hull.first_face + k);
   vec3 normal = from_axis(k >> 1u, (k & 1u) == 1u ? R(-1.0) : R(1.0), R(0.0), R(0.0));
   return extend(normal, coordinate(shape->size, k >> 1u));
 }
 
 SHARED uint corners_of_face(const convex *shape, uint k)
 {
-  if (shape->kind != (uint)SHAPE_HULL) return 4u;
+  if (!is_hull(shape)) return 4u;
   GLOBAL const uint *start = shape->tables.face_starts + shape->hull.first_face + k;
   return start[1] - start[0];
 }
 SHARED vec3 corner_of_face(const convex *shape, uint k, uint corner)
 {
-  if (shape->kind == (uint)SHAPE_HULL)
+  if (is_hull(shape))
     return hull_vertex(shape, shape->tables.corners[shape->tables.face_starts[shape->hull.first_face + k] + corner]);
   uint axis = k >> 1u;
   real side = (k & 1u) == 1u ? R(-1.0) : R(1.0);
@@ -68,7 +68,7 @@ SHARED uint face_of_box_edge(uint edge, uint side)
 }
 SHARED polytope_edge edge_of(const convex *shape, uint k)
 {
-  if (shape->kind != (uint)SHAPE_HULL) return edge_of_box(shape->size, k);
+  if (!is_hull(shape)) return edge_of_box(shape->size, k);
   GLOBAL const uint *entry = shape->tables.edges + 4u * (shape->hull.first_edge + k);
   polytope_edge edge;
   edge.start = hull_vertex(shape, entry[0]);

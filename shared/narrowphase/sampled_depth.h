@@ -23,42 +23,45 @@ SHARED vec3 sampled_direction(uint k)
   return from_axis(turn, first, R(0.0), R(0.0));
 }
 
-/* The normals of a shape's own faces, and of its axis. sense: 1 for a, -1 for b. */
-SHARED core_contact shallowest_of_own(core_contact best, const convex *a, const convex *b, const convex *shape, real sense)
+/* The normals of a shape's own faces, or its axis either way. */
+SHARED uint own_normals_of(const convex *shape) { return is_polytope(shape) ? faces_of(shape) : is_cylinder(shape) || is_capsule(shape) ? 2u : 0u; }
+SHARED vec3 own_normal(const convex *shape, uint k)
 {
-  if (is_polytope(shape))
-    for (uint k = 0u; k < faces_of(shape); ++k)
-      best = shallower(best, a, b, scale(from_shape_axes(shape, xyz(plane_of_face(shape, k))), sense));
-  if (shape->kind == (uint)SHAPE_CYLINDER || shape->kind == (uint)SHAPE_CAPSULE)
-    for (int k = 0; k < 2; ++k)
-      best = shallower(best, a, b, from_shape_axes(shape, make_vec3(R(0.0), k == 0 ? R(1.0) : R(-1.0), R(0.0))));
-  return best;
+  vec3 own = is_polytope(shape) ? xyz(plane_of_face(shape, k)) : make_vec3(R(0.0), k == 0u ? R(1.0) : R(-1.0), R(0.0));
+  return from_shape_axes(shape, own);
 }
 
 /* Square to the axis of a round shape, toward the other: the way out of its side. */
-SHARED core_contact shallower_sideways(core_contact best, const convex *a, const convex *b, const convex *shape, vec3 between)
+SHARED vec3 sideways_of(const convex *shape, vec3 between, vec3 otherwise)
 {
-  if (shape->kind != (uint)SHAPE_CYLINDER && shape->kind != (uint)SHAPE_CAPSULE) return best;
-  return shallower(best, a, b, from_shape_axes(shape, around_axis(to_shape_axes(shape, between))));
+  if (!is_cylinder(shape) && !is_capsule(shape)) return otherwise;
+  return from_shape_axes(shape, around_axis(to_shape_axes(shape, between)));
+}
+
+/* Direction k of all that are tried; `hint` in place of those that a pair has not. */
+SHARED vec3 tried_normal(const convex *a, const convex *b, vec3 up, vec3 hint, uint k)
+{
+  vec3 between = subtract(b->center, a->center);
+  real distance = length_of(between);
+  uint of_a = own_normals_of(a), of_b = own_normals_of(b);
+  if (k == 0u) return up;
+  if (k == 1u || (k < 5u && distance <= R(0.0))) return hint;
+  if (k == 2u) return scale(between, R(1.0) / distance);
+  if (k == 3u) return sideways_of(a, between, hint);
+  if (k == 4u) return sideways_of(b, between, hint);
+  if (k < 5u + of_a) return own_normal(a, k - 5u);
+  if (k < 5u + of_a + of_b) return is_polytope(b) ? negate(own_normal(b, k - 5u - of_a)) : own_normal(b, k - 5u - of_a);
+  return sampled_direction(k - 5u - of_a - of_b);
 }
 
 /* hint: a unit direction worth trying, such as the largest gap that the distance query saw before it met the overlap: near
- * touching it is nearly the answer, where fixed directions are farthest from it. */
+ * a shallow contact that is its normal. up: where to part shapes that have no better direction. */
 SHARED core_contact sampled_penetration(const convex *a, const convex *b, vec3 up, vec3 hint)
 {
-  core_contact best = {up, gap_along(a, b, up)};
-  best = shallower(best, a, b, hint);
-  vec3 between = subtract(b->center, a->center);
-  real distance = length_of(between);
-  if (distance > R(0.0)) {
-    best = shallower(best, a, b, scale(between, R(1.0) / distance));
-    best = shallower_sideways(best, a, b, a, between);
-    best = shallower_sideways(best, a, b, b, between);
-  }
-  best = shallowest_of_own(best, a, b, a, R(1.0));
-  best = shallowest_of_own(best, a, b, b, R(-1.0));
-  for (uint k = 0u; k < (uint)SAMPLED_DIRECTIONS; ++k) best = shallower(best, a, b, sampled_direction(k));
-  return refined_by_distance(best, a, b);
+  core_contact best = {up, R(-1e30)};
+  uint tried = 5u + own_normals_of(a) + own_normals_of(b) + (uint)SAMPLED_DIRECTIONS;
+  for (uint k = 0u; k < tried; ++k) best = shallower(best, a, b, tried_normal(a, b, up, hint, k));
+  return best;
 }
 
 #endif

@@ -143,9 +143,9 @@ SHARED support_face support_face_of(const convex *shape, vec3 direction)
   vec3 own = to_shape_axes(shape, direction);
   support_face face;
   if (is_polytope(shape)) face = polytope_feature(shape, own);
-  else if (shape->kind == (uint)SHAPE_CYLINDER) face = cylinder_feature(shape, own);
-  else if (shape->kind == (uint)SHAPE_CAPSULE) face = capsule_feature(shape, own);
-  else if (shape->kind == (uint)SHAPE_TRIANGLE) face = triangle_feature(shape, own);
+  else if (is_cylinder(shape)) face = cylinder_feature(shape, own);
+  else if (is_capsule(shape)) face = capsule_feature(shape, own);
+  else if (is_triangle(shape)) face = triangle_feature(shape, own);
   else return point_feature(shape->center, 0u);
   if (face.corners > 2u && inner(face.normal, direction) < FACE_LEAST_COSINE)
     return point_feature(support_of(shape, direction), face.feature);
@@ -177,8 +177,8 @@ SHARED vec3 triangle_corner(const convex *shape, uint k)
 SHARED vec3 face_corner(const convex *shape, const support_face *face, uint k)
 {
   if (face->corners <= 2u) return k == 0u ? face->first_end : face->second_end;
-  if (shape->kind == (uint)SHAPE_CYLINDER) return point_of_shape(shape, cap_corner(shape, face, k));
-  if (shape->kind == (uint)SHAPE_TRIANGLE) return point_of_shape(shape, triangle_corner(shape, face->turned && k > 0u ? 3u - k : k));
+  if (is_cylinder(shape)) return point_of_shape(shape, cap_corner(shape, face, k));
+  if (is_triangle(shape)) return point_of_shape(shape, triangle_corner(shape, face->turned && k > 0u ? 3u - k : k));
   return point_of_shape(shape, corner_of_face(shape, face->feature, k));
 }
 

@@ -91,8 +91,8 @@ SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex
 {
   pair->a = a;
   pair->b = b;
-  pair->of_a = a->kind == (uint)SHAPE_TRIANGLE;
-  pair->of_b = b->kind == (uint)SHAPE_TRIANGLE;
+  pair->of_a = is_triangle(a);
+  pair->of_b = is_triangle(b);
   pair->sides_a = sides_of(pair->of_a ? a : b);
   pair->sides_b = sides_of(pair->of_b ? b : a);
   pair->outside_a = pair->of_a && in_front(&pair->sides_a, b);
@@ -126,8 +126,8 @@ SHARED core_contact contact_along_face(const triangle_pair *pair)
 SHARED core_contact triangle_penetration(const triangle_pair *pair, vec3 up, real tolerance)
 {
   const convex *other = pair->of_a ? pair->b : pair->a;
-  mask only_face = (pair->of_a && pair->of_b) || other->kind == (uint)SHAPE_SPHERE || other->kind == (uint)SHAPE_CAPSULE;
-  return only_face ? contact_along_face(pair) : expanded_and_refined(pair->a, pair->b, up, tolerance);
+  mask only_face = (pair->of_a && pair->of_b) || other->kind == (uint)SHAPE_SPHERE || is_capsule(other);
+  return only_face ? contact_along_face(pair) : penetration(pair->a, pair->b, up, up, tolerance, CONVEX_EXPANSION);
 }
 
 /* The face whose normal the contact has; 0 where it lies elsewhere. */
@@ -138,11 +138,9 @@ SHARED const triangle_sides *face_of_contact(const triangle_pair *pair, vec3 nor
   return 0;
 }
 
-/* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a neighbour. */
-SHARED mask face_patch(contact_patch *patch, const triangle_pair *pair, core_contact contact, const triangle_sides *face, real reach)
+/* Where nothing meets the triangle on its face: the deepest point, if it lies above it. */
+SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, core_contact contact, const triangle_sides *face)
 {
-  core_contact open = {contact.normal, R(1e30)};
-  if (overlap_patch(patch, pair->a, pair->b, open, reach)) return 1;
   mask on_a = face == &pair->sides_a;
   vec3 deepest = on_a ? support_of(pair->b, negate(contact.normal)) : add_scaled(support_of(pair->a, contact.normal), contact.normal, contact.gap);
   real size = minimum(bounding_radius_of(pair->a), bounding_radius_of(pair->b));
@@ -182,8 +180,11 @@ SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real r
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return 0;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
-  if (face) return face_patch(patch, &triangles, contact, face, reach);
-  if (!overlap_patch(patch, a, b, contact, reach)) point_patch(patch, a, b, contact, near.overlapping ? deepest_point_of_b(a, b, contact) : near.on_b);
+  /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a neighbour. */
+  core_contact sought = {contact.normal, face ? R(1e30) : contact.gap};
+  if (overlap_patch(patch, a, b, sought, reach)) return 1;
+  if (face) return face_point_patch(patch, &triangles, contact, face);
+  point_patch(patch, a, b, contact, near.overlapping ? deepest_point_of_b(a, b, contact) : near.on_b);
   return 1;
 }
 

@@ -172,9 +172,9 @@ SHARED span span_in_triangle(const convex *shape, vec3 o, vec3 u)
 SHARED span span_in_shape(const convex *shape, vec3 o, vec3 u)
 {
   if (shape->kind == (uint)SHAPE_SPHERE) return span_in_sphere(o, u, R(0.0), shape->size.x);
-  if (shape->kind == (uint)SHAPE_CYLINDER) return span_in_cone(o, u, -shape->size.y, shape->size.y, shape->size.x, shape->size.z);
-  if (shape->kind == (uint)SHAPE_CAPSULE) return span_in_capsule(o, u, shape->size);
-  if (shape->kind == (uint)SHAPE_TRIANGLE) return span_in_triangle(shape, o, u);
+  if (is_cylinder(shape)) return span_in_cone(o, u, -shape->size.y, shape->size.y, shape->size.x, shape->size.z);
+  if (is_capsule(shape)) return span_in_capsule(o, u, shape->size);
+  if (is_triangle(shape)) return span_in_triangle(shape, o, u);
   if (shape->kind == (uint)SHAPE_HALF_SPACE) return span_below_plane(o, u, make_vec3(R(0.0), R(1.0), R(0.0)), R(0.0));
   return span_in_polytope(shape, o, u);
 }

@@ -400,9 +400,9 @@ inline Found find(const Shape &a, const Shape &b, natural method)
   const convex_pair pair = pair_of(&record_a, &record_b);
   const double radii = double(core_radius(&record_a)) + double(core_radius(&record_b)), sense = pair.swapped ? -1 : 1;
   const gjk_result near = closest_points(&pair.a, &pair.b, R(1e30));
-  mask apart;
-  vec3 on_b;
-  const core_contact contact = core_contact_of(&pair, R(1e30), R(0.0), method, &apart, &on_b);
+  const bool by_axes = method == CONVEX_AXES && near.overlapping && is_polytope(&pair.a) && is_polytope(&pair.b);
+  const core_contact contact = by_axes ? separating_hull_axis(&pair.a, &pair.b, R(0.0), R(1e30)).contact
+                                       : core_meeting_of(&pair, R(1e30), R(0.0), method, 0, core_contact{}).contact;
   const vec3 normal = rotate(pair.axes, contact.normal);
   const double distance = near.overlapping ? 0 : double(length_of(subtract(near.on_b, near.on_a))) - radii;
   return {sense * Vector(normal.x, normal.y, normal.z), double(contact.gap) - radii, distance, bool(near.overlapping)};
