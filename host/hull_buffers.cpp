@@ -53,8 +53,9 @@ struct Tables {
     for (const HullEdge &e : hull.edges) edges.insert(edges.end(), {e.v0, e.v1, e.face_left, e.face_right});
     append_strips(strips, std::span(vertices).last(hull.vertices.size()), 3);
     append_strips(strips, std::span(planes).last(hull.faces.size()), 4);
+    strips.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
     append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
-    append_cube_map(links, std::span(vertices).last(hull.vertices.size()), map_side);
+    append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()), strips.back(), map_side);
   }
 };
 
@@ -69,8 +70,8 @@ HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
     sizes.faces += static_cast<uint32_t>(hull->faces.size());
     sizes.edges += static_cast<uint32_t>(hull->edges.size());
     sizes.corners += corners_of(*hull);
-    sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4);
-    sizes.links += static_cast<uint32_t>(hull->vertices.size()) + 1 + 2 * corners_of(*hull) + 6 * map_side * map_side;
+    sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4) + 1;
+    sizes.links += static_cast<uint32_t>(hull->vertices.size()) + 1 + 2 * corners_of(*hull) + 12 * map_side * map_side;
   }
   return sizes;
 }

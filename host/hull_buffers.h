@@ -13,7 +13,7 @@ namespace tandem {
 struct HullSizes {
   uint32_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
 };
-/* map_side: cells along a side of the cube maps of hull_support.h; 0: none are made. */
+/* map_side: cells along a side of the cube maps of hull_support.h and cube_field.h; 0: none are made. */
 HullSizes hull_sizes(const Scene &scene, uint32_t map_side);
 
 /* The place of each hull, also of those of children, in the tables. */

@@ -48,26 +48,48 @@ template <class Faces> void append_links(std::vector<uint32_t> &links, uint32_t 
   links.insert(links.end(), edge_of_corner.begin(), edge_of_corner.end());
 }
 
-/* For each cell of hull_support.h's cube of side x side x 6 the vertex farthest in the direction of its middle. */
-template <class Row> void append_cube_map(std::vector<uint32_t> &links, std::span<Row> vertices, uint32_t side)
+/* The entry of the highest score; the lowest of equal ones. */
+template <class Row, class Score> uint32_t highest_of(std::span<Row> entries, const Score &score)
+{
+  uint32_t best = 0;
+  double highest = -1e300;
+  for (uint32_t k = 0; k < entries.size(); ++k)
+    if (const double height = score(entries[k]); height > highest) highest = height, best = k;
+  return best;
+}
+
+/* For each cell of hull_support.h's cube of side x side x 6 what a look along its middle finds. */
+template <class Look> void append_cube(std::vector<uint32_t> &links, uint32_t side, const Look &look)
 {
   const auto middle = [&](uint32_t cell) { return 2.0 * (cell + 0.5) / side - 1.0; };
-  const auto farthest = [&](const std::array<double, 3> &d) {
-    uint32_t best = 0;
-    double highest = -1e300;
-    for (uint32_t k = 0; k < vertices.size(); ++k) {
-      const double height = vertices[k].x * d[0] + vertices[k].y * d[1] + vertices[k].z * d[2];
-      if (height > highest) highest = height, best = k;
-    }
-    return best;
-  };
   for (uint32_t face = 0; face < 6; ++face)
     for (uint32_t v = 0; v < side; ++v)
       for (uint32_t u = 0; u < side; ++u) {
         std::array<double, 3> d{};
         d[face / 2] = face % 2 ? -1 : 1, d[(face / 2 + 1) % 3] = middle(u), d[(face / 2 + 2) % 3] = middle(v);
-        links.push_back(farthest(d));
+        links.push_back(look(d));
       }
+}
+
+/* Two maps: the vertex farthest in the direction, and the face that lies in it as seen from the middle. */
+template <class Row> void append_cube_maps(std::vector<uint32_t> &links, std::span<Row> vertices, std::span<Row> planes, const std::type_identity_t<Row> &middle, uint32_t side)
+{
+  const auto along = [](const Row &r, const std::array<double, 3> &d) { return r.x * d[0] + r.y * d[1] + r.z * d[2]; };
+  append_cube(links, side, [&](const std::array<double, 3> &d) { return highest_of(vertices, [&](const Row &vertex) { return along(vertex, d); }); });
+  append_cube(links, side, [&](const std::array<double, 3> &d) {
+    return highest_of(planes, [&](const Row &plane) { return along(plane, d) / (plane.w - along(plane, {middle.x, middle.y, middle.z})); });
+  });
+}
+
+/* The mean of the vertices. */
+template <class Row> Row middle_of(std::span<Row> vertices)
+{
+  double x = 0, y = 0, z = 0;
+  for (const Row &v : vertices) x += v.x, y += v.y, z += v.z;
+  const double n = static_cast<double>(vertices.size());
+  Row middle{};
+  middle.x = static_cast<decltype(middle.x)>(x / n), middle.y = static_cast<decltype(middle.y)>(y / n), middle.z = static_cast<decltype(middle.z)>(z / n);
+  return middle;
 }
 
 } // namespace tandem

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -56,17 +57,18 @@ std::string stage_list()
 } // namespace
 
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
-std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split"}; }
+std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split", "cube-map"}; }
 /* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
 std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
 
 uint32_t narrowphase_method(const Settings &settings)
 {
-  const uint32_t method = settings.narrowphase == "gjk-epa" ? CONVEX_EXPANSION : settings.narrowphase == "gjk-sampled" ? CONVEX_SAMPLED : CONVEX_AXES;
+  static const std::map<std::string, uint32_t> methods{
+      {"sat", CONVEX_AXES}, {"gjk-epa", CONVEX_EXPANSION}, {"gjk-sampled", CONVEX_SAMPLED}, {"sat-split", CONVEX_AXES}, {"cube-map", CONVEX_FIELDS}};
   const std::vector<std::string> names = support_names();
-  return method | static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
+  return methods.at(settings.narrowphase) | static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
 }
-uint32_t cube_map_cells(const Settings &settings) { return settings.support == "brute-force" ? 0 : settings.support_cells; }
+uint32_t cube_map_cells(const Settings &settings) { return settings.support == "brute-force" && settings.narrowphase != "cube-map" ? 0 : settings.support_cells; }
 
 std::vector<std::string> batching_names()
 {

@@ -71,6 +71,7 @@ uint32_t narrowphase_features(const Scene &scene, uint32_t features, const Setti
   const uint32_t method = narrowphase_method(settings) & 255u;
   if (method == CONVEX_SAMPLED) return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
   if (method == CONVEX_EXPANSION) return FEATURE_EXPANSION;
+  if (method == CONVEX_FIELDS) return uint32_t{FEATURE_FIELDS} | uint32_t{FEATURE_EXPANSION};
   const bool others = any_shape(scene, {ShapeType::sphere, ShapeType::capsule, ShapeType::cylinder, ShapeType::mesh});
   return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) | (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
 }

@@ -24,7 +24,7 @@ enum { TRAIT_TRIGGER = 1 << 5 };
 /* In body_share: all of a motion, as whole numbers count it. */
 #define WHOLE_MOTION (1u << 24u)
 /* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex (hull_support.h). */
-enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2 };
+enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS = 3 };
 enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
 
 #endif

@@ -1,6 +1,6 @@
 /* convex_contact.h - the manifold of any two convex shapes.
  *
- *   pair_of -> normal and gap by one of three methods -> a face's normal instead, if as good -> supporting features
+ *   pair_of -> normal and gap by one of four methods -> a face's normal instead, if as good -> supporting features
  *           -> their overlap seen along the normal -> four points
  *
  * Where cores are apart gjk.h has both; a separating axis that is not that of the closest points would have no contact on
@@ -9,15 +9,17 @@
  *   CONVEX_EXPANSION   epa.h: the least depth, 1.7 KiB private
  *   CONVEX_SAMPLED     sampled_depth.h: near the least depth, little memory
  *   CONVEX_AXES        hull_axes.h for boxes and hulls: the least depth, faces first; others as CONVEX_EXPANSION
+ *   CONVEX_FIELDS      cube_field.h for boxes and hulls near each other: points, too; else as CONVEX_EXPANSION
  *
  * Contacts are made ahead of touching, up to `reach`; a normal is unit length always.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
 
+#include "shared/narrowphase/contact_patch.h"
+#include "shared/narrowphase/cube_field.h"
 #include "shared/narrowphase/epa.h"
 #include "shared/narrowphase/hull_axes.h"
-#include "shared/narrowphase/polygon_clip.h"
 #include "shared/narrowphase/sampled_depth.h"
 
 /* What a face must not be worse by than the best axis, to be it (box_axes.h). */
@@ -99,108 +101,6 @@ SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real le
   return met;
 }
 
-/* Rounding error of a corner. */
-SHARED real slack_of_corners(const convex *b) { return R(32.0) * ROUNDING * bounding_radius_of(b); }
-
-SHARED contact_axes contact_axes_of(vec3 normal)
-{
-  tangents t = tangents_of(normal);
-  contact_axes axes = {t.first, t.second, normal};
-  return axes;
-}
-
-/* The points of a contact in its axes, and the height of the surface of b above each. */
-typedef struct {
-  contact_axes axes;
-  clip_point point[4];
-  real height[4];
-  natural code;
-} contact_patch;
-
-/* Two supporting features about to be clipped. */
-typedef struct {
-  outline a, b;
-  clipping clip;
-  mask b_moves;
-} feature_overlap;
-
-SHARED void start_overlap(feature_overlap *overlap, const convex *a, const support_face *face_a, const convex *b, const support_face *face_b,
-                          const contact_axes *axes, real reach)
-{
-  make_outline(&overlap->a, a, face_a, axes);
-  make_outline(&overlap->b, b, face_b, axes);
-  overlap->b_moves = face_b->corners <= face_a->corners;
-  clipping *clip = &overlap->clip;
-  clip->moving = overlap->b_moves ? &overlap->b : &overlap->a;
-  clip->reference = overlap->b_moves ? &overlap->a : &overlap->b;
-  measure_sides(overlap->b_moves ? &overlap->a : &overlap->b);
-  clip->sense = overlap->b_moves ? R(1.0) : R(-1.0);
-  clip->radii = core_radius(a) + core_radius(b);
-  clip->reach = reach;
-  clip->slack = slack_of_corners(b);
-}
-
-/* Height of the surface of b above a point. */
-SHARED real height_of_b(const feature_overlap *overlap, const convex *a, const convex *b, clip_point p)
-{
-  real on_a = height_of(&overlap->a, p.u, p.v) + core_radius(a), on_b = height_of(&overlap->b, p.u, p.v) - core_radius(b);
-  return overlap->b_moves ? on_a + p.separation : on_b;
-}
-
-/* The overlap misses the deepest point of the shapes: the contact then lies where no features meet face to face. */
-SHARED mask misses_deepest(const reduction *r, real gap) { return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead; }
-SHARED natural code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
-
-/* Where the two supporting features overlap. False if there is no contact of that kind. */
-SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, real reach)
-{
-  patch->axes = contact_axes_of(contact.normal);
-  support_face face_a = support_face_of(a, contact.normal), face_b = support_face_of(b, negate(contact.normal));
-  patch->code = code_of_features(face_a.feature, face_b.feature);
-  if (face_a.corners == 1u || face_b.corners == 1u) return 0;
-  feature_overlap overlap;
-  start_overlap(&overlap, a, &face_a, b, &face_b, &patch->axes, reach);
-  reduction r;
-  start_reduction(&r, bounding_radius_of(b), overlap.clip.slack);
-  do {
-    if (r.pass == 0 || !reduce_kept(&r)) stream_overlap(&r, &overlap.clip);
-  } while (next_pass(&r));
-  if (misses_deepest(&r, contact.gap - overlap.clip.radii)) return 0;
-  finish_reduction(patch->point, &r);
-  for (int slot = 0; slot < 4; ++slot) patch->height[slot] = height_of_b(&overlap, a, b, patch->point[slot]);
-  return 1;
-}
-
-/* A patch of one point of b. */
-SHARED void point_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, vec3 on_b)
-{
-  vec3 at = in_contact_axes(&patch->axes, on_b);
-  clip_point point = {at.x, at.y, contact.gap - core_radius(a) - core_radius(b), 1};
-  for (int slot = 0; slot < 4; ++slot) {
-    patch->point[slot] = point;
-    patch->point[slot].valid = slot == 0;
-    patch->height[slot] = at.z - core_radius(b);
-  }
-}
-
-/* From the pair's axes to the world's. */
-SHARED manifold placed_manifold(const convex_pair *pair, const contact_patch *patch)
-{
-  const contact_axes *axes = &patch->axes;
-  manifold m;
-  vec3 normal = rotate(pair->axes, axes->normal);
-  m.normal = pair->swapped ? negate(normal) : normal;
-  m.code = patch->code;
-  for (int slot = 0; slot < 4; ++slot) {
-    clip_point p = patch->point[slot];
-    vec3 at = add_scaled(scale(axes->u, p.u), axes->v, p.v);
-    at = add_scaled(at, axes->normal, patch->height[slot] - p.separation * R(0.5));
-    m.point[slot] = extend(add(pair->origin, rotate(pair->axes, at)), p.separation);
-    m.kept[slot] = p.valid;
-  }
-  return m;
-}
-
 /* Too far apart for one. */
 SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
 {
@@ -225,7 +125,8 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
   /* Where features meet: along the axis found, along a face's normal that is nearly as good, along one equal but for rounding. */
   core_meeting met = {contact, 0, b->center};
   contact_patch patch;
-  mask found = 0;
+  mask found = MAY_OCCUR(FEATURE_FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) && field_patch(&patch, a, b, reach, minimum(reach, lead));
+  if (found) return kept_within(placed_manifold(&pair, &patch), reach);
   for (int attempt = by_axes ? 0 : 1; attempt < 3 && !found; ++attempt) {
     if (attempt == 1) met = core_meeting_of(&pair, reach + radii, lead, method, by_axes, contact);
     if (attempt == 1 && met.contact.gap - radii >= reach) return no_contact(&pair, met.contact.normal, met.contact.gap - radii);

@@ -36,9 +36,11 @@ typedef struct {
   GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
   GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
   GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
-  GLOBAL const row *strips;       /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h) */
+  GLOBAL const row *strips;       /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h); the
+                                     middle of its vertices */
   GLOBAL const uint *links;       /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
-                                     vertex, ascending; for each corner the edge to the next; the cube map */
+                                     vertex, ascending; for each corner the edge to the next; the cube maps: of farthest
+                                     vertices, and of faces seen from the middle (cube_field.h) */
   GLOBAL const row *mesh_vertices;   /* x y z: about the origin of the mesh's axes */
   GLOBAL const uint *mesh_triangles; /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours across 0-1, 1-2, 2-0 */
   uint support;                   /* SUPPORT_ */
@@ -80,20 +82,27 @@ SHARED uint cell_of_side(real x, uint cells)
   int cell = truncate_to_int((x + R(1.0)) * R(0.5) * to_real(cells));
   return cell < 0 ? 0u : (uint)cell < cells ? (uint)cell : cells - 1u;
 }
-/* Side: 0 1 +x -x, 2 3 +y -y, 4 5 +z -z; rows of cells along the two axes after it. */
-SHARED uint cell_of_cube(vec3 direction, uint cells)
+/* Side: 0 1 +x -x, 2 3 +y -y, 4 5 +z -z; u, v: -1 to 1 along the two axes after it. */
+typedef struct {
+  uint side;
+  real u, v;
+} cube_place;
+
+SHARED cube_place place_on_cube(vec3 direction)
 {
   vec3 size = absolute(direction);
   mask x = size.x >= size.y && size.x >= size.z, y = !x && size.y >= size.z;
   real along = x ? direction.x : y ? direction.y : direction.z, most = x ? size.x : y ? size.y : size.z;
   real u = x ? direction.y : y ? direction.z : direction.x, v = x ? direction.z : y ? direction.x : direction.y;
-  uint side = (x ? 0u : y ? 2u : 4u) + (along < R(0.0) ? 1u : 0u);
-  if (!(most > R(0.0))) return 0u;
-  return (side * cells + cell_of_side(v / most, cells)) * cells + cell_of_side(u / most, cells);
+  cube_place place = {(x ? 0u : y ? 2u : 4u) + (along < R(0.0) ? 1u : 0u), u / most, v / most};
+  if (!(most > R(0.0))) place.side = 0u, place.u = place.v = R(0.0);
+  return place;
 }
+/* Rows of cells along u, one after the other along v. */
+SHARED uint cell_of_place(cube_place place, uint cells) { return (place.side * cells + cell_of_side(place.v, cells)) * cells + cell_of_side(place.u, cells); }
 SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
 {
-  return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners + cell_of_cube(direction, hull->map_side)];
+  return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners + cell_of_place(place_on_cube(direction), hull->map_side)];
 }
 
 SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull, uint k, vec3 direction)

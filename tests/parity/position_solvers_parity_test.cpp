@@ -21,7 +21,7 @@ TEST_CASE("parity of position solvers on CPU", "[sanitizer]")
   require_parity("spheres:n=100,height=0,restitution=0.5", cpu, 20, settings_for(name));
 }
 
-TEST_CASE("parity of position solvers on OpenCL")
+TEST_CASE("parity on OpenCL: position solvers")
 {
   if (!has_pocl()) return;
   const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");

@@ -133,7 +133,8 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
   ::tandem::append_strips(hull->strips, hull->rows, 3);
   ::tandem::append_strips(hull->strips, hull->planes, 4);
   ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
-  ::tandem::append_cube_map(hull->links, std::span(hull->rows), map_side);
+  hull->strips.push_back(::tandem::middle_of(std::span(hull->rows)));
+  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->strips.back(), map_side);
   return hull;
 }
 
