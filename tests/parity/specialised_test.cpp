@@ -6,17 +6,20 @@ using namespace tandem::parity;
 
 namespace {
 
-void require_same_state(const std::string &scene, const std::string &backend, uint64_t steps)
+void require_same_state(const std::string &scene, const std::string &backend, uint64_t steps, const Settings &settings = {})
 {
-  Settings everything;
+  Settings everything = settings;
   everything.specialise = false;
   CAPTURE(scene, backend);
-  CHECK(state_after(scene, backend, steps) == state_after(scene, backend, steps, everything));
+  CHECK(state_after(scene, backend, steps, settings) == state_after(scene, backend, steps, everything));
 }
 
-void require_same_state_on_pocl(const std::string &scene)
+void require_same_state_on_pocl(const std::string &scene, const std::string &narrowphase = "sat", const std::string &support = "brute-force")
 {
-  if (has_pocl()) require_same_state(scene, "cl:pocl", 20);
+  Settings settings;
+  settings.narrowphase = narrowphase;
+  settings.support = support;
+  if (has_pocl()) require_same_state(scene, "cl:pocl", 20, settings);
 }
 
 } // namespace
@@ -43,5 +46,8 @@ TEST_CASE("parity on OpenCL: specialised pyramid") { require_same_state_on_pocl(
 TEST_CASE("parity on OpenCL: specialised spheres") { require_same_state_on_pocl(small_scenes()[4]); }
 TEST_CASE("parity on OpenCL: specialised mixed") { require_same_state_on_pocl(small_scenes()[5]); }
 TEST_CASE("parity on OpenCL: specialised trees") { require_same_state_on_pocl(few_trees()); }
-TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); } /* shapes and convex-hulls need the same features */
+TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); }
+TEST_CASE("parity on OpenCL: specialised convex-hulls") { require_same_state_on_pocl(small_scenes()[7]); }
+TEST_CASE("parity on OpenCL: specialised gjk-sampled") { require_same_state_on_pocl(small_scenes()[7], "gjk-sampled"); }
+TEST_CASE("parity on OpenCL: specialised cube-map and hill-climbing") { require_same_state_on_pocl(small_scenes()[7], "cube-map", "hill-climbing"); }
 TEST_CASE("parity on OpenCL: specialised rolling") { require_same_state_on_pocl(small_scenes()[8]); }
