@@ -224,7 +224,7 @@ private:
     Settings settings;
     settings.step = 1e-6f;
     if (!method.empty()) settings.narrowphase = method.substr(0, method.find(','));
-    settings.support = method.ends_with("climbing") ? "hill-climbing" : method.ends_with("map") ? "cube-map" : "brute-force";
+    settings.support = method.ends_with(", hill-climbing") ? "hill-climbing" : method.ends_with(", cube-map") ? "cube-map" : "brute-force";
     return settings;
   }
   std::vector<Kernel> kernels_of(const PairKind &kind) const
