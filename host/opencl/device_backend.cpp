@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -127,7 +128,9 @@ private:
   {
     const KernelRow &row = row_of(kernel);
     const EmbeddedProgram &embedded = embedded_program(name_of(row.stage));
-    const uint32_t read = features & features_read(embedded);
+    std::optional<uint32_t> &readable = readable_[static_cast<size_t>(row.stage)];
+    if (!readable) readable = features_read(embedded); /* a search through its whole text */
+    const uint32_t read = features & *readable;
     cl::Program &program = programs_[{embedded.name, read}];
     if (!program()) program = build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read));
     BuiltKernel &built = current_->kernels[index_of(kernel)];
@@ -202,6 +205,7 @@ private:
   DeviceContext context_;
   DeviceStorage storage_;
   size_t group_size_;
+  std::array<std::optional<uint32_t>, stage_count> readable_; /* by stage: the features that its program reads */
   std::map<std::pair<std::string, uint32_t>, cl::Program> programs_; /* by name, and the features it reads */
   std::map<uint32_t, Build> builds_; /* by features */
   Build *current_ = nullptr;

@@ -226,6 +226,17 @@ private:
   mutable Matrix kept_axes_;
 };
 
+/* A hull all of whose points are vertices, turned at random. */
+inline Shape stone(Random &random, uint32_t vertices, const Vector &size)
+{
+  Shape shape;
+  shape.kind = SHAPE_HULL;
+  shape.hull = random_hull(random, vertices, size);
+  shape.size = size.cast<float>();
+  shape.orientation = random.orientation().cast<float>();
+  return shape;
+}
+
 /* Gap of two shapes along a unit direction from a to b. */
 inline double gap_between(const Shape &a, const Shape &b, const Vector &normal)
 {

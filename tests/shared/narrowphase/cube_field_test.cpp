@@ -10,16 +10,6 @@ namespace {
 
 constexpr float slop = 0.005f;
 
-Shape stone(Random &random, uint32_t vertices, const Vector &size)
-{
-  Shape shape;
-  shape.kind = SHAPE_HULL;
-  shape.hull = random_hull(random, vertices, size);
-  shape.size = size.cast<float>();
-  shape.orientation = random.orientation().cast<float>();
-  return shape;
-}
-
 Shape box(const Vector &extent, const Vector &middle)
 {
   Shape shape;

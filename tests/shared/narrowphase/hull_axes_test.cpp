@@ -28,16 +28,6 @@ void compare(Comparison &result, const Shape &a, const Shape &b)
   result.of_edges += axis.kind == AXIS_OF_EDGES;
 }
 
-Shape stone(Random &random, uint32_t vertices, const Vector &size)
-{
-  Shape shape;
-  shape.kind = SHAPE_HULL;
-  shape.hull = random_hull(random, vertices, size);
-  shape.size = size.cast<float>();
-  shape.orientation = random.orientation().cast<float>();
-  return shape;
-}
-
 } // namespace
 
 TEST_CASE("convex axes: stones of 20 vertices, resting and deep in each other, against all their axes")
