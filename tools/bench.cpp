@@ -22,6 +22,7 @@ namespace {
 
 struct BenchOptions {
   std::string what, on = "tbb", count;
+  std::vector<std::string> pairs;
   bool inexact = false;
   JsonOutput json;
 };
@@ -79,7 +80,7 @@ int execute_narrowphase(const BenchOptions &options)
 {
   const uint64_t pairs = options.count.empty() ? 4096 : whole_number("--n", options.count, 1, most_bodies / 2);
   options.json.check();
-  const std::vector<PairTime> times = bench_narrowphase(options.on, static_cast<uint32_t>(pairs), options.inexact);
+  const std::vector<PairTime> times = bench_narrowphase(options.on, static_cast<uint32_t>(pairs), options.pairs, options.inexact);
   if (!options.json.takes_standard_output()) fmt::print("{} on {}: {} pairs of each kind\n{}", options.what, options.on, pairs, narrowphase_text(times));
   options.json.write({{"what", options.what}, {"backend", options.on}, {"n", pairs}, {"pairs", narrowphase_json(times)}});
   return 0;
@@ -150,6 +151,7 @@ Command bench_command(CLI::App &parser)
   command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--n", options->count, "how many: 1048576 keys, 4096 pairs of each kind, 1000 bodies unless given")->type_name("N");
+  command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")->delimiter(',')->check(CLI::IsMember(bench_pair_names()))->type_name("KIND,...");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")->type_name("FILE");
   return {command, [options] { return execute(*options); }};

@@ -17,6 +17,7 @@
 #include "host/scene_builders.h"
 #include "host/step_launches.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "tools/parallel.h"
 #include "tools/progress.h"
 
 namespace tandem {
@@ -162,22 +163,30 @@ Scene scene_of(const PairKind &kind, uint32_t pairs)
   return scene;
 }
 
+void bring_pair_near(Scene &scene, const Convexes &convexes, bool on_plane, uint32_t pair)
+{
+  Random random(pair);
+  const double gap = wanted_gap(pair, random);
+  if (on_plane) {
+    const convex shape = convexes.of(pair, make_vec3(0, 0, 0));
+    scene.bodies[pair].position[1] = gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
+    return;
+  }
+  const vec3 offset = near_contact(convexes, 2 * pair, 2 * pair + 1, gap, random);
+  const Point at = scene.bodies[2 * pair].position;
+  scene.bodies[2 * pair + 1].position = {at[0] + double(offset.x), at[1] + double(offset.y), at[2] + double(offset.z)};
+}
+
+/* A random start of its own for each pair: they are the same with any number of threads. */
 void bring_near(Scene &scene, bool on_plane)
 {
   const Convexes convexes(scene);
-  Random random(2);
-  const auto bodies = static_cast<uint32_t>(scene.bodies.size());
-  for (uint32_t pair = 0; pair < (on_plane ? bodies - 1 : bodies / 2); ++pair) {
-    const double gap = wanted_gap(pair, random);
-    if (on_plane) {
-      const convex shape = convexes.of(pair, make_vec3(0, 0, 0));
-      scene.bodies[pair].position[1] = gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
-    } else {
-      const vec3 offset = near_contact(convexes, 2 * pair, 2 * pair + 1, gap, random);
-      const Point at = scene.bodies[2 * pair].position;
-      scene.bodies[2 * pair + 1].position = {at[0] + double(offset.x), at[1] + double(offset.y), at[2] + double(offset.z)};
-    }
-  }
+  const auto bodies = static_cast<uint32_t>(scene.bodies.size()), pairs = on_plane ? bodies - 1 : bodies / 2;
+  constexpr uint32_t block = 256;
+  in_parallel((pairs + block - 1) / block, processor_count(), [&](size_t k) {
+    const auto first = static_cast<uint32_t>(k * block);
+    for (uint32_t pair = first; pair < std::min(pairs, first + block); ++pair) bring_pair_near(scene, convexes, on_plane, pair);
+  });
 }
 
 /* --- times ---------------------------------------------------------------------------------------------- */
@@ -242,10 +251,18 @@ double a_second(const PairTime &time) { return time.manifolds / std::max(time.mi
 
 } // namespace
 
-std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, bool allow_inexact)
+std::vector<std::string> bench_pair_names()
+{
+  std::vector<std::string> names;
+  for (const PairKind &kind : kinds()) names.push_back(kind.name);
+  return names;
+}
+
+std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, const std::vector<std::string> &only, bool allow_inexact)
 {
   std::vector<PairTime> times;
-  const std::vector<PairKind> list = kinds();
+  std::vector<PairKind> list = kinds();
+  if (!only.empty()) std::erase_if(list, [&](const PairKind &kind) { return std::find(only.begin(), only.end(), kind.name) == only.end(); });
   Progress progress("colliding", list.size());
   for (const PairKind &kind : list) {
     Scene scene = scene_of(kind, pairs);

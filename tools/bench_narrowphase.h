@@ -16,8 +16,11 @@ struct PairTime {
   Spread milliseconds;    /* of the kernels alone */
 };
 
-/* `pairs` separate pairs of each kind. InputError as make_backend. */
-std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, bool allow_inexact);
+/* box-box, hull32-hull32 and the like. */
+std::vector<std::string> bench_pair_names();
+
+/* `pairs` separate pairs of each kind, or of those named in `only`. InputError as make_backend. */
+std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, const std::vector<std::string> &only, bool allow_inexact);
 
 std::string narrowphase_text(const std::vector<PairTime> &times);
 Json narrowphase_json(const std::vector<PairTime> &times);
