@@ -433,6 +433,14 @@ struct Errors {
       worst = pair;
     }
   }
+  void add(const Errors &other)
+  {
+    if (!(other.largest <= largest)) {
+      largest = other.largest;
+      worst = other.worst;
+    }
+    values.insert(values.end(), other.values.begin(), other.values.end());
+  }
   double quantile(double share)
   {
     std::sort(values.begin(), values.end());
