@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|times|widths|solvers|batchers|report|stability|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|narrowphase|times|widths|solvers|batchers|report|stability|all]
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -26,10 +26,36 @@ if [ "$what" = parity ] || [ "$what" = all ]; then
   done
 fi
 if [ "$what" = shapes ] || [ "$what" = all ]; then
-  for scene in shapes:n=200 convex-hulls:n=300 rolling; do
-    record "shapes-${scene%%:*}" diff "$scene" --between "serial,tbb,$gpu" --steps 120
+  between="serial,tbb,$gpu"
+  for method in sat gjk-epa gjk-sampled sat-split cube-map; do
+    for scene in shapes:n=100 convex-hulls:n=150; do
+      record "parity-${scene%%:*}-$method" diff "$scene" --narrowphase "$method" --between "$between" --steps 60
+    done
   done
-  for backend in "$gpu" tbb; do record "convex-hulls-${backend%%:*}" run convex-hulls:n=1000 --on "$backend" --steps 300; done
+  for support in hill-climbing cube-map; do
+    record "parity-convex-hulls-support-$support" diff convex-hulls:n=150 --support "$support" --between "$between" --steps 60
+  done
+  for scene in rolling mesh-slide hulls-on-mesh:n=150 compounds:n=100; do
+    record "parity-${scene%%:*}" diff "$scene" --between "$between" --steps 120
+  done
+  record parity-bullet-stack diff bullet-stack --between "$between" --steps 60
+  record parity-thin-wall diff thin-wall:n=40 --between "$between" --steps 40
+  record parity-compounds-events diff compounds:n=60 --events --between "$between" --steps 60
+  record parity-every-feature diff shapes:n=40 --no-specialise --between "$between" --steps 20
+  record parity-convex-hulls-12000 diff convex-hulls:n=12000 --between "tbb,$gpu" --steps 30
+  for backend in "$gpu" tbb; do
+    for scene in convex-hulls:n=1000 hulls-on-mesh:n=1000 compounds:n=500; do
+      record "${scene%%:*}-${backend%%:*}" run "$scene" --on "$backend" --steps 300
+    done
+    record "convex-hulls-20000-${backend%%:*}" run convex-hulls:n=20000 --on "$backend" --steps 120
+  done
+fi
+# Every method of each kind of pair is a build of its own, which takes a driver minutes.
+if [ "$what" = narrowphase ] || [ "$what" = all ]; then
+  LIMIT=600 record narrowphase-gpu bench narrowphase --on "$gpu" --n 262144
+  record narrowphase-million-boxes-gpu bench narrowphase --on "$gpu" --n 1048576 --pairs box-box
+  record narrowphase-million-hulls-gpu bench narrowphase --on "$gpu" --n 1048576 --pairs hull32-hull32
+  record narrowphase-tbb bench narrowphase --on tbb --n 65536
 fi
 if [ "$what" = times ] || [ "$what" = all ]; then
   for size in 10,10,10 20,20,20 32,32,32 40,40,40 50,40,50 100,100,100; do
