@@ -8,7 +8,7 @@ using namespace tandem::parity;
 namespace {
 
 const std::vector<std::string> processors{"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=8",
-                                          "tbb:threads=16,lanes=16", "tbb:threads=2,lanes=4", "tbb:threads=1,lanes=1"};
+                                          "tbb:threads=16", "tbb:threads=2,lanes=4", "tbb:threads=1,lanes=1"}; /* one as wide as the processor */
 const std::vector<std::string> devices{"serial", "cl:pocl"};
 
 Scene rolling(const std::string &name)
