@@ -127,6 +127,8 @@ int execute(const BenchOptions &options)
 {
   for (const char *later : {"broadphase", "solve"})
     if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching, narrowphase, support or step", later));
+  if (!options.pairs.empty() && options.what != "narrowphase")
+    throw InputError(fmt::format("--pairs names kinds of bench narrowphase; bench {} has none, leave it out", options.what));
   if (options.what == "batching") return execute_batching(options);
   if (options.what == "narrowphase") return execute_narrowphase(options);
   if (options.what == "support") return execute_support(options);

@@ -122,11 +122,17 @@ vec3 any_direction(Random &random)
   return axis_x(rotation_of(make_quat(q[0], q[1], q[2], q[3])));
 }
 
-/* Where b's centre stands, seen from a's, for that gap between the two. */
-vec3 near_contact(const Convexes &convexes, uint32_t a, uint32_t b, double gap, Random &random)
+/* How a pair is to meet: b comes along `from`. */
+struct Approach {
+  double gap;
+  vec3 from;
+};
+
+/* Where b's centre stands then, seen from a's. */
+vec3 near_contact(const Convexes &convexes, uint32_t a, uint32_t b, const Approach &approach)
 {
   const convex first = convexes.of(a, make_vec3(0, 0, 0));
-  vec3 offset = scale(any_direction(random), 3), toward = scale(offset, -1.0f / 3);
+  vec3 offset = scale(approach.from, 3), toward = scale(offset, -1.0f / 3);
   for (int k = 0; k < 40; ++k) {
     const convex second = convexes.of(b, offset);
     const convex_pair pair = pair_of(&first, &second);
@@ -137,7 +143,7 @@ vec3 near_contact(const Convexes &convexes, uint32_t a, uint32_t b, double gap, 
       continue;
     }
     const vec3 normal = rotate(pair.axes, near.contact.normal);
-    return add_scaled(offset, pair.swapped ? negate(normal) : normal, float(gap));
+    return add_scaled(offset, pair.swapped ? negate(normal) : normal, float(approach.gap));
   }
   return offset;
 }
@@ -163,29 +169,39 @@ Scene scene_of(const PairKind &kind, uint32_t pairs)
   return scene;
 }
 
-void bring_pair_near(Scene &scene, const Convexes &convexes, bool on_plane, uint32_t pair)
+/* All from one series, in order: the same with any number of threads. */
+std::vector<Approach> approaches_of(uint32_t pairs, bool on_plane)
 {
-  Random random(pair);
-  const double gap = wanted_gap(pair, random);
+  Random random(2);
+  std::vector<Approach> approaches(pairs);
+  for (uint32_t pair = 0; pair < pairs; ++pair) {
+    approaches[pair].gap = wanted_gap(pair, random);
+    if (!on_plane) approaches[pair].from = any_direction(random);
+  }
+  return approaches;
+}
+
+void bring_pair_near(Scene &scene, const Convexes &convexes, bool on_plane, uint32_t pair, const Approach &approach)
+{
   if (on_plane) {
     const convex shape = convexes.of(pair, make_vec3(0, 0, 0));
-    scene.bodies[pair].position[1] = gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
+    scene.bodies[pair].position[1] = approach.gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
     return;
   }
-  const vec3 offset = near_contact(convexes, 2 * pair, 2 * pair + 1, gap, random);
+  const vec3 offset = near_contact(convexes, 2 * pair, 2 * pair + 1, approach);
   const Point at = scene.bodies[2 * pair].position;
   scene.bodies[2 * pair + 1].position = {at[0] + double(offset.x), at[1] + double(offset.y), at[2] + double(offset.z)};
 }
 
-/* A random start of its own for each pair: they are the same with any number of threads. */
 void bring_near(Scene &scene, bool on_plane)
 {
   const Convexes convexes(scene);
   const auto bodies = static_cast<uint32_t>(scene.bodies.size()), pairs = on_plane ? bodies - 1 : bodies / 2;
+  const std::vector<Approach> approaches = approaches_of(pairs, on_plane);
   constexpr uint32_t block = 256;
   in_parallel((pairs + block - 1) / block, processor_count(), [&](size_t k) {
     const auto first = static_cast<uint32_t>(k * block);
-    for (uint32_t pair = first; pair < std::min(pairs, first + block); ++pair) bring_pair_near(scene, convexes, on_plane, pair);
+    for (uint32_t pair = first; pair < std::min(pairs, first + block); ++pair) bring_pair_near(scene, convexes, on_plane, pair, approaches[pair]);
   });
 }
 
