@@ -4,6 +4,7 @@
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/extent.h"
 #include "shared/broadphase/grid.h"
+#include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/sweep.h"
 #include "shared/broadphase/overlap.h"
 
@@ -138,6 +139,47 @@ __kernel void sweep_starts(__global const uint *pair_a, __global const uint *cou
 {
   FOR_EACH_IN_RANGE(i)
   sweep_starts_item(pair_a, counts, pair_start, i);
+}
+
+__kernel void curve_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
+                         __global uint *sort_key, __global uint *sort_value, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  curve_keys_item(bounds, grid, counts, sort_key, sort_value, i);
+}
+
+__kernel void hierarchy_leaves(__global const row *bounds, __global const uint *sort_value, __global const uint *counts,
+                               __global row *hierarchy, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  hierarchy_leaves_item(bounds, sort_value, counts, hierarchy, i);
+}
+
+__kernel void hierarchy_levels(__global const uint *counts, __global row *hierarchy, uint height, RANGE)
+{
+  hierarchy_levels_group(counts, hierarchy, height, 0, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void hierarchy_count(__global const Parameters *parameters, __global const uint *body_traits,
+                              __global const uint *body_filter, __global const row *bounds,
+                              __global const row *hierarchy, __global const uint *sort_value,
+                              __global const uint *counts, __global uint *pair_start, uint walk, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, sort_value, counts, pair_start,
+                       walk, i);
+}
+
+__kernel void hierarchy_write(__global const Parameters *parameters, __global const uint *body_traits,
+                              __global const uint *body_filter, __global const row *bounds,
+                              __global const row *hierarchy, __global const uint *sort_value,
+                              __global const uint *counts, __global const uint *pair_start,
+                              __global uint *pair_a, __global uint *pair_b, uint walk, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, sort_value, counts, pair_start,
+                       pair_a, pair_b, walk, i);
 }
 
 __kernel void count_pairs(__global const uint *pair_start, __global uint *counts, RANGE)

@@ -27,14 +27,15 @@ bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
 }
 
 /* What the iterations of a kernel stand for, and what the items of a buffer do. */
-enum class Domain { bodies, bodies_in_grid_order, pairs, constraints, place, unknown };
+enum class Domain { bodies, bodies_in_grid_order, bodies_on_curve, pairs, constraints, place, unknown };
 
 Domain domain_of(const KernelRow &row)
 {
   switch (row.items) {
   case COUNT_BODIES:
-    return names_buffer(row, [](Buffer buffer) { return buffer == Buffer::cell_start; }) ? Domain::bodies_in_grid_order
-                                                                                         : Domain::bodies;
+    if (names_buffer(row, [](Buffer buffer) { return buffer == Buffer::cell_start; })) return Domain::bodies_in_grid_order;
+    if (names_buffer(row, [](Buffer buffer) { return buffer == Buffer::hierarchy; })) return Domain::bodies_on_curve;
+    return Domain::bodies;
   case COUNT_BODIES_PLUS_ONE:
   case COUNT_COMMIT_BODIES:
   case COUNT_COMMIT_BODIES_PLUS_ONE: return Domain::bodies;
@@ -42,6 +43,7 @@ Domain domain_of(const KernelRow &row)
   case COUNT_COMMIT_PAIRS: return Domain::pairs;
   case COUNT_CONSTRAINTS:
   case COUNT_COMMIT_CONSTRAINTS: return Domain::constraints;
+  case COUNT_BOUNDED:
   case COUNT_SMALL: return Domain::place;
   case items_given: return names_buffer(row, is_by_constraint) ? Domain::constraints : Domain::place;
   default: return Domain::unknown;
@@ -80,13 +82,19 @@ std::optional<uint32_t> constraint_of(World &world, const Launch &launch, Domain
   return as_first ? as_first : search(world, Buffer::constraint_b, first, last, item);
 }
 
-/* The grid's kernels walk the large bodies, then the others sorted by cell. */
-std::optional<uint32_t> place_in_grid_order(World &world, uint32_t body)
+/* Kernels of the grid and of the hierarchy walk the first bodies, then the others as they are sorted. */
+std::optional<uint32_t> place_in_sorted_order(World &world, uint32_t unsorted, uint32_t body)
 {
-  const uint32_t large = count_of(world, COUNT_LARGE);
-  if (body < large) return body;
-  const auto place = search(world, Buffer::sort_value, 0, count_of(world, COUNT_SMALL), body);
-  return place ? std::optional<uint32_t>(*place + large) : std::nullopt;
+  if (body < unsorted) return body;
+  const auto place = search(world, Buffer::sort_value, 0, count_of(world, COUNT_BODIES) - unsorted, body);
+  return place ? std::optional<uint32_t>(*place + unsorted) : std::nullopt;
+}
+
+std::optional<uint32_t> iteration_of_body(World &world, Domain runs, uint32_t body)
+{
+  if (runs == Domain::bodies_in_grid_order) return place_in_sorted_order(world, count_of(world, COUNT_LARGE), body);
+  if (runs == Domain::bodies_on_curve) return place_in_sorted_order(world, count_of(world, COUNT_BOUNDLESS), body);
+  return body;
 }
 
 std::optional<uint32_t> owner_of_pair(World &world, uint32_t pair)
@@ -103,9 +111,9 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   if (row.form == Form::group) return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
   if (runs == Domain::unknown || written == Domain::unknown) return {};
   if (runs == Domain::constraints && written != Domain::constraints) return constraint_of(world, launch, written, item);
-  if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order) {
+  if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order || runs == Domain::bodies_on_curve) {
     const std::optional<uint32_t> body = written == Domain::pairs ? owner_of_pair(world, item) : std::optional(item);
-    return body && runs == Domain::bodies_in_grid_order ? place_in_grid_order(world, *body) : body;
+    return body ? iteration_of_body(world, runs, *body) : body;
   }
   if (runs == written || written == Domain::place) return item;
   return {};

@@ -37,6 +37,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* no more than pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
+  case Capacity::LEAVES: return leaves_for(sizes.bodies);
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
@@ -55,6 +56,8 @@ size_t bytes_of(Buffer buffer, const Sizes &sizes)
   if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
   return items_of(row.capacity, sizes) * row.per_item * size_of(row.element);
 }
+
+uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }
 
 uint32_t cells_for(uint32_t bodies) { return std::max<uint32_t>(1024, std::bit_ceil(2 * std::min(bodies, 1u << 29)) ); }
 

@@ -10,6 +10,7 @@
 
 #include "host/backend_list.h"
 #include "host/batching/batcher.h"
+#include "host/broadphases/broadphase.h"
 #include "host/kernel_list.h"
 #include "host/scene.h"
 #include "shared/body_codes.h"
@@ -56,7 +57,6 @@ std::string stage_list()
 
 } // namespace
 
-std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
 std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split", "cube-map"}; }
 /* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
 std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
@@ -70,13 +70,19 @@ uint32_t narrowphase_method(const Settings &settings)
 }
 uint32_t cube_map_cells(const Settings &settings) { return settings.support == "brute-force" && settings.narrowphase != "cube-map" ? 0 : settings.support_cells; }
 
+std::vector<std::string> broadphase_names()
+{
+  std::vector<std::string> names;
+  for (const Broadphase &broadphase : broadphases()) names.emplace_back(broadphase.name);
+  return names;
+}
+
 std::vector<std::string> batching_names()
 {
   std::vector<std::string> names;
   for (const Batcher &batcher : batchers()) names.emplace_back(batcher.name);
   return names;
 }
-
 
 void validate(const Settings &settings)
 {

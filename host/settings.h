@@ -13,7 +13,7 @@ struct Settings {
   uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
-  std::string broadphase = "grid";      /* brute-force, sap, grid */
+  std::string broadphase = "grid";      /* which of host/broadphases/; changes no bit */
   std::string narrowphase = "sat";      /* of shapes without a test of their own */
   std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
   uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */

@@ -158,7 +158,9 @@ uint32_t body_features(const Scene &scene)
   return features;
 }
 
-std::vector<uint32_t> large_bodies(const Scene &scene)
+struct LargeBodies { std::vector<uint32_t> boundless, large; };
+
+LargeBodies large_bodies(const Scene &scene)
 {
   const float limit = large_ratio * median_radius(scene);
   std::vector<float> radii;
@@ -171,9 +173,8 @@ std::vector<uint32_t> large_bodies(const Scene &scene)
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
-  large.insert(large.end(), boundless.begin(), boundless.end());
   std::sort(large.begin(), large.end());
-  return large;
+  return {boundless, large};
 }
 
 } // namespace
@@ -230,7 +231,10 @@ Specialisation specialise(const Scene &scene, const Settings &settings)
   result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
   result.features |= narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
   if (settings.events) result.features |= FEATURE_EVENTS;
-  result.order = large_bodies(scene);
+  const LargeBodies first = large_bodies(scene);
+  result.order = first.boundless;
+  result.order.insert(result.order.end(), first.large.begin(), first.large.end());
+  result.boundless = static_cast<uint32_t>(first.boundless.size());
   result.large = static_cast<uint32_t>(result.order.size());
   std::vector<bool> taken(scene.bodies.size());
   for (uint32_t body : result.order) taken[body] = true;

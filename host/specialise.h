@@ -16,11 +16,12 @@ struct Settings;
 
 struct Specialisation {
   uint32_t features = 0; /* FEATURE_ bits */
-  /* Body buffers hold scene body order[i] at index i: the few bodies too large for a grid come first, so
+  /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid, so
    * that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as large, as their
    * bounds are. */
   std::vector<uint32_t> order;
-  uint32_t large = 0;
+  uint32_t boundless = 0; /* half-spaces */
+  uint32_t large = 0;     /* these and the large ones */
 };
 
 Specialisation specialise(const Scene &scene, const Settings &settings);

@@ -3,13 +3,12 @@
  *   bounds -> pairs -> pairs of leaves -> manifolds -> colours -> constraints -> solver -> commit
  *
  * Nothing here waits for a device: ranges are read from counts on the device, and the plan only says how
- * large the launches should be. The solvers stand in host/solvers/.
+ * large the launches should be. Broadphases, batchers and solvers stand in folders of their own.
  */
 #include "host/step.h"
 
-#include <bit>
-
 #include "host/batching/batcher.h"
+#include "host/broadphases/broadphase.h"
 #include "host/primitives.h"
 #include "host/solvers/solvers.h"
 #include "host/step_launches.h"
@@ -43,50 +42,7 @@ private:
   void find_pairs()
   {
     run(Kernel::compute_bounds);
-    if (settings().broadphase == "brute-force") find_pairs_by_brute_force();
-    else if (settings().broadphase == "sap") find_pairs_by_sweep();
-    else find_pairs_in_grid();
-  }
-
-  void find_pairs_by_brute_force()
-  {
-    run(Kernel::brute_force_count);
-    scan_pairs(Buffer::pair_start);
-    run(Kernel::brute_force_write);
-  }
-
-  void find_pairs_in_grid()
-  {
-    find_extent();
-    run(Kernel::grid_keys);
-    sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan().bodies, 0, bits_of(plan().capacity_cells));
-    run(Kernel::grid_cells);
-    run(Kernel::grid_count);
-    scan_pairs(Buffer::pair_start);
-    run(Kernel::grid_write);
-  }
-
-  void find_pairs_by_sweep()
-  {
-    find_extent();
-    run(Kernel::sweep_keys);
-    sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan().bodies, 0, 32);
-    run(Kernel::sweep_gather);
-    run(Kernel::sweep_count);
-    scan_pairs(Buffer::sweep_start);
-    run(Kernel::sweep_write);
-    for (unsigned first_bit : {0u, 32u})
-      sort_keys64(launcher(), Buffer::pair_key, Buffer::pair_key_other, Buffer::sort_histogram, Buffer::scan_sums, COUNT_PAIRS,
-                  plan().capacity_pairs, first_bit, first_bit + bits_of(plan().bodies));
-    run(Kernel::sweep_unpack);
-    run(Kernel::sweep_starts);
-  }
-
-  void find_extent()
-  {
-    run(Kernel::extent_tiles);
-    run(Kernel::extent_whole);
-    run(Kernel::lay_out);
+    broadphase_named(settings().broadphase).launch(*this);
   }
 
   void find_leaf_pairs()
@@ -172,8 +128,6 @@ private:
     run(Kernel::write_events);
     run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
   }
-
-  static unsigned bits_of(uint32_t values) { return std::bit_width(values); }
 };
 
 } // namespace

@@ -155,6 +155,10 @@ struct World::Implementation {
     counts[COUNT_ONE] = 1;
     counts[COUNT_BODIES] = plan.bodies;
     counts[COUNT_BODIES_PLUS_ONE] = plan.bodies + 1;
+    counts[COUNT_BOUNDLESS] = special.boundless;
+    counts[COUNT_BOUNDED] = plan.bodies - special.boundless;
+    counts[COUNT_LEAVES] = leaves_for(plan.bodies);
+    counts[COUNT_LEAF_TILES] = std::max(leaves_for(plan.bodies) / TILE, 1u);
     counts[COUNT_LARGE] = special.large;
     counts[COUNT_SMALL] = plan.bodies - special.large;
     counts[CAPACITY_PAIRS] = plan.capacity_pairs;
@@ -178,8 +182,10 @@ struct World::Implementation {
   {
     auto &known = plan.known;
     known.fill(plan.capacity_pairs);
-    for (int entry : {COUNT_BODIES, COUNT_BODIES_PLUS_ONE, COUNT_SMALL, COUNT_COMMIT_BODIES, COUNT_COMMIT_BODIES_PLUS_ONE})
+    for (int entry : {COUNT_BODIES, COUNT_BODIES_PLUS_ONE, COUNT_BOUNDED, COUNT_SMALL, COUNT_COMMIT_BODIES, COUNT_COMMIT_BODIES_PLUS_ONE})
       known[entry] = plan.bodies + 1;
+    known[COUNT_LEAVES] = leaves_for(plan.bodies);
+    known[COUNT_LEAF_TILES] = std::max(leaves_for(plan.bodies) / TILE, 1u);
     known[COUNT_ZERO] = 0;
     known[COUNT_ONE] = 1;
     known[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;

@@ -26,5 +26,7 @@ enum { TRAIT_TRIGGER = 1 << 5 };
 /* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex (hull_support.h). */
 enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS = 3 };
 enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
+/* How the hierarchy of the broadphase is walked (broadphase/hierarchy_walks.h). */
+enum { WALK_BY_SKIPPING = 0, WALK_BY_STACK = 1, WALK_BY_HISTORY = 2 };
 
 #endif

@@ -18,8 +18,12 @@ enum {
   COUNT_ONE,           /* always 1 */
   COUNT_BODIES,        /* bodies of the scene; set by the host */
   COUNT_BODIES_PLUS_ONE,
-  COUNT_LARGE,         /* the first bodies, too large for a grid or a sweep; set by the host */
+  COUNT_BOUNDLESS,     /* the first bodies: half-spaces; set by the host */
+  COUNT_BOUNDED,       /* the bodies after them */
+  COUNT_LARGE,         /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
   COUNT_SMALL,         /* the bodies after them */
+  COUNT_LEAVES,        /* room for leaves in a hierarchy of all bodies: a power of two, at least COUNT_BOUNDED; set by the host */
+  COUNT_LEAF_TILES,    /* nodes of it with TILE leaves each, at least 1 */
   COUNT_PAIRS,         /* pairs kept: min(needed, capacity) */
   COUNT_PAIRS_NEEDED,  /* pairs found */
   COUNT_BODY_PAIRS,    /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */

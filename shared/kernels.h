@@ -20,6 +20,7 @@
 #include "shared/parallel/search.h"
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/grid.h"
+#include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/sweep.h"
 #include "shared/batching/cells.h"
 #include "shared/batching/check.h"

@@ -23,7 +23,7 @@ SHARED void brute_force_write_item(GLOBAL const Parameters *parameters, GLOBAL c
   uint used = 0;
   for (uint b = 0; b < a; ++b)
     if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))
-      used = insert_pair(pair_a, pair_b, pair_start[a], used, counts[CAPACITY_PAIRS], a, b);
+      used = append_pair(pair_a, pair_b, pair_start[a], used, counts[CAPACITY_PAIRS], a, b);
 }
 
 #endif

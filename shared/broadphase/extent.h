@@ -13,6 +13,7 @@
 #define EXTENT_VALUES 13u /* lower xyz, upper xyz, size, sum xyz, sum of squares xyz */
 #define EXTENT_WIDTH 256u /* virtual items of a group; each keeps EXTENT_VALUES words of local memory */
 #define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
+#define CURVE_CELLS 1024  /* of the space-filling curve of hierarchy.h, along an axis: ten bits */
 
 typedef struct { vec3 lower, upper, sum, squares; real size; } extent;
 
@@ -131,6 +132,14 @@ SHARED void lay_out_grid(extent whole, real smallest, GLOBAL row *grid, GLOBAL u
   counts[COUNT_CELLS_PLUS_ONE] = nx * ny * nz + 1u;
 }
 
+/* The curve runs through a cube around the centres, CURVE_CELLS along a side. */
+SHARED void lay_out_curve(extent whole, GLOBAL row *grid)
+{
+  vec3 length = subtract(whole.upper, whole.lower);
+  real side = maximum(maximum(length.x, length.y), maximum(length.z, R(1e-6)));
+  store_row(grid, 1u, extend(whole.lower, (real)CURVE_CELLS / side));
+}
+
 /* The axis along which the centres spread most (GS-4150 slide 21). */
 SHARED uint widest_axis(extent whole, real bodies)
 {
@@ -156,13 +165,14 @@ SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL row *bounds_sum
   FOR_EACH_ITEM(first, 1u) store_extent_tile(bounds_sums, first, load_extent_local(extents, first));
 }
 
-/* One item: the layout of the grid and the axis of the sweep. */
+/* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
 SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
   uint bodies = counts[COUNT_SMALL];
   if (bodies == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
   lay_out_grid(whole, parameters->cell_size, grid, counts);
+  lay_out_curve(whole, grid);
   counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
 }
 

@@ -107,9 +107,10 @@ SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 {
   uint a = grid_body(sort_value, counts, i);
   uint used = 0, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(b) used = insert_pair(pair_a, pair_b, first, used, capacity, a, b);
+#define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
   GRID_SEARCH(a, VISIT)
 #undef VISIT
+  sort_stretch(pair_b + first, used);
 }
 
 #endif

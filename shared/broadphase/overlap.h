@@ -53,15 +53,52 @@ SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return filters_accept(parameters, body_filter, a, b);
 }
 
-/* Where a body's pairs go: its own stretch of the list, from pair_start[body], kept sorted by b. */
-SHARED uint insert_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
+/* Where a body's pairs go: its own stretch of the list, from pair_start[a], in the order found; sort_stretch closes it. */
+SHARED uint append_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
 {
   uint at = first + used;
   if (at >= capacity) return used; /* counted already: the step will run again with room for it */
-  for (; at > first && pair_b[at - 1u] > b; --at) pair_b[at] = pair_b[at - 1u];
+  pair_a[at] = a;
   pair_b[at] = b;
-  pair_a[first + used] = a;
   return used + 1u;
+}
+
+SHARED void insertion_sort(GLOBAL uint *values, uint length)
+{
+  for (uint i = 1u; i < length; ++i) {
+    uint value = values[i], at = i;
+    for (; at > 0u && values[at - 1u] > value; --at) values[at] = values[at - 1u];
+    values[at] = value;
+  }
+}
+
+/* Lets `value` sink from `at` into the heap of `length` values. */
+SHARED void sink(GLOBAL uint *values, uint at, uint length, uint value)
+{
+  for (uint child = 2u * at + 1u; child < length; child = 2u * at + 1u) {
+    if (child + 1u < length && values[child + 1u] > values[child]) child = child + 1u;
+    if (values[child] <= value) break;
+    values[at] = values[child];
+    at = child;
+  }
+  values[at] = value;
+}
+SHARED void heap_sort(GLOBAL uint *values, uint length)
+{
+  for (uint at = length / 2u; at > 0u; --at) sink(values, at - 1u, length, values[at - 1u]);
+  for (uint last = length - 1u; last > 0u; --last) {
+    uint value = values[last];
+    values[last] = values[0];
+    sink(values, 0u, last, value);
+  }
+}
+
+/* A stretch longer than this is sorted as a heap: one body in a crowd of thousands must not take the square of that. */
+#define SHORT_STRETCH 32u
+SHARED void sort_stretch(GLOBAL uint *values, uint length)
+{
+  if (length <= SHORT_STRETCH) insertion_sort(values, length);
+  else heap_sort(values, length);
 }
 
 /* Clamps the number of pairs found, the scan's total, to what there is room for. */
