@@ -4,9 +4,9 @@
 #include "shared/broadphase/brute_force.h"
 #include "shared/broadphase/extent.h"
 #include "shared/broadphase/grid.h"
-#include "shared/broadphase/hierarchy_walks.h"
-#include "shared/broadphase/sweep.h"
-#include "shared/broadphase/overlap.h"
+#include "shared/broadphase/grid_symmetric.h"
+#include "shared/broadphase/hybrid.h"
+#include "shared/broadphase/sweep_window.h"
 
 __kernel void compute_bounds(__global const Parameters *parameters, __global const uint *body_traits,
                              __global const row *body_shape, __global const row *body_shape_pose,
@@ -51,10 +51,10 @@ __kernel void extent_whole(__global const uint *counts, __global row *bounds_sum
 }
 
 __kernel void lay_out(__global const Parameters *parameters, __global const row *bounds_sums,
-                      __global row *grid, __global uint *counts, RANGE)
+                      __global row *grid, __global uint *counts, uint hybrid, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  lay_out_item(parameters, bounds_sums, grid, counts, i);
+  lay_out_item(parameters, bounds_sums, grid, counts, hybrid, i);
 }
 
 __kernel void grid_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
@@ -65,10 +65,10 @@ __kernel void grid_keys(__global const row *bounds, __global const row *grid, __
 }
 
 __kernel void grid_cells(__global const uint *sort_key, __global const uint *counts, __global uint *cell_start,
-                         RANGE)
+                         uint length, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  grid_cells_item(sort_key, counts, cell_start, i);
+  grid_cells_item(sort_key, counts, cell_start, length, i);
 }
 
 __kernel void grid_count(__global const Parameters *parameters, __global const uint *body_traits,
@@ -93,11 +93,33 @@ __kernel void grid_write(__global const Parameters *parameters, __global const u
                   pair_start, pair_a, pair_b, i);
 }
 
-__kernel void sweep_keys(__global const row *bounds, __global const uint *counts, __global uint *sort_key,
-                         __global uint *sort_value, RANGE)
+__kernel void symmetric_count(__global const Parameters *parameters, __global const uint *body_traits,
+                              __global const uint *body_filter, __global const row *bounds,
+                              __global const row *grid, __global const uint *sort_value,
+                              __global const uint *cell_start, __global const uint *counts,
+                              __global uint *sweep_start, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_keys_item(bounds, counts, sort_key, sort_value, i);
+  symmetric_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
+                       sweep_start, i);
+}
+
+__kernel void symmetric_write(__global const Parameters *parameters, __global const uint *body_traits,
+                              __global const uint *body_filter, __global const row *bounds,
+                              __global const row *grid, __global const uint *sort_value,
+                              __global const uint *cell_start, __global const uint *counts,
+                              __global const uint *sweep_start, __global ulong *pair_key, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  symmetric_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
+                       sweep_start, pair_key, i);
+}
+
+__kernel void sweep_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
+                         __global uint *sort_key, __global uint *sort_value, uint principal, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  sweep_keys_item(bounds, grid, counts, sort_key, sort_value, principal, i);
 }
 
 __kernel void sweep_gather(__global const row *bounds, __global const uint *sort_value,
@@ -109,36 +131,65 @@ __kernel void sweep_gather(__global const row *bounds, __global const uint *sort
 
 __kernel void sweep_count(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *sweep_bounds, __global const uint *sort_value,
+                          __global const row *grid, __global const row *sweep_bounds,
+                          __global const uint *sort_key, __global const uint *sort_value,
                           __global const uint *counts, __global uint *sweep_start, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_count_item(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, counts, sweep_start,
-                   i);
+  sweep_count_item(parameters, body_traits, body_filter, bounds, grid, sweep_bounds, sort_key, sort_value,
+                   counts, sweep_start, i);
 }
 
 __kernel void sweep_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *sweep_bounds, __global const uint *sort_value,
+                          __global const row *grid, __global const row *sweep_bounds,
+                          __global const uint *sort_key, __global const uint *sort_value,
                           __global const uint *counts, __global const uint *sweep_start,
                           __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_write_item(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, counts, sweep_start,
-                   pair_key, i);
+  sweep_write_item(parameters, body_traits, body_filter, bounds, grid, sweep_bounds, sort_key, sort_value,
+                   counts, sweep_start, pair_key, i);
 }
 
-__kernel void sweep_unpack(__global const ulong *pair_key, __global uint *pair_a, __global uint *pair_b, RANGE)
+__kernel void sweep_ends(__global const row *grid, __global const row *sweep_bounds,
+                         __global const uint *sort_key, __global const uint *counts, __global uint *sweep_end,
+                         uint principal, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_unpack_item(pair_key, pair_a, pair_b, i);
+  sweep_ends_item(grid, sweep_bounds, sort_key, counts, sweep_end, principal, i);
 }
 
-__kernel void sweep_starts(__global const uint *pair_a, __global const uint *counts, __global uint *pair_start,
-                           RANGE)
+__kernel void sweep_blocks(__global const uint *sweep_end, __global const uint *counts,
+                           __global uint *sweep_block, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_starts_item(pair_a, counts, pair_start, i);
+  sweep_blocks_item(sweep_end, counts, sweep_block, i);
+}
+
+__kernel void window_count(__global const Parameters *parameters, __global const uint *body_traits,
+                           __global const uint *body_filter, __global const row *bounds,
+                           __global const row *sweep_bounds, __global const uint *sort_value,
+                           __global const uint *sweep_end, __global const uint *sweep_block,
+                           __global const uint *counts, __global uint *share_start, RANGE)
+{
+  __local uint local_memory[SWEEP_LOCAL_WORDS];
+  window_count_group(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end,
+                     sweep_block, counts, share_start, local_memory, GROUP_NUMBER);
+  END_GROUP;
+}
+
+__kernel void window_write(__global const Parameters *parameters, __global const uint *body_traits,
+                           __global const uint *body_filter, __global const row *bounds,
+                           __global const row *sweep_bounds, __global const uint *sort_value,
+                           __global const uint *sweep_end, __global const uint *sweep_block,
+                           __global const uint *counts, __global const uint *share_start,
+                           __global ulong *pair_key, RANGE)
+{
+  __local uint local_memory[SWEEP_LOCAL_WORDS];
+  window_write_group(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end,
+                     sweep_block, counts, share_start, pair_key, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void curve_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
@@ -148,11 +199,12 @@ __kernel void curve_keys(__global const row *bounds, __global const row *grid, _
   curve_keys_item(bounds, grid, counts, sort_key, sort_value, i);
 }
 
-__kernel void hierarchy_leaves(__global const row *bounds, __global const uint *sort_value, __global const uint *counts,
-                               __global row *hierarchy, RANGE)
+__kernel void hierarchy_leaves(__global const row *bounds, __global const uint *sort_value,
+                               __global const uint *counts, __global row *hierarchy, __global uint *leaf_body,
+                               RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_leaves_item(bounds, sort_value, counts, hierarchy, i);
+  hierarchy_leaves_item(bounds, sort_value, counts, hierarchy, leaf_body, i);
 }
 
 __kernel void hierarchy_levels(__global const uint *counts, __global row *hierarchy, uint height, RANGE)
@@ -163,27 +215,114 @@ __kernel void hierarchy_levels(__global const uint *counts, __global row *hierar
 
 __kernel void hierarchy_count(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *hierarchy, __global const uint *sort_value,
+                              __global const row *hierarchy, __global const uint *leaf_body,
                               __global const uint *counts, __global uint *pair_start, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, sort_value, counts, pair_start,
+  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, leaf_body, counts, pair_start,
                        walk, i);
 }
 
 __kernel void hierarchy_write(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *hierarchy, __global const uint *sort_value,
+                              __global const row *hierarchy, __global const uint *leaf_body,
                               __global const uint *counts, __global const uint *pair_start,
                               __global uint *pair_a, __global uint *pair_b, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, sort_value, counts, pair_start,
+  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, leaf_body, counts, pair_start,
                        pair_a, pair_b, walk, i);
 }
 
-__kernel void count_pairs(__global const uint *pair_start, __global uint *counts, RANGE)
+__kernel void large_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
+                         __global uint *sort_key, __global uint *sort_value, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  count_pairs_item(pair_start, counts, i);
+  large_keys_item(bounds, grid, counts, sort_key, sort_value, i);
+}
+
+__kernel void large_leaves(__global const row *bounds, __global const uint *sort_key,
+                           __global const uint *sort_value, __global const uint *counts,
+                           __global row *hierarchy, __global uint *leaf_body, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  large_leaves_item(bounds, sort_key, sort_value, counts, hierarchy, leaf_body, i);
+}
+
+__kernel void large_count(__global const Parameters *parameters, __global const uint *body_traits,
+                          __global const uint *body_filter, __global const row *bounds,
+                          __global const row *grid, __global const row *hierarchy,
+                          __global const uint *leaf_body, __global const uint *counts,
+                          __global uint *large_finds, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  large_count_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, leaf_body, counts,
+                   large_finds, i);
+}
+
+__kernel void small_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
+                         __global uint *sort_key, __global uint *sort_value, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  small_keys_item(bounds, grid, counts, sort_key, sort_value, i);
+}
+
+__kernel void small_count(__global const Parameters *parameters, __global const uint *body_traits,
+                          __global const uint *body_filter, __global const row *bounds,
+                          __global const row *grid, __global const uint *sort_value,
+                          __global const uint *cell_start, __global const uint *counts,
+                          __global uint *small_finds, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  small_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
+                   small_finds, i);
+}
+
+__kernel void join_finds(__global const uint *small_finds, __global const uint *large_finds,
+                         __global uint *share_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  join_finds_item(small_finds, large_finds, share_start, i);
+}
+
+__kernel void large_write(__global const Parameters *parameters, __global const uint *body_traits,
+                          __global const uint *body_filter, __global const row *bounds,
+                          __global const row *grid, __global const row *hierarchy,
+                          __global const uint *leaf_body, __global const uint *counts,
+                          __global const uint *share_start, __global ulong *pair_key, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  large_write_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, leaf_body, counts,
+                   share_start, pair_key, i);
+}
+
+__kernel void small_write(__global const Parameters *parameters, __global const uint *body_traits,
+                          __global const uint *body_filter, __global const row *bounds,
+                          __global const row *grid, __global const uint *sort_value,
+                          __global const uint *cell_start, __global const uint *counts,
+                          __global const uint *share_start, __global ulong *pair_key, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  small_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
+                   share_start, pair_key, i);
+}
+
+__kernel void count_pairs(__global const uint *starts, __global uint *counts, uint length, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  count_pairs_item(starts, counts, length, i);
+}
+
+__kernel void unpack_pairs(__global const ulong *pair_key, __global uint *pair_a, __global uint *pair_b,
+                           RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  unpack_pairs_item(pair_key, pair_a, pair_b, i);
+}
+
+__kernel void start_pairs(__global const uint *pair_a, __global const uint *counts, __global uint *pair_start,
+                          RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  start_pairs_item(pair_a, counts, pair_start, i);
 }

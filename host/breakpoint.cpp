@@ -19,6 +19,9 @@ std::string_view name_of_buffer(Buffer buffer) { return row_of(buffer).name; }
 /* Rows of pairs come in three orders: that of the pairs, of the constraints (by colour), of the cache. */
 bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with("constraint_"); }
 
+/* Numbered as the kernel's own iterations are, whatever those stand for. */
+bool is_by_item(Buffer buffer) { return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds; }
+
 bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
 {
   return std::any_of(row.arguments.begin(), row.arguments.end(), [&](const Argument &argument) {
@@ -83,17 +86,17 @@ std::optional<uint32_t> constraint_of(World &world, const Launch &launch, Domain
 }
 
 /* Kernels of the grid and of the hierarchy walk the first bodies, then the others as they are sorted. */
-std::optional<uint32_t> place_in_sorted_order(World &world, uint32_t unsorted, uint32_t body)
+std::optional<uint32_t> place_in_order(World &world, Buffer list, uint32_t unsorted, uint32_t body)
 {
   if (body < unsorted) return body;
-  const auto place = search(world, Buffer::sort_value, 0, count_of(world, COUNT_BODIES) - unsorted, body);
+  const auto place = search(world, list, 0, count_of(world, COUNT_BODIES) - unsorted, body);
   return place ? std::optional<uint32_t>(*place + unsorted) : std::nullopt;
 }
 
 std::optional<uint32_t> iteration_of_body(World &world, Domain runs, uint32_t body)
 {
-  if (runs == Domain::bodies_in_grid_order) return place_in_sorted_order(world, count_of(world, COUNT_LARGE), body);
-  if (runs == Domain::bodies_on_curve) return place_in_sorted_order(world, count_of(world, COUNT_BOUNDLESS), body);
+  if (runs == Domain::bodies_in_grid_order) return place_in_order(world, Buffer::sort_value, count_of(world, COUNT_LARGE), body);
+  if (runs == Domain::bodies_on_curve) return place_in_order(world, Buffer::leaf_body, count_of(world, COUNT_BOUNDLESS), body);
   return body;
 }
 
@@ -109,7 +112,8 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   const KernelRow &row = row_of(launch.kernel);
   const Domain runs = domain_of(row), written = domain_of(buffer);
   if (row.form == Form::group) return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
-  if (runs == Domain::unknown || written == Domain::unknown) return {};
+  if (is_by_item(buffer)) return item;
+  if (runs == Domain::unknown || written == Domain::unknown || (buffer == Buffer::pair_key && runs != Domain::pairs)) return {};
   if (runs == Domain::constraints && written != Domain::constraints) return constraint_of(world, launch, written, item);
   if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order || runs == Domain::bodies_on_curve) {
     const std::optional<uint32_t> body = written == Domain::pairs ? owner_of_pair(world, item) : std::optional(item);
@@ -135,7 +139,7 @@ const char *iteration_name(Kernel kernel)
   case Kernel::brute_force_write:
   case Kernel::count_events:
   case Kernel::write_events: return "a";
-  case Kernel::sweep_starts: return "body";
+  case Kernel::start_pairs: return "body";
   case Kernel::grid_cells: return "cell";
   case Kernel::color_starts: return "color";
   default: return row_of(kernel).items == COUNT_ONE ? "" : "i";

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "host/primitives.h"
+#include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -42,7 +43,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
   case Capacity::SCAN_SUMS:
-    return std::max(scan_sum_words(most_sorted + 1), scan_sum_words(histogram_words(most_sorted)));
+    return scan_sum_words(std::max({most_sorted, size_t{SWEEP_SHARES} * sizes.bodies, histogram_words(most_sorted)}) + 1);
   case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
   }
   return 0;

@@ -59,7 +59,7 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t 
   p.speculative_distance = 4 * settings.slop;
   p.bounds_margin = 0.5f * p.speculative_distance;
   p.restitution_speed = settings.restitution_speed;
-  p.cell_size = 0;
+  p.hybrid_cell = 4 * median_radius(scene);
   p.inverse_batch_cell = inverse_batch_cell(scene);
   p.features = features;
   return p;

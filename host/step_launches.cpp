@@ -2,6 +2,7 @@
 #include "host/step_launches.h"
 
 #include "host/primitives.h"
+#include "shared/broadphase/sweep_limits.h"
 
 namespace tandem {
 
@@ -33,10 +34,11 @@ void StepLaunches::begin_substep(uint32_t substep)
   run(Kernel::integrate_velocities);
 }
 
-void StepLaunches::scan_pairs(Buffer starts)
+void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
 {
-  exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, COUNT_BODIES, plan_.bodies);
-  run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {}, {starts});
+  const uint32_t capacity = length == COUNT_BODIES ? plan_.bodies : SWEEP_SHARES * plan_.bodies;
+  exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, length, capacity);
+  run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {length}, {starts});
 }
 
 void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)

@@ -28,7 +28,8 @@ public:
   void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
   /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
   void begin_substep(uint32_t substep);
-  void scan_pairs(Buffer starts);
+  /* From how many pairs each of so many finds to where its first goes, and to how many there are. */
+  void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
 
 private:

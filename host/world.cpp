@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "host/batch_fault.h"
-#include "host/batching/batcher.h"
 #include "host/body_buffers.h"
 #include "host/contact_events.h"
 #include "host/debug.h"
@@ -16,6 +15,7 @@
 #include "host/host_stages.h"
 #include "host/layout.h"
 #include "host/parameters.h"
+#include "host/scene_counts.h"
 #include "host/specialise.h"
 #include "host/step.h"
 #include "minicl/floating_point.h"
@@ -152,24 +152,15 @@ struct World::Implementation {
     upload_materials(memory, scene);
     upload_parameters();
     std::vector<uint32_t> counts(COUNT_TOTAL);
-    counts[COUNT_ONE] = 1;
-    counts[COUNT_BODIES] = plan.bodies;
-    counts[COUNT_BODIES_PLUS_ONE] = plan.bodies + 1;
-    counts[COUNT_BOUNDLESS] = special.boundless;
-    counts[COUNT_BOUNDED] = plan.bodies - special.boundless;
-    counts[COUNT_LEAVES] = leaves_for(plan.bodies);
-    counts[COUNT_LEAF_TILES] = std::max(leaves_for(plan.bodies) / TILE, 1u);
-    counts[COUNT_LARGE] = special.large;
-    counts[COUNT_SMALL] = plan.bodies - special.large;
+    for (const auto &[entry, value] : scene_counts()) counts[entry] = value;
     counts[CAPACITY_PAIRS] = plan.capacity_pairs;
     counts[CAPACITY_CELLS] = plan.capacity_cells;
-    counts[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
-    counts[COUNT_BATCH_CELLS] = batch_cells_for(plan.bodies);
-    counts[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
     memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
     index_of_body.resize(plan.bodies);
     for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
   }
+
+  std::vector<std::pair<int, uint32_t>> scene_counts() const { return entries_of({plan.bodies, special.boundless, special.large}); }
 
   void upload_parameters()
   {
@@ -182,14 +173,9 @@ struct World::Implementation {
   {
     auto &known = plan.known;
     known.fill(plan.capacity_pairs);
-    for (int entry : {COUNT_BODIES, COUNT_BODIES_PLUS_ONE, COUNT_BOUNDED, COUNT_SMALL, COUNT_COMMIT_BODIES, COUNT_COMMIT_BODIES_PLUS_ONE})
-      known[entry] = plan.bodies + 1;
-    known[COUNT_LEAVES] = leaves_for(plan.bodies);
-    known[COUNT_LEAF_TILES] = std::max(leaves_for(plan.bodies) / TILE, 1u);
-    known[COUNT_ZERO] = 0;
-    known[COUNT_ONE] = 1;
-    known[COUNT_COLOR_STARTS] = COLOR_LIMIT + 1;
-    known[COUNT_BATCH_ITEMS] = TILE * batch_cells_for(plan.bodies);
+    for (const auto &[entry, value] : scene_counts()) known[entry] = value;
+    known[COUNT_COMMIT_BODIES] = plan.bodies;
+    known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
     known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
     for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
   }

@@ -45,6 +45,10 @@ enum {
   COUNT_CELLS,
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
+  COUNT_SHARES,        /* four times the bodies: work-items of the windowed sweep; set by the host */
+  COUNT_SWEEP_BLOCKS,  /* groups of it, of SWEEP_BLOCK bodies each */
+  COUNT_SWEEP_ITEMS,   /* TILE times as many: a group a block */
+  COUNT_HALVES,        /* twice the bodies: the two halves of the hybrid broadphase */
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_DIRECT_ISLANDS, /* islands that the solver `direct` solved in the last pass of the step */
   COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */

@@ -31,7 +31,7 @@ typedef struct {
   PARAMETER_REAL slop;              /* m, penetration left in place */
   PARAMETER_REAL slop_share;        /* of the smallest half extent of a pair: no more than this is left in place */
   PARAMETER_REAL restitution_speed; /* m/s, slower impacts do not bounce */
-  PARAMETER_REAL cell_size;         /* m, smallest cell of the uniform grid */
+  PARAMETER_REAL hybrid_cell;       /* m, cell of the hybrid broadphase: what is larger is not in its grid */
   PARAMETER_REAL inverse_batch_cell; /* 1/m, cells of two-stage batching */
   uint features;                    /* FEATURE_ bits */
   uint reserved;

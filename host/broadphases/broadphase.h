@@ -22,18 +22,25 @@ struct Broadphase {
 std::span<const Broadphase> broadphases(); /* default first */
 const Broadphase &broadphase_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
 
-/* Each in the file of its name. */
+/* Each in the file of its kind. */
 void find_pairs_by_brute_force(StepLaunches &step);
 void find_pairs_in_grid(StepLaunches &step);
+void find_pairs_in_half_the_cells(StepLaunches &step);
 void find_pairs_by_sweep(StepLaunches &step);
+void find_pairs_by_principal_sweep(StepLaunches &step);
+void find_pairs_by_plain_sweep(StepLaunches &step);
+void find_pairs_in_hybrid(StepLaunches &step);
 void find_pairs_by_skipping(StepLaunches &step);
 void find_pairs_by_stack(StepLaunches &step);
 void find_pairs_by_history(StepLaunches &step);
 
-/* Where the small bodies are: the grid, the axis of the sweep, the frame of the curve. */
-void find_extent(StepLaunches &step);
-
-/* The hierarchy of boxes over `bounds`: for the broadphase, and for queries. */
+/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
+void find_extent(StepLaunches &step, bool hybrid = false);
+/* The list from pair_key, in any order. */
+void pairs_from_keys(StepLaunches &step);
+/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. */
 void build_hierarchy(StepLaunches &step);
+/* The levels above its leaves, ten a launch. */
+void join_levels(StepLaunches &step);
 
 } // namespace tandem

@@ -15,16 +15,20 @@ void find_pairs_by(StepLaunches &step, uint32_t walk)
 
 } // namespace
 
-/* Ten levels a launch, from the leaves up. */
+void join_levels(StepLaunches &step)
+{
+  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_LEAVES, {0});
+  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_LEAF_TILES, {10});
+  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_ONE, {20});
+}
+
 void build_hierarchy(StepLaunches &step)
 {
   find_extent(step);
   step.run(Kernel::curve_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, step.plan().bodies, 0, 30);
   step.run(Kernel::hierarchy_leaves);
-  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_LEAVES, {0});
-  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_LEAF_TILES, {10});
-  step.run_range(Kernel::hierarchy_levels, COUNT_ZERO, COUNT_ONE, {20});
+  join_levels(step);
 }
 
 void find_pairs_by_skipping(StepLaunches &step) { find_pairs_by(step, WALK_BY_SKIPPING); }

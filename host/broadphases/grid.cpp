@@ -1,19 +1,36 @@
-/* grid.cpp - small bodies sorted by cell, large ones against all (shared/broadphase/grid.h). */
+/* grid.cpp - small bodies sorted by cell, large ones against all (shared/broadphase/grid.h, grid_symmetric.h). */
 #include <bit>
 
 #include "host/broadphases/broadphase.h"
 
 namespace tandem {
+namespace {
 
-void find_pairs_in_grid(StepLaunches &step)
+void sort_into_cells(StepLaunches &step)
 {
   find_extent(step);
   step.run(Kernel::grid_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
-  step.run(Kernel::grid_cells);
+  step.run(Kernel::grid_cells, {COUNT_SMALL});
+}
+
+} // namespace
+
+void find_pairs_in_grid(StepLaunches &step)
+{
+  sort_into_cells(step);
   step.run(Kernel::grid_count);
   step.scan_pairs(Buffer::pair_start);
   step.run(Kernel::grid_write);
+}
+
+void find_pairs_in_half_the_cells(StepLaunches &step)
+{
+  sort_into_cells(step);
+  step.run(Kernel::symmetric_count);
+  step.scan_pairs(Buffer::sweep_start);
+  step.run(Kernel::symmetric_write);
+  pairs_from_keys(step);
 }
 
 } // namespace tandem

@@ -1,26 +1,40 @@
-/* sap.cpp - 1-axis sort, sweep and prune (shared/broadphase/sweep.h). */
-#include <bit>
-
+/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep.h) and as it ends (sweep_window.h). */
 #include "host/broadphases/broadphase.h"
-#include "host/primitives.h"
 
 namespace tandem {
+namespace {
 
-void find_pairs_by_sweep(StepLaunches &step)
+void sort_along_axis(StepLaunches &step, uint32_t principal)
 {
-  const StepPlan &plan = step.plan();
   find_extent(step);
-  step.run(Kernel::sweep_keys);
-  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies, 0, 32);
+  step.run(Kernel::sweep_keys, {principal});
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, 32);
   step.run(Kernel::sweep_gather);
+}
+
+void sweep_in_windows(StepLaunches &step, uint32_t principal)
+{
+  sort_along_axis(step, principal);
+  step.run(Kernel::sweep_ends, {principal});
+  step.run(Kernel::sweep_blocks);
+  step.run(Kernel::window_count);
+  step.scan_pairs(Buffer::share_start, COUNT_SHARES);
+  step.run(Kernel::window_write);
+  pairs_from_keys(step);
+}
+
+} // namespace
+
+void find_pairs_by_plain_sweep(StepLaunches &step)
+{
+  sort_along_axis(step, 0);
   step.run(Kernel::sweep_count);
   step.scan_pairs(Buffer::sweep_start);
   step.run(Kernel::sweep_write);
-  for (unsigned first_bit : {0u, 32u})
-    sort_keys64(step.launcher(), Buffer::pair_key, Buffer::pair_key_other, Buffer::sort_histogram, Buffer::scan_sums, COUNT_PAIRS,
-                plan.capacity_pairs, first_bit, first_bit + static_cast<unsigned>(std::bit_width(plan.bodies)));
-  step.run(Kernel::sweep_unpack);
-  step.run(Kernel::sweep_starts);
+  pairs_from_keys(step);
 }
+
+void find_pairs_by_sweep(StepLaunches &step) { sweep_in_windows(step, 0); }
+void find_pairs_by_principal_sweep(StepLaunches &step) { sweep_in_windows(step, 1); }
 
 } // namespace tandem

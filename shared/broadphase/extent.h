@@ -1,4 +1,5 @@
-/* extent.h - where the bodies are, as a whole: the region of the uniform grid and the axis of the sweep.
+/* extent.h - where the bodies are, as a whole: the region of the uniform grid, the frame of the
+ * space-filling curve and the axis of the sweep.
  *
  * Per tile a tree of bounds of the centres, the largest size, and the sums for the variance; then one
  * group over the tiles. Trees are fixed, so the sums have the same bits everywhere. Large bodies are left
@@ -10,30 +11,33 @@
 #include "shared/broadphase/overlap.h"
 #include "shared/conversion.h"
 
-#define EXTENT_VALUES 13u /* lower xyz, upper xyz, size, sum xyz, sum of squares xyz */
+#define EXTENT_VALUES 16u /* lower xyz, upper xyz, sum xyz, sum of squares xyz, sum of products yz zx xy, size */
 #define EXTENT_WIDTH 256u /* virtual items of a group; each keeps EXTENT_VALUES words of local memory */
 #define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
 #define CURVE_CELLS 1024  /* of the space-filling curve of hierarchy.h, along an axis: ten bits */
 
-typedef struct { vec3 lower, upper, sum, squares; real size; } extent;
+/* Of the centres; products: y z, z x, x y. size: the longest side of any box. */
+typedef struct { vec3 lower, upper, sum, squares, products; real size; } extent;
 
 SHARED extent empty_extent(void)
 {
-  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, R(0.0)};
+  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, R(0.0)};
   return e;
 }
 SHARED vec3 lower_of(vec3 a, vec3 b) { return make_vec3(minimum(a.x, b.x), minimum(a.y, b.y), minimum(a.z, b.z)); }
 SHARED vec3 upper_of(vec3 a, vec3 b) { return make_vec3(maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z)); }
 SHARED extent join_extents(extent a, extent b)
 {
-  extent e = {lower_of(a.lower, b.lower), upper_of(a.upper, b.upper), add(a.sum, b.sum), add(a.squares, b.squares), maximum(a.size, b.size)};
+  extent e = {lower_of(a.lower, b.lower), upper_of(a.upper, b.upper), add(a.sum, b.sum), add(a.squares, b.squares),
+              add(a.products, b.products), maximum(a.size, b.size)};
   return e;
 }
 SHARED extent extent_of_body(box_bounds b)
 {
   vec3 size = subtract(b.upper, b.lower);
   vec3 center = scale(add(b.lower, b.upper), R(0.5));
-  extent e = {center, center, center, multiply(center, center), maximum(size.x, maximum(size.y, size.z))};
+  vec3 products = make_vec3(center.y * center.z, center.z * center.x, center.x * center.y);
+  extent e = {center, center, center, multiply(center, center), products, maximum(size.x, maximum(size.y, size.z))};
   return e;
 }
 
@@ -53,12 +57,13 @@ SHARED void store_extent_local(LOCAL real *to, uint item, extent e)
   store_vec3_local(to, 3u, item, e.upper);
   store_vec3_local(to, 6u, item, e.sum);
   store_vec3_local(to, 9u, item, e.squares);
-  to[12u * EXTENT_WIDTH + item] = e.size;
+  store_vec3_local(to, 12u, item, e.products);
+  to[15u * EXTENT_WIDTH + item] = e.size;
 }
 SHARED extent load_extent_local(LOCAL const real *from, uint item)
 {
   extent e = {load_vec3_local(from, 0u, item), load_vec3_local(from, 3u, item), load_vec3_local(from, 6u, item), load_vec3_local(from, 9u, item),
-              from[12u * EXTENT_WIDTH + item]};
+              load_vec3_local(from, 12u, item), from[15u * EXTENT_WIDTH + item]};
   return e;
 }
 
@@ -73,15 +78,15 @@ SHARED void join_tree(LOCAL real *extents)
 SHARED void store_extent_tile(GLOBAL row *bounds_sums, uint tile, extent e)
 {
   store_row(bounds_sums, tile * EXTENT_ROWS, extend(e.lower, e.size));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 1u, extend(e.upper, R(0.0)));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 2u, extend(e.sum, R(0.0)));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 3u, extend(e.squares, R(0.0)));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 1u, extend(e.upper, e.products.x));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 2u, extend(e.sum, e.products.y));
+  store_row(bounds_sums, tile * EXTENT_ROWS + 3u, extend(e.squares, e.products.z));
 }
 SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
 {
-  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS);
-  extent e = {xyz(lower), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 1u)), xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 2u)),
-              xyz(load_row(bounds_sums, tile * EXTENT_ROWS + 3u)), lower.w};
+  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS), upper = load_row(bounds_sums, tile * EXTENT_ROWS + 1u);
+  vec4 sum = load_row(bounds_sums, tile * EXTENT_ROWS + 2u), squares = load_row(bounds_sums, tile * EXTENT_ROWS + 3u);
+  extent e = {xyz(lower), xyz(upper), xyz(sum), xyz(squares), make_vec3(upper.w, sum.w, squares.w), lower.w};
   return e;
 }
 
@@ -112,10 +117,10 @@ SHARED uint cells_along(real length, real cell)
 }
 
 /* The grid of smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
-SHARED void lay_out_grid(extent whole, real smallest, GLOBAL row *grid, GLOBAL uint *counts)
+SHARED void lay_out_grid(extent whole, real size, GLOBAL row *grid, GLOBAL uint *counts)
 {
   vec3 length = subtract(whole.upper, whole.lower);
-  real cell = maximum(maximum(whole.size, smallest), R(1e-6));
+  real cell = maximum(size, R(1e-6));
   uint nx = 1u, ny = 1u, nz = 1u;
   for (int tries = 0; tries < 400; ++tries) {
     nx = cells_along(length.x, cell);
@@ -140,13 +145,35 @@ SHARED void lay_out_curve(extent whole, GLOBAL row *grid)
   store_row(grid, 1u, extend(whole.lower, (real)CURVE_CELLS / side));
 }
 
-/* The axis along which the centres spread most (GS-4150 slide 21). */
-SHARED uint widest_axis(extent whole, real bodies)
+typedef struct { vec3 squares, products; } covariance; /* products: y z, z x, x y */
+
+SHARED covariance covariance_of(extent whole, real bodies)
 {
   vec3 mean = scale(whole.sum, R(1.0) / bodies);
-  vec3 variance = subtract(scale(whole.squares, R(1.0) / bodies), multiply(mean, mean));
-  if (variance.x >= variance.y && variance.x >= variance.z) return 0u;
-  return variance.y >= variance.z ? 1u : 2u;
+  vec3 products = make_vec3(mean.y * mean.z, mean.z * mean.x, mean.x * mean.y);
+  covariance c = {subtract(scale(whole.squares, R(1.0) / bodies), multiply(mean, mean)), subtract(scale(whole.products, R(1.0) / bodies), products)};
+  return c;
+}
+
+/* The axis along which the centres spread most (GS-4150 slide 21). */
+SHARED uint widest_axis(covariance c)
+{
+  if (c.squares.x >= c.squares.y && c.squares.x >= c.squares.z) return 0u;
+  return c.squares.y >= c.squares.z ? 1u : 2u;
+}
+
+/* The direction along which they spread most: the first principal component, by iteration. What a wrong one costs is time. */
+SHARED vec3 principal_direction(covariance c)
+{
+  vec3 d = make_vec3(R(1.0), R(0.75), R(0.5)); /* square to none of the axes */
+  for (int k = 0; k < 32; ++k) {
+    vec3 next = make_vec3(c.squares.x * d.x + c.products.z * d.y + c.products.y * d.z, c.products.z * d.x + c.squares.y * d.y + c.products.x * d.z,
+                          c.products.y * d.x + c.products.x * d.y + c.squares.z * d.z);
+    real most = maximum(magnitude(next.x), maximum(magnitude(next.y), magnitude(next.z)));
+    if (!(most > R(0.0) && most < BOUNDLESS)) break;
+    d = scale(next, R(1.0) / most);
+  }
+  return scale(d, R(1.0) / length_of(d));
 }
 
 /* One group over all tiles: the whole extent replaces the first tile's. */
@@ -166,14 +193,16 @@ SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL row *bounds_sum
 }
 
 /* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
-SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint i)
+SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint hybrid, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
   uint bodies = counts[COUNT_SMALL];
   if (bodies == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
-  lay_out_grid(whole, parameters->cell_size, grid, counts);
+  lay_out_grid(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
   lay_out_curve(whole, grid);
-  counts[COUNT_SWEEP_AXIS] = widest_axis(whole, (real)(bodies > 0u ? bodies : 1u));
+  covariance spread = covariance_of(whole, (real)(bodies > 0u ? bodies : 1u));
+  counts[COUNT_SWEEP_AXIS] = widest_axis(spread);
+  store_row(grid, 2u, extend(principal_direction(spread), R(0.0)));
 }
 
 #endif

@@ -14,6 +14,7 @@
 #define TANDEM_SHARED_BROADPHASE_GRID_H
 
 #include "shared/broadphase/extent.h"
+#include "shared/parallel/search.h"
 
 typedef struct { int x, y, z; } grid_cell;
 
@@ -50,15 +51,22 @@ SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLO
 }
 
 /* cell_start[cell] = the first sorted body of that cell or a later one. */
-SHARED void grid_cells_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint cell)
+SHARED void grid_cells_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint length, uint cell)
 {
-  uint low = 0, high = counts[COUNT_SMALL];
-  while (low < high) {
-    uint middle = low + (high - low) / 2u;
-    if (sort_key[middle] < cell) low = middle + 1u;
-    else high = middle;
-  }
-  cell_start[cell] = low;
+  cell_start[cell] = lower_bound_of(sort_key, counts[length], cell);
+}
+
+/* A stretch of the sorted list: cells left .. right of the row (y, z). */
+typedef struct { uint at, end; } grid_row;
+
+SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, int left, int y, int z)
+{
+  grid_row stretch = {0u, 0u};
+  int nx = (int)counts[COUNT_GRID_X], first = c.x + left > 0 ? c.x + left : 0, last = c.x + 1 < nx ? c.x + 1 : nx - 1;
+  if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z] || first > last) return stretch;
+  stretch.at = cell_start[cell_number(counts, first, y, z)];
+  stretch.end = cell_start[cell_number(counts, last, y, z) + 1u];
+  return stretch;
 }
 
 /* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; large ones first. */
@@ -70,13 +78,10 @@ SHARED void grid_cells_item(GLOBAL const uint *sort_key, GLOBAL const uint *coun
       if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
     if (a >= large) {                                                                                               \
       grid_cell c = cell_of(grid, counts, own);                                                                     \
-      int left = c.x > 0 ? c.x - 1 : 0, nx = (int)counts[COUNT_GRID_X], right = c.x + 1 < nx ? c.x + 1 : nx - 1;     \
       for (int neighbour = 0; neighbour < 9; ++neighbour) {                                                         \
-        int y = c.y + neighbour % 3 - 1, z = c.z + neighbour / 3 - 1;                                               \
-        if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z]) continue;           \
-        uint end = cell_start[cell_number(counts, right, y, z) + 1u];                                               \
-        for (uint at = cell_start[cell_number(counts, left, y, z)]; at < end; ++at) {                               \
-          uint b = sort_value[at];                                                                                  \
+        grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1);  \
+        for (; cells.at < cells.end; ++cells.at) {                                                                  \
+          uint b = sort_value[cells.at];                                                                            \
           if (b < a && bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
         }                                                                                                           \
       }                                                                                                             \

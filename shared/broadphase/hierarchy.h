@@ -60,26 +60,40 @@ SHARED uint curve_cell(real offset, real scale)
   return cell < 0 ? 0u : cell < CURVE_CELLS ? (uint)cell : (uint)CURVE_CELLS - 1u;
 }
 
-/* Body i of finite size; the frame is that of the small ones, and large ones beside it stand on its border. */
+/* The frame is that of the small bodies; large ones beside it stand on its border. */
+SHARED uint curve_key(GLOBAL const row *grid, box_bounds box)
+{
+  vec4 frame = load_row(grid, 1u);
+  vec3 offset = subtract(scale(add(box.lower, box.upper), R(0.5)), xyz(frame));
+  return spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 | spread_bits(curve_cell(offset.z, frame.w));
+}
+
+/* Body i of finite size. */
 SHARED void curve_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_BOUNDLESS] + i;
-  box_bounds box = load_bounds(bounds, body);
-  vec4 frame = load_row(grid, 1u);
-  vec3 offset = subtract(scale(add(box.lower, box.upper), R(0.5)), xyz(frame));
-  sort_key[i] = spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 | spread_bits(curve_cell(offset.z, frame.w));
+  sort_key[i] = curve_key(grid, load_bounds(bounds, body));
   sort_value[i] = body;
 }
 
-SHARED void hierarchy_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i)
+/* body: INDEX_NONE for an empty leaf. */
+SHARED void store_leaf(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i, uint body)
 {
   hierarchy_node leaf = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)}, BOUNDLESS};
-  if (i < counts[COUNT_BOUNDED]) {
-    box_bounds box = load_bounds(bounds, sort_value[i]);
+  if (body != INDEX_NONE) {
+    box_bounds box = load_bounds(bounds, body);
     if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
-    leaf.lowest = lowest_as_real(sort_value[i]);
+    leaf.lowest = lowest_as_real(body);
   }
   store_node(hierarchy, counts[COUNT_LEAVES] + i, leaf);
+}
+
+SHARED void hierarchy_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *hierarchy,
+                                  GLOBAL uint *leaf_body, uint i)
+{
+  mask is_body = i < counts[COUNT_BOUNDED];
+  store_leaf(bounds, counts, hierarchy, i, is_body ? sort_value[i] : INDEX_NONE);
+  if (is_body) leaf_body[i] = sort_value[i];
 }
 
 /* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level. */

@@ -97,28 +97,24 @@ SHARED uint next_by_history(const hierarchy_search *search, history *h)
 }
 
 /* Body of item i: neighbours in the launch are neighbours on the curve. */
-SHARED uint hierarchy_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, uint i)
+SHARED uint hierarchy_body(GLOBAL const uint *leaf_body, GLOBAL const uint *counts, uint i)
 {
-  return i < counts[COUNT_BOUNDLESS] ? i : sort_value[i - counts[COUNT_BOUNDLESS]];
+  return i < counts[COUNT_BOUNDLESS] ? i : leaf_body[i - counts[COUNT_BOUNDLESS]];
 }
 
-SHARED hierarchy_search search_before(GLOBAL const row *bounds, GLOBAL const row *nodes, GLOBAL const uint *counts, uint body)
-{
-  hierarchy_search search = {nodes, counts[COUNT_LEAVES], load_bounds(bounds, body), lowest_as_real(body)};
-  if (body >= 16777216u) search.before = search.before + R(256.0); /* numbers are rounded down there: the leaf itself decides */
-  return search;
-}
+/* Where numbers are rounded down the leaf itself decides. */
+SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
 /* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of `search`. */
 #define VISIT_LEAVES(a, VISIT, NEXT)                                                         \
   for (uint leaf = NEXT; leaf != 0u; leaf = NEXT) {                                          \
-    uint b = sort_value[leaf - search.leaves];                                               \
+    uint b = leaf_body[leaf - search.leaves];                                               \
     if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b)          \
   }
 #define HIERARCHY_SEARCH(a, walk, VISIT)                                                     \
   {                                                                                          \
     uint boundless = counts[COUNT_BOUNDLESS];                                                \
-    hierarchy_search search = search_before(bounds, hierarchy, counts, a);                   \
+    hierarchy_search search = {hierarchy, counts[COUNT_LEAVES], load_bounds(bounds, a), before_body(a)}; \
     for (uint b = 0u; b < boundless && b < a; ++b)                                           \
       if (bounds_overlap(search.box, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
     if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                  \
@@ -136,10 +132,10 @@ SHARED hierarchy_search search_before(GLOBAL const row *bounds, GLOBAL const row
   }
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
                                  GLOBAL uint *pair_start, uint walk, uint i)
 {
-  uint a = hierarchy_body(sort_value, counts, i), found = 0u;
+  uint a = hierarchy_body(leaf_body, counts, i), found = 0u;
 #define VISIT(b) ++found;
   HIERARCHY_SEARCH(a, walk, VISIT)
 #undef VISIT
@@ -147,10 +143,10 @@ SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL con
 }
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
                                  GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint walk, uint i)
 {
-  uint a = hierarchy_body(sort_value, counts, i), used = 0u, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
+  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
   HIERARCHY_SEARCH(a, walk, VISIT)
 #undef VISIT

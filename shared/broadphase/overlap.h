@@ -101,11 +101,11 @@ SHARED void sort_stretch(GLOBAL uint *values, uint length)
   else heap_sort(values, length);
 }
 
-/* Clamps the number of pairs found, the scan's total, to what there is room for. */
-SHARED void count_pairs_item(GLOBAL const uint *pair_start, GLOBAL uint *counts, uint i)
+/* Clamps the number of pairs found, the total of the scan over so many starts, to what there is room for. */
+SHARED void count_pairs_item(GLOBAL const uint *starts, GLOBAL uint *counts, uint length, uint i)
 {
   (void)i;
-  uint needed = pair_start[counts[COUNT_BODIES]];
+  uint needed = starts[counts[length]];
   counts[COUNT_PAIRS_NEEDED] = needed;
   counts[COUNT_PAIRS] = needed < counts[CAPACITY_PAIRS] ? needed : counts[CAPACITY_PAIRS];
 }

@@ -1,30 +1,57 @@
-/* sweep.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26).
+/* sweep.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and the plain sweep.
  *
- * Small bodies are sorted by their lower bound along the axis where the scene is widest; each looks
- * forward until a body starts behind its own end:
+ * Small bodies are sorted by where they start along an axis, the one along which centres spread most or the principal direction of
+ * their spread; each looks forward until a body starts behind its own end:
  *
  *     axis -->   |--- i ---|
- *                   |-- j --|          starts inside i: tested on the other two axes
+ *                   |-- j --|          starts inside i: tested on all axes
  *                            |-- k --  starts behind i: the search ends
  *
  * Appending by atomics, as the talk does, has no order: here each body's finds are counted, scanned
- * and written, and the keys (a, b) sorted, so the list is the brute-force one.
+ * and written, and the keys (a, b) sorted, so the list is the brute-force one. This is the form that the talk starts from, one
+ * work-item a body; sweep_window.h is the one it ends with.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_H
 
 #include "shared/broadphase/overlap.h"
+#include "shared/broadphase/pair_keys.h"
 #include "shared/conversion.h"
 
-SHARED real along(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
+typedef struct { real start, end; } interval;
 
-/* As precise as the keys are: rounding keeps the order, so nothing that starts inside is missed in double either. */
-SHARED real as_sorted(real x) { return (real)(float)x; }
+/* Exact along an axis of the world. Along another the sums round: wider than that, so that no box that overlaps seems not to. */
+SHARED interval interval_along_axis(box_bounds b, uint axis)
+{
+  interval i = {axis == 0u ? b.lower.x : axis == 1u ? b.lower.y : b.lower.z, axis == 0u ? b.upper.x : axis == 1u ? b.upper.y : b.upper.z};
+  return i;
+}
+SHARED interval interval_along_direction(box_bounds b, vec3 direction)
+{
+  vec3 center = scale(add(b.lower, b.upper), R(0.5)), extent = scale(subtract(b.upper, b.lower), R(0.5)), d = absolute(direction);
+  real middle = inner(center, direction), reach = inner(extent, d);
+  reach = reach + R(1e-6) * (inner(absolute(center), d) + reach);
+  interval i = {middle - reach, middle + reach};
+  return i;
+}
+SHARED interval sweep_interval(box_bounds b, GLOBAL const row *grid, GLOBAL const uint *counts, uint principal)
+{
+  if (principal != 0u) return interval_along_direction(b, xyz(load_row(grid, 2u)));
+  return interval_along_axis(b, counts[COUNT_SWEEP_AXIS]);
+}
 
-SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+/* Of the same order as the numbers, both zeros alike. Rounding to float keeps the order too, so double misses nothing either. */
+SHARED uint sweep_key(real x)
+{
+  uint bits = real_bits(x);
+  return ordered_bits(bits == 0x80000000u ? 0u : bits);
+}
+
+SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
+                            uint principal, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
-  sort_key[i] = ordered_bits(real_bits(along(load_bounds(bounds, body).lower, counts[COUNT_SWEEP_AXIS])));
+  sort_key[i] = sweep_key(sweep_interval(load_bounds(bounds, body), grid, counts, principal).start);
   sort_value[i] = body;
 }
 
@@ -35,28 +62,25 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
   store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
 }
 
-/* Calls VISIT(a, b), a > b, for the finds of item i: a large body, or place i - large of the sorted list. */
+/* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the sorted list. */
 #define SWEEP_SEARCH(i, VISIT)                                                                                       \
   {                                                                                                                  \
-    uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL], axis = counts[COUNT_SWEEP_AXIS];                   \
+    uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];                                                    \
     uint body = i < large ? i : sort_value[i - large];                                                               \
     box_bounds own = load_bounds(bounds, body);                                                                      \
     for (uint b = 0; b < large && b < body; ++b)                                                                     \
       if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
-    real end = as_sorted(along(own.upper, axis));                                                                    \
-    for (uint at = i < large ? small : i - large + 1u; at < small; ++at) {                                           \
-      box_bounds other = load_bounds(sweep_bounds, at);                                                              \
-      if (as_sorted(along(other.lower, axis)) > end) break;                                                          \
-      if (!bounds_overlap(own, other)) continue;                                                                     \
+    uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                 \
+    for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                    \
+      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                             \
       uint found = sort_value[at];                                                                                   \
-      uint a = body > found ? body : found, b = body > found ? found : body;                                         \
-      if (pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(a, b)                                      \
+      if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                        \
     }                                                                                                                \
   }
 
 SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
   uint finds = 0;
 #define VISIT(a, b) ++finds;
@@ -66,30 +90,13 @@ SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(a, b) { if (to < capacity) pair_key[to] = (ulong)a << 32 | (ulong)b; ++to; }
+#define VISIT(a, b) { if (to < capacity) pair_key[to] = key_of_pair(a, b); ++to; }
   SWEEP_SEARCH(i, VISIT)
 #undef VISIT
-}
-
-/* The sorted keys as the pair list; where a body's stretch starts is found by the bodies themselves. */
-SHARED void sweep_unpack_item(GLOBAL const ulong *pair_key, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint i)
-{
-  pair_a[i] = (uint)(pair_key[i] >> 32);
-  pair_b[i] = (uint)pair_key[i];
-}
-SHARED void sweep_starts_item(GLOBAL const uint *pair_a, GLOBAL const uint *counts, GLOBAL uint *pair_start, uint body)
-{
-  uint low = 0, high = counts[COUNT_PAIRS];
-  while (low < high) {
-    uint middle = low + (high - low) / 2u;
-    if (pair_a[middle] < body) low = middle + 1u;
-    else high = middle;
-  }
-  pair_start[body] = low;
 }
 
 #endif

@@ -1,0 +1,19 @@
+/* scene_counts.h - the entries of counts that follow from the scene alone: the host sets them once, kernels never. */
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tandem {
+
+struct SceneCounts {
+  uint32_t bodies = 0;
+  uint32_t boundless = 0; /* half-spaces: the first bodies */
+  uint32_t large = 0;     /* these, and the bodies after them that are too large for a grid */
+};
+
+/* Entries of shared/counts.h with their values. */
+std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
+
+} // namespace tandem

@@ -1,0 +1,26 @@
+/* pair_keys.h - the pair list from keys (a, b) in any order: for broadphases whose bodies find pairs that another body owns.
+ *
+ * Once sorted, the keys are the list; where a body's stretch starts is found by the bodies themselves.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
+#define TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
+
+#include "shared/counts.h"
+#include "shared/parallel/search.h"
+
+SHARED ulong key_of_pair(uint one, uint other)
+{
+  return one > other ? (ulong)one << 32 | (ulong)other : (ulong)other << 32 | (ulong)one;
+}
+
+SHARED void unpack_pairs_item(GLOBAL const ulong *pair_key, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint i)
+{
+  pair_a[i] = (uint)(pair_key[i] >> 32);
+  pair_b[i] = (uint)pair_key[i];
+}
+SHARED void start_pairs_item(GLOBAL const uint *pair_a, GLOBAL const uint *counts, GLOBAL uint *pair_start, uint body)
+{
+  pair_start[body] = lower_bound_of(pair_a, counts[COUNT_PAIRS], body);
+}
+
+#endif
