@@ -7,6 +7,7 @@
 #include "shared/broadphase/grid_symmetric.h"
 #include "shared/broadphase/hybrid.h"
 #include "shared/broadphase/sweep_window.h"
+#include "shared/broadphase/tight_bounds.h"
 
 __kernel void compute_bounds(__global const Parameters *parameters, __global const uint *body_traits,
                              __global const row *body_shape, __global const row *body_shape_pose,
@@ -16,6 +17,28 @@ __kernel void compute_bounds(__global const Parameters *parameters, __global con
   FOR_EACH_IN_RANGE(i)
   compute_bounds_item(parameters, body_traits, body_shape, body_shape_pose, body_mass, body_position, body_orientation,
                       body_velocity, bounds, i);
+}
+
+__kernel void compute_query_bounds(__global const Parameters *parameters, __global const uint *body_traits,
+                              __global const row *body_shape, __global const row *body_shape_pose,
+                              __global const row *body_position, __global const row *body_orientation,
+                              __global row *bounds, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  compute_query_bounds_item(parameters, body_traits, body_shape, body_shape_pose, body_position,
+                            body_orientation, bounds, i);
+}
+
+__kernel void tighten_bounds(__global const Parameters *parameters, __global const uint *body_traits,
+                             __global const row *body_shape, __global const uint *body_convex,
+                             __global const row *body_shape_pose, __global const uint *hull_header,
+                             __global const row *hull_vertex, __global const row *hull_strip, __global const row *body_mass,
+                             __global const row *body_position, __global const row *body_orientation,
+                             __global const row *body_velocity, __global row *bounds, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  tighten_bounds_item(parameters, body_traits, body_shape, body_convex, body_shape_pose, hull_header, hull_vertex,
+                      hull_strip, body_mass, body_position, body_orientation, body_velocity, bounds, i);
 }
 
 __kernel void brute_force_count(__global const Parameters *parameters, __global const uint *body_traits,

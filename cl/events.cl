@@ -1,7 +1,7 @@
 /* events.cl - entries: which pairs touch, and what the user is told of it. */
 #include "cl/entry.h"
 #include "shared/events/impulses.h"
-#include "shared/events/list.h"
+#include "shared/events/pair_events.h"
 
 __kernel void sum_impulses(__global const row *constraint_normal_impulse, __global row *constraint_impulse, uint substep, RANGE)
 {
@@ -45,4 +45,19 @@ __kernel void write_events(__global const uint *pair_start, __global const uint 
   write_events_item(pair_start, pair_b, pair_color, pair_touching, pair_impulse, manifold_normal, manifold_points,
                     manifold_count, cached_start, cached_b, cached_touching, body_position, event_start, counts,
                     event_bodies, event_contact, i);
+}
+
+__kernel void count_pair_events(__global const uint *pair_start, __global const uint *pair_b, __global const uint *cached_start,
+                                __global const uint *cached_b, __global uint *pair_event_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  count_pair_events_item(pair_start, pair_b, cached_start, cached_b, pair_event_start, i);
+}
+
+__kernel void write_pair_events(__global const uint *pair_start, __global const uint *pair_b, __global const uint *cached_start,
+                                __global const uint *cached_b, __global const uint *pair_event_start,
+                                __global uint *pair_event, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  write_pair_events_item(pair_start, pair_b, cached_start, cached_b, pair_event_start, pair_event, i);
 }

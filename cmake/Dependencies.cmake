@@ -9,6 +9,7 @@ find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(Qhull REQUIRED)
 find_package(tinyobjloader REQUIRED)
+find_package(PNG REQUIRED)
 
 add_library(tandem_dependencies INTERFACE)
 target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11

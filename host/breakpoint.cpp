@@ -138,7 +138,9 @@ const char *iteration_name(Kernel kernel)
   case Kernel::brute_force_count:
   case Kernel::brute_force_write:
   case Kernel::count_events:
-  case Kernel::write_events: return "a";
+  case Kernel::write_events:
+  case Kernel::count_pair_events:
+  case Kernel::write_pair_events: return "a";
   case Kernel::start_pairs: return "body";
   case Kernel::grid_cells: return "cell";
   case Kernel::color_starts: return "color";

@@ -52,6 +52,19 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   return events;
 }
 
+std::vector<PairEvent> download_pair_events(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const uint32_t n = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIR_EVENTS).front();
+  const auto records = memory.read<uint32_t>(Buffer::pair_event, 3 * size_t{n});
+  std::vector<PairEvent> events(n);
+  for (size_t i = 0; i < n; ++i) {
+    const auto [low, high] = std::minmax(order[records[3 * i + 1]], order[records[3 * i + 2]]);
+    events[i] = {static_cast<ContactEvent::Kind>(records[3 * i]), low, high};
+  }
+  std::sort(events.begin(), events.end(), [](const PairEvent &p, const PairEvent &q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  return events;
+}
+
 const char *name_of(ContactEvent::Kind kind)
 {
   static const char *const names[] = {"begin", "persist", "end"};

@@ -37,8 +37,8 @@ constexpr size_t buffer_count = 0
 
 enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
-enum class Stage : uint8_t { parallel, broadphase, midphase, narrowphase, batching, setup, solve, events, integrate, queries, problem };
-constexpr size_t stage_count = 11;
+enum class Stage : uint8_t { parallel, broadphase, midphase, narrowphase, batching, setup, solve, events, integrate, queries, sweeps, problem };
+constexpr size_t stage_count = 12;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {

@@ -7,8 +7,10 @@
 #include <fmt/format.h>
 
 #include "host/body_buffers.h"
+#include "host/broadphases/broadphase.h"
 #include "host/geometry/convex_hull.h"
 #include "host/hull_strips.h"
+#include "host/primitives.h"
 #include "host/shape_bounds.h"
 #include "shared/platform.h"
 
@@ -41,13 +43,23 @@ void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32
   upload(memory, Buffer::query_filter, filters);
 }
 
-/* Room for what comes back, and how many there are. */
-void make_room(Memory &memory, size_t queries)
+void set_length(Memory &memory, uint32_t queries) { memory.upload(Buffer::counts, &queries, sizeof queries, COUNT_LENGTH * sizeof queries); }
+
+void make_room_for_hits(Memory &memory, size_t hits)
 {
-  const auto count = static_cast<uint32_t>(queries);
-  memory.upload(Buffer::counts, &count, sizeof count, COUNT_LENGTH * sizeof count);
-  for (const Buffer buffer : {Buffer::query_hit, Buffer::query_point}) memory.resize(buffer, queries * sizeof(row));
-  memory.resize(Buffer::query_hit_body, queries * sizeof(uint32_t));
+  for (const Buffer buffer : {Buffer::query_hit, Buffer::query_point}) memory.resize(buffer, hits * sizeof(row));
+  memory.resize(Buffer::query_hit_body, hits * sizeof(uint32_t));
+}
+
+/* A kernel over all queries. */
+void launch(const QueryTarget &target, Kernel kernel, size_t queries, const std::vector<uint32_t> &values = {})
+{
+  target.launcher.launch({kernel, {}, values, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(queries)});
+}
+
+QueryHit hit_of(uint32_t body, const row &hit, const row &point, const Point &from)
+{
+  return {body, hit.w, {from[0] + double{point.x}, from[1] + double{point.y}, from[2] + double{point.z}}, {hit.x, hit.y, hit.z}};
 }
 
 template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t queries, Start &&start)
@@ -55,12 +67,62 @@ template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t qu
   const auto hits = memory.read<row>(Buffer::query_hit, queries), points = memory.read<row>(Buffer::query_point, queries);
   const auto bodies = memory.read<uint32_t>(Buffer::query_hit_body, queries);
   std::vector<QueryHit> found(queries);
-  for (size_t i = 0; i < queries; ++i) {
-    if (bodies[i] == no_body) continue;
-    const Point &from = start(i);
-    found[i] = {bodies[i], hits[i].w, {from[0] + double{points[i].x}, from[1] + double{points[i].y}, from[2] + double{points[i].z}}, {hits[i].x, hits[i].y, hits[i].z}};
-  }
+  for (size_t i = 0; i < queries; ++i)
+    if (bodies[i] != no_body) found[i] = hit_of(bodies[i], hits[i], points[i], start(i));
   return found;
+}
+
+/* Counts the hits of each query, scans, writes: where the hits of each start, and behind the last. */
+std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel write, size_t queries)
+{
+  Memory &memory = target.memory;
+  const auto capacity = static_cast<uint32_t>(queries);
+  memory.resize(Buffer::query_found, (queries + 1) * sizeof(uint32_t));
+  memory.resize(Buffer::scan_sums, std::max(memory.bytes(Buffer::scan_sums), scan_sum_words(queries + 1) * sizeof(uint32_t)));
+  launch(target, count, queries);
+  exclusive_scan(target.launcher, Buffer::query_found, Buffer::query_found, Buffer::scan_sums, COUNT_LENGTH, capacity);
+  const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
+  make_room_for_hits(memory, std::max(starts.back(), 1u));
+  launch(target, write, queries);
+  return starts;
+}
+
+/* By place along the way, then by body. */
+template <class Hit> bool comes_before(const Hit &a, const Hit &b) { return a.fraction != b.fraction ? a.fraction < b.fraction : a.body < b.body; }
+
+void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  std::vector<row> starts, ways;
+  std::vector<uint32_t> filters;
+  for (const Ray &ray : rays) {
+    const std::array<row, 2> place = place_of(ray.origin);
+    starts.insert(starts.end(), place.begin(), place.end());
+    ways.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
+    filters.insert(filters.end(), {ray.filter.group, ray.filter.mask});
+  }
+  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_start, starts);
+  upload(target.memory, Buffer::query_way, ways);
+  set_length(target.memory, static_cast<uint32_t>(rays.size()));
+}
+
+void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
+{
+  std::vector<row> starts, ways, extents;
+  std::vector<uint32_t> filters;
+  for (const QueryBox &box : boxes) {
+    const std::array<row, 2> place = place_of(box.center);
+    const Vec3 &way = box.displacement, &half = box.half_extents;
+    starts.insert(starts.end(), place.begin(), place.end());
+    ways.push_back({way[0], way[1], way[2], 1});
+    extents.push_back({half[0], half[1], half[2], 0});
+    filters.insert(filters.end(), {box.filter.group, box.filter.mask});
+  }
+  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_start, starts);
+  upload(target.memory, Buffer::query_way, ways);
+  upload(target.memory, Buffer::query_extent, extents);
+  set_length(target.memory, static_cast<uint32_t>(boxes.size()));
 }
 
 /* Of a shape in the middle of its body. */
@@ -95,6 +157,18 @@ void check_rays(std::span<const Ray> rays)
   }
 }
 
+void check_boxes(std::span<const QueryBox> boxes)
+{
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const QueryBox &box = boxes[i];
+    if (!finite(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", text(box.center)));
+    const bool negative = box.half_extents[0] < 0 || box.half_extents[1] < 0 || box.half_extents[2] < 0;
+    if (!finite(box.half_extents) || negative) refuse("box", i, fmt::format("half extents are {}; three finite numbers of at least 0 are needed", text(box.half_extents)));
+    if (!finite(box.displacement) || length(box.displacement) > longest)
+      refuse("box", i, fmt::format("displacement is {}; a vector of at most {} is needed", text(box.displacement), longest));
+  }
+}
+
 void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
 {
   check_swept_shape(shape);
@@ -111,29 +185,66 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
   }
 }
 
-std::vector<RayHit> cast_rays(Memory &memory, Launcher &launcher, const Scene &scene, const std::vector<uint32_t> &order, std::span<const Ray> rays)
+void launch_query_hierarchy(StepLaunches &step)
 {
-  if (rays.empty()) return {};
-  std::vector<row> starts, ways;
-  std::vector<uint32_t> filters;
-  for (const Ray &ray : rays) {
-    const std::array<row, 2> place = place_of(ray.origin);
-    starts.insert(starts.end(), place.begin(), place.end());
-    ways.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
-    filters.insert(filters.end(), {ray.filter.group, ray.filter.mask});
-  }
-  upload_filters(memory, scene, order, filters);
-  upload(memory, Buffer::query_start, starts);
-  upload(memory, Buffer::query_way, ways);
-  make_room(memory, rays.size());
-  launcher.launch({Kernel::cast_rays, {}, {}, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(rays.size())});
-  return take_hits(memory, rays.size(), [&](size_t i) -> const Point & { return rays[i].origin; });
+  step.run(Kernel::compute_query_bounds);
+  build_hierarchy(step);
 }
 
-std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &scene, const std::vector<uint32_t> &order, const Shape &shape,
-                            std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
+std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  make_room_for_hits(target.memory, rays.size());
+  launch(target, Kernel::cast_rays, rays.size());
+  return take_hits(target.memory, rays.size(), [&](size_t i) -> const Point & { return rays[i].origin; });
+}
+
+std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  target.memory.resize(Buffer::query_found, rays.size() * sizeof(uint32_t));
+  launch(target, Kernel::find_blocked_rays, rays.size());
+  const auto found = target.memory.read<uint32_t>(Buffer::query_found, rays.size());
+  return {found.begin(), found.end()};
+}
+
+std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  const std::vector<uint32_t> starts = find_all(target, Kernel::count_ray_hits, Kernel::write_ray_hits, rays.size());
+  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back()), points = target.memory.read<row>(Buffer::query_point, starts.back());
+  const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
+  std::vector<std::vector<RayHit>> found(rays.size());
+  for (size_t i = 0; i < rays.size(); ++i) {
+    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at) found[i].push_back(hit_of(bodies[at], hits[at], points[at], rays[i].origin));
+    std::sort(found[i].begin(), found[i].end(), comes_before<RayHit>);
+  }
+  return found;
+}
+
+std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
+{
+  if (boxes.empty()) return {};
+  upload_boxes(target, boxes);
+  const std::vector<uint32_t> starts = find_all(target, Kernel::count_box_hits, Kernel::write_box_hits, boxes.size());
+  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back());
+  const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
+  std::vector<std::vector<BoxHit>> found(boxes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at) found[i].push_back({bodies[at], hits[at].w});
+    std::sort(found[i].begin(), found[i].end(), comes_before<BoxHit>);
+  }
+  return found;
+}
+
+std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
+                            const QueryFilter &filter)
 {
   if (poses.empty()) return {};
+  Memory &memory = target.memory;
   std::vector<row> starts, turns, ways, vertices{{0, 0, 0, 0}}, strips;
   std::vector<uint32_t> filters;
   for (size_t i = 0; i < poses.size(); ++i) {
@@ -150,16 +261,16 @@ std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &sce
   }
   append_strips(strips, vertices, 3);
   const Vec3 size = kernel_size(shape);
-  upload_filters(memory, scene, order, filters);
+  upload_filters(memory, target.scene, target.order, filters);
   upload(memory, Buffer::query_start, starts);
   upload(memory, Buffer::query_turn, turns);
   upload(memory, Buffer::query_way, ways);
   upload(memory, Buffer::query_shape, std::vector<row>{{size[0], size[1], size[2], radius_of(shape)}});
   upload(memory, Buffer::query_vertex, vertices);
   upload(memory, Buffer::query_strip, strips);
-  make_room(memory, poses.size());
-  launcher.launch({Kernel::sweep_shape, {}, {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())}, COUNT_ZERO, COUNT_LENGTH,
-                   static_cast<uint32_t>(poses.size())});
+  set_length(memory, static_cast<uint32_t>(poses.size()));
+  make_room_for_hits(memory, poses.size());
+  launch(target, Kernel::sweep_shape, poses.size(), {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
   return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
 }
 

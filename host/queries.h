@@ -1,6 +1,7 @@
-/* queries.h - what a World can be asked between two steps: rays and sweeps, by the batch; see World::cast_rays, World::sweep.
+/* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays and those after it.
  *
- * Each query finds the nearest body alone; of bodies hit at one place that of the lower index. A query and a body must accept each
+ * A hierarchy of boxes around the bodies as they stand is built for the first query after a step (shared/broadphase/hierarchy.h), and
+ * walked by every query. Of bodies hit at one place the one of the lower index counts as nearest. A query and a body must accept each
  * other's groups, as two bodies must. Quarantined bodies are not found.
  */
 #pragma once
@@ -8,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "host/launcher.h"
 #include "host/scene.h"
+#include "host/step_launches.h"
 
 namespace tandem {
 
@@ -42,14 +43,41 @@ struct QueryHit {
 using RayHit = QueryHit;
 using SweepHit = QueryHit;
 
-/* InputError with the index of the first query that is not finite, has no direction, or a negative reach. */
+/* A box along the axes of the world, and where it goes. */
+struct QueryBox {
+  Point center{0, 0, 0};
+  Vec3 half_extents{0, 0, 0}; /* m, >= 0 */
+  Vec3 displacement{0, 0, 0}; /* m; 0: where it stands */
+  QueryFilter filter;
+};
+
+/* A body whose own box the query's box touches. Half-spaces, which have none, always count as touched. */
+struct BoxHit {
+  uint32_t body = no_body;
+  float fraction = 0; /* of the displacement, as the boxes first touch */
+};
+
+/* InputError with the index of the first query that is not finite, has no direction, or a negative reach or extent. */
 void check_rays(std::span<const Ray> rays);
+void check_boxes(std::span<const QueryBox> boxes);
 /* Also for half-spaces, which cannot be swept, for shapes that no scene could hold, and for lists of two lengths. */
 void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
 
-/* order: body order[i] of the scene stands at i in the body buffers. The launcher's backends must know the kernel. */
-std::vector<RayHit> cast_rays(Memory &memory, Launcher &launcher, const Scene &scene, const std::vector<uint32_t> &order, std::span<const Ray> rays);
-std::vector<SweepHit> sweep(Memory &memory, Launcher &launcher, const Scene &scene, const std::vector<uint32_t> &order, const Shape &shape,
-                            std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter);
+/* The launches that make the hierarchy. */
+void launch_query_hierarchy(StepLaunches &step);
+
+/* Where the questions go. order: body order[i] of the scene stands at i in the body buffers. */
+struct QueryTarget {
+  Memory &memory;
+  Launcher &launcher;
+  const Scene &scene;
+  const std::vector<uint32_t> &order;
+};
+
+std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays);
+std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays);
+std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays);
+std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);
+std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter);
 
 } // namespace tandem

@@ -14,12 +14,14 @@ struct Settings {
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* which of host/broadphases/; changes no bit */
+  std::string bounds = "affine";        /* tight: from the support map; other pairs, so other bits */
   std::string narrowphase = "sat";      /* of shapes without a test of their own */
   std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
   uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */
   std::string batching = "coloring";    /* coloring, sequential, single-group, iterative, two-stage */
   bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool events = false;    /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
+  bool pair_events = false; /* list which pairs of bodies come near, stay so and leave (World::pair_events); changes no motion */
   bool specialise = true; /* false: every feature built and run, same bits */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */
@@ -33,6 +35,7 @@ struct Settings {
 /* The accepted names, default first; --help and error messages list them. */
 std::vector<std::string> solver_names();
 std::vector<std::string> broadphase_names();
+std::vector<std::string> bounds_names();
 std::vector<std::string> narrowphase_names();
 std::vector<std::string> support_names();
 /* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */

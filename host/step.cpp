@@ -42,6 +42,7 @@ private:
   void find_pairs()
   {
     run(Kernel::compute_bounds);
+    if (settings().bounds == "tight" && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
     broadphase_named(settings().broadphase).launch(*this);
   }
 
@@ -105,6 +106,7 @@ private:
     run(Kernel::check_bodies);
     run(Kernel::finish_step, {plan().colors});
     if (has(FEATURE_EVENTS)) list_events();
+    if (settings().pair_events) list_pair_events();
     run(Kernel::commit_bodies);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
@@ -115,6 +117,14 @@ private:
       run(Kernel::cache_rolling);
     }
     if (const auto keep = solver_named(settings().solver).commit) keep(*this);
+  }
+
+  void list_pair_events()
+  {
+    run(Kernel::count_pair_events);
+    exclusive_scan(launcher(), Buffer::pair_event_start, Buffer::pair_event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_PAIR_EVENTS}, {Buffer::pair_event_start});
+    run(Kernel::write_pair_events);
   }
 
   /* Before the commit: bodies are where their contacts were found, and the cache is that of the last step. */

@@ -48,7 +48,7 @@ public:
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
       : scene(given), settings(chosen), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
-        launcher(memory, [this](Kernel kernel) -> Backend & { return *placed[index_of(kernel)]; })
+        launcher(memory, [this](Kernel kernel) -> Backend & { return backend_of(kernel); })
   {
     scene_features = special.features;
     if (!settings.specialise) special.features = all_features();
@@ -127,6 +127,7 @@ struct World::Implementation {
     std::map<Backend *, std::vector<Kernel>> own;
     for (Kernel kernel : kernels) own[&backend_for(placement, kernel)].push_back(kernel);
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
+    placed.fill(nullptr);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
     wanted = placement;
@@ -138,7 +139,7 @@ struct World::Implementation {
     const Sizes now = sizes();
     for (size_t i = 0; i < buffer_count; ++i) {
       const bool cached = i >= index_of(Buffer::cached_start) && i <= index_of(Buffer::cached_rolling_impulse);
-      memory.resize(buffer_at(i), touched[i] ? bytes_of(buffer_at(i), now) : 0, cached);
+      memory.resize(buffer_at(i), touched[i] || queried[i] ? bytes_of(buffer_at(i), now) : 0, cached);
     }
   }
 
@@ -183,6 +184,7 @@ struct World::Implementation {
   void step()
   {
     current_step = statistics.steps;
+    ++state;
     for (int repetition = 0; repetition < most_repetitions; ++repetition) {
       launch_step(launcher, plan, settings);
       memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
@@ -258,12 +260,35 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
-  /* Built when they are first asked for, then kept. */
-  void prepare_query(Kernel kernel)
+  /* Kernels of queries are built when they are first asked for, then kept. */
+  Backend &backend_of(Kernel kernel)
   {
-    Backend &backend = backend_for(wanted, kernel);
-    backend.prepare(special.features, {kernel});
-    placed[index_of(kernel)] = &backend;
+    Backend *&backend = placed[index_of(kernel)];
+    if (!backend) {
+      backend = &backend_for(wanted, kernel);
+      backend->prepare(special.features, {kernel});
+    }
+    return *backend;
+  }
+
+  /* Of the state as it is: once for all queries between two changes of it. */
+  QueryTarget query_target()
+  {
+    if (hierarchy_state != state) {
+      Recorder recorder;
+      StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
+      launch_query_hierarchy(recorded);
+      for (size_t i = 0; i < buffer_count; ++i)
+        if (recorder.touched[i] && !queried[i]) make_room(buffer_at(i));
+      launch_query_hierarchy(launches);
+      hierarchy_state = state;
+    }
+    return {memory, launcher, scene, special.order};
+  }
+  void make_room(Buffer buffer)
+  {
+    queried[index_of(buffer)] = true;
+    if (!touched[index_of(buffer)]) memory.resize(buffer, bytes_of(buffer, sizes()));
   }
 
   static constexpr uint32_t most_rounds = 1 << 20;
@@ -281,6 +306,8 @@ struct World::Implementation {
   StepPlan plan;
   std::vector<Kernel> kernels;
   std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
+  std::array<bool, buffer_count> queried{}; /* by the hierarchy of queries */
+  uint64_t state = 1, hierarchy_state = 0;  /* the state that is, and the one that the hierarchy is of */
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
@@ -308,7 +335,7 @@ const std::optional<BatchFault> &World::batch_fault() const { return implementat
 uint32_t World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->kernels; }
 Memory &World::memory() { return implementation_->memory; }
-Backend &World::backend_of(Kernel kernel) { return *implementation_->placed[index_of(kernel)]; }
+Backend &World::backend_of(Kernel kernel) { return implementation_->backend_of(kernel); }
 uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
 
@@ -330,6 +357,7 @@ void World::set_body(uint32_t body, const BodyState &state)
 void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
+  ++implementation_->state;
   upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
 }
 
@@ -339,21 +367,45 @@ std::vector<ContactEvent> World::contact_events()
   return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
 }
 
+std::vector<PairEvent> World::pair_events()
+{
+  if (!implementation_->settings.pair_events) throw InputError("pair_events: there are none without Settings::pair_events");
+  return download_pair_events(implementation_->memory, implementation_->special.order);
+}
+
 std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  implementation_->prepare_query(Kernel::cast_rays);
-  return tandem::cast_rays(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, rays);
+  return tandem::cast_rays(implementation_->query_target(), rays);
+}
+
+std::vector<bool> World::find_blocked_rays(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  return tandem::find_blocked_rays(implementation_->query_target(), rays);
+}
+
+std::vector<std::vector<RayHit>> World::cast_rays_through(std::span<const Ray> rays)
+{
+  check_rays(rays);
+  const minicl::ExactFloatingPoint environment;
+  return tandem::cast_rays_through(implementation_->query_target(), rays);
+}
+
+std::vector<std::vector<BoxHit>> World::sweep_boxes(std::span<const QueryBox> boxes)
+{
+  check_boxes(boxes);
+  const minicl::ExactFloatingPoint environment;
+  return tandem::sweep_boxes(implementation_->query_target(), boxes);
 }
 
 std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   check_sweep(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  implementation_->prepare_query(Kernel::sweep_shape);
-  return tandem::sweep(implementation_->memory, implementation_->launcher, implementation_->scene, implementation_->special.order, shape, poses,
-                       displacements, filter);
+  return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter);
 }
 
 Statistics World::statistics()

@@ -93,6 +93,13 @@ struct ContactEvent {
 };
 const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */
 
+/* Two bodies whose bounds overlapped in the last step, or in the one before it; in scenes with meshes and compounds, those of some of
+ * their parts. `begin`: they did not before; `end`: they do no more. A pair that persists keeps its cached impulses. */
+struct PairEvent {
+  ContactEvent::Kind kind;
+  uint32_t a, b; /* indices into Scene::bodies, a < b */
+};
+
 /* A body taken out of the simulation because it stopped being finite. */
 struct Quarantine {
   uint32_t body; /* index into Scene::bodies */
@@ -126,9 +133,17 @@ public:
   /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with larger buffers
    * tells them once. InputError without Settings::events. */
   std::vector<ContactEvent> contact_events();
-  /* Queries of the present state, by the batch, where the stage `queries` is placed; they change nothing. Answers in the order of
-   * the questions, with the same bits on every backend. InputError as check_rays and check_sweep. */
+  /* Of the last step, sorted by (a, b); none before the first. InputError without Settings::pair_events. */
+  std::vector<PairEvent> pair_events();
+  /* Queries of the present state, by the batch, where the stage `queries` is placed (sweeps of shapes: `sweeps`); they change nothing.
+   * Answers in the order of the questions, with the same bits on every backend. InputError as check_rays, check_boxes, check_sweep. */
   std::vector<RayHit> cast_rays(std::span<const Ray> rays);
+  /* Whether each hits anything at all: cheaper, as it stops at the first body that it finds. */
+  std::vector<bool> find_blocked_rays(std::span<const Ray> rays);
+  /* Every body that each hits, sorted by (fraction, body). */
+  std::vector<std::vector<RayHit>> cast_rays_through(std::span<const Ray> rays);
+  /* Every body whose box a box touches, where it stands or on its way; sorted by (fraction, body). */
+  std::vector<std::vector<BoxHit>> sweep_boxes(std::span<const QueryBox> boxes);
   /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
   std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter = {});
 

@@ -64,6 +64,7 @@ enum {
   COUNT_MISBATCHED,    /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
   COUNT_EVENTS,        /* of the step; 0 unless it was committed */
+  COUNT_PAIR_EVENTS,   /* the same of pairs that come near, stay or leave */
   BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
   COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2

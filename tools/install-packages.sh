@@ -33,6 +33,7 @@ build  need nlohmann-json3-dev    scene files and --json
 build  need libtinygltf-dev       glTF scenes and animations
 build  need libqhull-dev          convex hulls of points
 build  need libtinyobjloader-dev  Wavefront OBJ files of shapes
+build  need libpng-dev            pictures of scenes
 build  need libspdlog-dev         log messages
 build  need libfmt-dev            text formatting
 opencl want pocl-opencl-icd       PoCL: an OpenCL device on the CPU

@@ -8,6 +8,7 @@
 #include "host/world.h"
 #include "tools/command.h"
 #include "tools/event_file.h"
+#include "tools/image.h"
 #include "tools/measure.h"
 #include "tools/output.h"
 #include "tools/progress.h"
@@ -20,14 +21,16 @@ namespace {
 struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
-  std::string save, image, trace, events;
+  std::string save, image, image_size = "960x540", camera, trace, events;
   JsonOutput json;
 };
 
 void add_options(CLI::App &parser, RunOptions &options)
 {
   parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
-  parser.add_option("--image", options.image, "not supported yet")->type_name("F.png");
+  parser.add_option("--image", options.image, "draw the scene as it is in the end, by ray casting where the stage queries is placed")->type_name("F.png");
+  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")->type_name("WxH")->capture_default_str();
+  parser.add_option("--camera", options.camera, "from where to where the picture is seen; at all bodies but the largest if not given")->type_name("EX,EY,EZ,TX,TY,TZ");
   parser.add_option("--trace", options.trace,
                     "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
       ->type_name("F.json");
@@ -40,7 +43,9 @@ void add_options(CLI::App &parser, RunOptions &options)
 
 void check_files(const RunOptions &options)
 {
-  if (!options.image.empty()) throw InputError("--image is not supported yet; --save F.glb writes an animation");
+  const auto [width, height] = size_of_image(options.image_size);
+  if (!options.camera.empty()) camera_from(options.camera, width, height);
+  check_writable("--image", options.image);
   check_writable("--save", options.save);
   check_writable("--trace", options.trace);
   check_writable("--events", options.events);
@@ -199,6 +204,14 @@ Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
   return outcome;
 }
 
+void save_image(const RunOptions &options, World &world)
+{
+  if (options.image.empty()) return;
+  const auto [width, height] = size_of_image(options.image_size);
+  const Camera camera = options.camera.empty() ? camera_for(world, width, height) : camera_from(options.camera, width, height);
+  write_png(options.image, draw(world, camera), width, height);
+}
+
 int execute(const RunOptions &options)
 {
   Settings settings = options.scene.settings();
@@ -208,6 +221,7 @@ int execute(const RunOptions &options)
   check_files(options);
   World world(options.scene.scene(), settings, placement);
   const Outcome outcome = simulate(world, options, steps);
+  save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
   print_warnings(outcome, world);
   options.json.write(outcome_json(outcome, world, placement));

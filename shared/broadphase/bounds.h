@@ -30,30 +30,36 @@ SHARED vec3 posed_half_extents(GLOBAL const row *body_shape_pose, natural body, 
   return add(absolute(center), extent);
 }
 
+/* Of a body as it stands. */
+SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape_pose, natural body, vec3 size,
+                                 mat3 rotation)
+{
+  natural shape = shape_of(load_natural(body_traits, body));
+  vec3 extent = half_extents(shape, size, rotation);
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return extent;
+  return choose3(shape == (natural)SHAPE_OTHER, posed_half_extents(body_shape_pose, body, rotation), extent);
+}
+/* Of the centre and of the sums below: two ulps. */
+SHARED vec3 rounding_of_bounds(vec3 center) { return scale(absolute(center), R(2.4e-7)); }
+
 /* A turning shape stays within its bounding sphere. */
 SHARED real turned_extent(real extent, real radius, real turn)
 {
   return choose(extent > radius, extent, minimum(radius, extent + turn * radius));
 }
-
-SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
-                                GLOBAL const row *body_shape_pose, GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
-                                GLOBAL const row *body_velocity, GLOBAL row *bounds, item_index i)
+SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
 {
-  vec4 size = load_row(body_shape, i);
-  vec3 center = load_place(body_position, i).high;
-  motion m = load_motion(body_velocity, i);
-  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
-  natural shape = shape_of(load_natural(body_traits, i));
-  vec3 extent = half_extents(shape, xyz(size), rotation);
-  if (HAS_FEATURE(parameters, FEATURE_CONVEX)) extent = choose3(shape == (natural)SHAPE_OTHER, posed_half_extents(body_shape_pose, i, rotation), extent);
+  return make_vec3(turned_extent(extent.x, radius, turn), turned_extent(extent.y, radius, turn), turned_extent(extent.z, radius, turn));
+}
 
-  real step = parameters->step;
-  real turn = length_of(m.angular) * step;
-  real margin = parameters->bounds_margin;
-  vec3 rounding = scale(absolute(center), R(2.4e-7)); /* of the centre and of the sums below: two ulps */
-  extent = make_vec3(turned_extent(extent.x, size.w, turn) + margin + rounding.x, turned_extent(extent.y, size.w, turn) + margin + rounding.y,
-                     turned_extent(extent.z, size.w, turn) + margin + rounding.z);
+/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius. */
+SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_mass, GLOBAL row *bounds, natural i,
+                                 vec3 center, motion m, vec3 below, vec3 above, real radius)
+{
+  real step = parameters->step, turn = length_of(m.angular) * step, margin = parameters->bounds_margin;
+  vec3 spare = make_vec3(margin, margin, margin), rounding = rounding_of_bounds(center);
+  below = add(add(turned_extents(below, radius, turn), spare), rounding);
+  above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
   real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
   vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
@@ -64,14 +70,36 @@ SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL cons
                         maximum(R(0.0), maximum(drift.z, fallen.z)));
   if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
     /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
-    real way = maximum(length_of(drift), length_of(fallen)) + turn * size.w;
+    real way = maximum(length_of(drift), length_of(fallen)) + turn * radius;
     vec3 anywhere = make_vec3(way, way, way);
     mask continuous = is_continuous(load_natural(body_traits, i));
     low = choose3(continuous, negate(anywhere), low);
     high = choose3(continuous, anywhere, high);
   }
-  store_row(bounds, i * 2u, extend(add(subtract(center, extent), low), R(0.0)));
-  store_row(bounds, i * 2u + 1u, extend(add(add(center, extent), high), R(0.0)));
+  store_row(bounds, i * 2u, extend(add(subtract(center, below), low), R(0.0)));
+  store_row(bounds, i * 2u + 1u, extend(add(add(center, above), high), R(0.0)));
+}
+
+SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
+                                GLOBAL const row *body_shape_pose, GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
+                                GLOBAL const row *body_velocity, GLOBAL row *bounds, item_index i)
+{
+  vec4 size = load_row(body_shape, i);
+  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
+  vec3 extent = half_extents_of_body(parameters, body_traits, body_shape_pose, i, xyz(size), rotation);
+  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high, load_motion(body_velocity, i), extent, extent, size.w);
+}
+
+/* The same without any motion or margin: what queries ask. */
+SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
+                                      GLOBAL const row *body_shape_pose, GLOBAL const row *body_position, GLOBAL const row *body_orientation, GLOBAL row *bounds,
+                                      item_index i)
+{
+  vec3 center = load_place(body_position, i).high, size = xyz(load_row(body_shape, i));
+  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
+  vec3 extent = add(half_extents_of_body(parameters, body_traits, body_shape_pose, i, size, rotation), rounding_of_bounds(center));
+  store_row(bounds, i * 2u, extend(subtract(center, extent), R(0.0)));
+  store_row(bounds, i * 2u + 1u, extend(add(center, extent), R(0.0)));
 }
 
 #endif

@@ -11,13 +11,16 @@
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/queries/nearest.h"
 
-/* What queries know of the scene. */
+/* What queries know of the scene, and of one another. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *traits, *convexes, *body_trees;
-  GLOBAL const row *shapes, *poses, *orientations;
+  GLOBAL const row *shapes, *poses, *positions, *orientations;
   hull_tables tables;
   tree_tables trees;
+  GLOBAL const row *hierarchy; /* of compute_query_bounds */
+  GLOBAL const uint *leaf_body, *query_body, *query_filter;
+  GLOBAL const row *query_start, *query_way;
 } query_scene;
 
 /* A way through one body, in the axes of its tree. */

@@ -1,9 +1,9 @@
-/* cast_rays.h - the first body that each of many rays hits; see nearest.h and ray_shape.h. */
+/* cast_rays.h - what each of many rays hits: the nearest body, any body, or all of them; see nearest.h, ray_shape.h and ray_walk.h. */
 #ifndef TANDEM_SHARED_QUERIES_CAST_RAYS_H
 #define TANDEM_SHARED_QUERIES_CAST_RAYS_H
 
 #include "shared/queries/body_parts.h"
-#include "shared/queries/ray_shape.h"
+#include "shared/queries/ray_walk.h"
 
 /* way: unit direction; length: in m, of a fraction of 1; reach: the largest fraction. */
 SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, uint body)
@@ -20,35 +20,112 @@ SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, ui
   return hit;
 }
 
-SHARED void cast_rays_item(GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                           GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                           GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
-                           GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                           GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const uint *query_body,
-                           GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
-                           GLOBAL row *query_hit, GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint i)
+/* Ray i, and the bodies it may meet: half-spaces one by one, the others by the hierarchy. */
+typedef struct {
+  place start;
+  vec3 direction; /* unit */
+  real length, reach, farthest; /* m, of a fraction of 1; the largest fraction; that in m */
+  uint query, next_boundless;
+  ray_walk walk;
+} ray;
+
+SHARED ray load_ray(const query_scene *scene, GLOBAL const uint *counts, uint i)
 {
-  query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, orientations,
-                       {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
-  place start = load_place(query_start, i);
-  vec4 given = load_row(query_way, i);
-  real length = length_of(xyz(given)), farthest = minimum(given.w * length, ENDLESS);
-  vec3 direction = scale(xyz(given), R(1.0) / length), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  ray r;
+  vec4 given = load_row(scene->query_way, i);
+  r.start = load_place(scene->query_start, i);
+  r.length = length_of(xyz(given));
+  r.reach = given.w;
+  r.farthest = minimum(given.w * r.length, ENDLESS);
+  r.direction = scale(xyz(given), R(1.0) / r.length);
+  r.query = i;
+  r.next_boundless = 0u;
+  r.walk = start_ray_walk(scene->hierarchy, counts, r.start, r.direction, make_vec3(R(0.0), R(0.0), R(0.0)));
+  return r;
+}
+
+/* The next body that the ray may meet before `reach`, in m; INDEX_NONE behind the last. */
+SHARED uint next_body_on_ray(const query_scene *scene, GLOBAL const uint *counts, ray *r, real reach)
+{
+  if (r->next_boundless < counts[COUNT_BOUNDLESS]) return r->next_boundless++;
+  uint leaf = next_on_ray(&r->walk, reach);
+  return leaf == 0u ? INDEX_NONE : scene->leaf_body[leaf - r->walk.leaves];
+}
+
+/* Where the ray first hits a body. */
+SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, real reach)
+{
   first_hit nearest = nothing_hit();
-  for (uint body = 0u; body < counts[COUNT_BODIES]; ++body) {
-    if (!may_hit(traits, query_body, query_filter, body, i)) continue;
-    vec3 center = seen_from(positions, body, start);
-    real reach = nearest.body == INDEX_NONE ? farthest : minimum(farthest, nearest.fraction * length);
-    mask endless = shape_of(traits[body]) == (uint)SHAPE_HALF_SPACE;
-    /* As long as the ray need be to pass the body: one without an end has no length to work with. */
-    real way = minimum(reach, length_of(center) + load_row(shapes, body).w);
-    if (!endless && !passes_near(center, scale(direction, way), load_row(shapes, body).w)) continue;
-    part_walk walk = walk_parts(&scene, body, center, scale(direction, way), R(0.0));
-    convex part;
-    while (next_part(&scene, &walk, &part))
-      nearest = nearer_hit(nearest, hit_of_span(ray_span(&part, none, direction), direction, length, given.w, query_body[4u * body]));
+  if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, r->query)) return nearest;
+  vec3 center = seen_from(scene->positions, body, r->start), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  mask endless = shape_of(scene->traits[body]) == (uint)SHAPE_HALF_SPACE;
+  /* As long as the ray need be to pass the body: one without an end has no length to work with. */
+  real way = minimum(reach, length_of(center) + load_row(scene->shapes, body).w);
+  if (!endless && !passes_near(center, scale(r->direction, way), load_row(scene->shapes, body).w)) return nearest;
+  part_walk walk = walk_parts(scene, body, center, scale(r->direction, way), R(0.0));
+  convex part;
+  while (next_part(scene, &walk, &part))
+    nearest = nearer_hit(nearest, hit_of_span(ray_span(&part, none, r->direction), r->direction, r->length, r->reach, scene->query_body[4u * body]));
+  return nearest;
+}
+
+#define QUERY_SCENE                                                                                                                        \
+  {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,                                                       \
+   {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}, \
+   hierarchy, leaf_body, query_body, query_filter, query_start, query_way}
+#define QUERY_SCENE_PARAMETERS                                                                                                             \
+  GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes, \
+      GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *body_trees, \
+      GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,       \
+      GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,     \
+      GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,           \
+      GLOBAL const row *query_start, GLOBAL const row *query_way
+
+SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint i)
+{
+  query_scene scene = QUERY_SCENE;
+  ray r = load_ray(&scene, counts, i);
+  first_hit nearest = nothing_hit();
+  real reach = r.farthest;
+  for (uint body = next_body_on_ray(&scene, counts, &r, reach); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, reach)) {
+    nearest = nearer_hit(nearest, hit_of_body(&scene, &r, body, reach));
+    if (nearest.body != INDEX_NONE) reach = minimum(r.farthest, nearest.fraction * r.length);
   }
   store_hit(nearest, query_hit, query_point, query_hit_body, i);
+}
+
+/* Whether it hits anything: 1 or 0. */
+SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint i)
+{
+  query_scene scene = QUERY_SCENE;
+  ray r = load_ray(&scene, counts, i);
+  uint found = 0u;
+  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE && found == 0u; body = next_body_on_ray(&scene, counts, &r, r.farthest))
+    if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) found = 1u;
+  query_found[i] = found;
+}
+
+/* All bodies it hits: how many, and after a scan which. */
+SHARED void count_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint i)
+{
+  query_scene scene = QUERY_SCENE;
+  ray r = load_ray(&scene, counts, i);
+  uint found = 0u;
+  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, r.farthest))
+    if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) ++found;
+  query_found[i] = found;
+}
+
+SHARED void write_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL row *query_point,
+                                GLOBAL uint *query_hit_body, uint i)
+{
+  query_scene scene = QUERY_SCENE;
+  ray r = load_ray(&scene, counts, i);
+  uint at = query_found[i];
+  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, r.farthest)) {
+    first_hit hit = hit_of_body(&scene, &r, body, r.farthest);
+    if (hit.body != INDEX_NONE) store_hit(hit, query_hit, query_point, query_hit_body, at++);
+  }
 }
 
 #endif

@@ -1,7 +1,6 @@
 /* nearest.h - what every query asks of every body: may it be hit, can it be, and is it nearer than the nearest so far.
  *
- * The loop over bodies stands in each query and asks three things; an acceleration structure only has to hand out fewer of
- * them, in any order: nearest_hit does not depend on it.
+ * Which bodies are asked is the hierarchy's choice (ray_walk.h); in which order makes no difference to the nearest.
  */
 #ifndef TANDEM_SHARED_QUERIES_NEAREST_H
 #define TANDEM_SHARED_QUERIES_NEAREST_H

@@ -20,15 +20,26 @@ TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_back
 TEST_CASE("parity on CPU: thin-wall") { require_parity(small_scenes()[10], cpu_backends(), 12); }
 TEST_CASE("parity on CPU: bullet-stack") { require_parity(small_scenes()[11], cpu_backends(), 12); }
 
-TEST_CASE("parity on CPU: every narrowphase and broadphase of every shape")
+TEST_CASE("parity on CPU: every narrowphase of every shape")
 {
-  for (const std::string &narrowphase : narrowphase_names())
-    for (const std::string &broadphase : broadphase_names()) {
+  for (const std::string &narrowphase : narrowphase_names()) {
+    Settings settings;
+    settings.narrowphase = narrowphase;
+    CAPTURE(narrowphase);
+    require_parity(every_shape(), cpu_backends(), 30, settings);
+  }
+}
+
+/* The other narrowphases see the pairs of the same list. */
+TEST_CASE("parity on CPU: every broadphase, and both bounds, of every shape")
+{
+  for (const std::string &broadphase : broadphase_names())
+    for (const std::string &bounds : bounds_names()) {
       Settings settings;
-      settings.narrowphase = narrowphase;
       settings.broadphase = broadphase;
-      CAPTURE(narrowphase);
-      require_parity(every_shape(), cpu_backends(), 30, settings);
+      settings.bounds = bounds;
+      settings.pair_events = true;
+      require_parity(every_shape(), cpu_backends(), 15, settings);
     }
 }
 
@@ -55,19 +66,16 @@ TEST_CASE("parity on CPU: supports of hulls")
   }
 }
 
-/* Broadphases find the same pairs in different ways, batchings colour them differently: each must be exact by itself. */
-TEST_CASE("parity on CPU: every broadphase and batching")
+/* Broadphases find the same pairs in different ways: each must be exact by itself. */
+TEST_CASE("parity on CPU: every broadphase")
 {
   const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"};
-  for (const std::string &broadphase : broadphase_names())
-    for (const std::string &batching : batching_names()) {
-      Settings settings;
-      settings.broadphase = broadphase;
-      settings.batching = batching;
-      settings.check = true;
-      require_parity("mixed:n=60", backends, 30, settings);
-      require_parity("box-grid:nx=4,ny=4,nz=4", backends, 20, settings);
-    }
+  for (const std::string &broadphase : broadphase_names()) {
+    Settings settings;
+    settings.broadphase = broadphase;
+    require_parity("mixed:n=60", backends, 30, settings);
+    require_parity("box-grid:nx=11,ny=10,nz=11", backends, 3, settings); /* more bodies than a tile has items */
+  }
 }
 
 TEST_CASE("parity on CPU: every batching, width and number of threads")
@@ -80,6 +88,8 @@ TEST_CASE("parity on CPU: every batching, width and number of threads")
     settings.check = true;
     require_parity("pyramid-2d:n=700", backends, 3, settings); /* more contacts than a tile has items */
     require_parity("falling-boxes:n=60,height=0", backends, 40, settings);
+    require_parity("mixed:n=60", backends, 30, settings);
+    require_parity("box-grid:nx=4,ny=4,nz=4", backends, 20, settings);
   }
 }
 

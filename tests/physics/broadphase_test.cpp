@@ -1,6 +1,8 @@
 /* Every broadphase finds the pairs that brute force finds, hence the same bits. */
 #include "tests/catch.h"
 
+#include <set>
+
 #include "host/scene_catalog.h"
 #include "tests/physics/physics.h"
 
@@ -72,13 +74,72 @@ std::vector<uint64_t> hashes_with(const std::string &broadphase, const Scene &sc
 
 } // namespace
 
-TEST_CASE("brute force, sweep and grid give the same bits", "[physics]")
+TEST_CASE("every broadphase leads to the bits of brute force", "[physics]")
 {
   const std::string name = GENERATE("box-grid:nx=5,ny=5,nz=5", "falling-boxes:n=150", "mixed:n=200", "spheres:n=200", "pyramid:rows=8", "many sizes",
                                     "flat", "one point", "scattered");
   CAPTURE(name);
   const Scene scene = scene_of(name);
   const std::vector<uint64_t> oracle = hashes_with("brute-force", scene);
-  CHECK(hashes_with("sap", scene) == oracle);
-  CHECK(hashes_with("grid", scene) == oracle);
+  for (const std::string &broadphase : broadphase_names()) {
+    CAPTURE(broadphase);
+    CHECK(hashes_with(broadphase, scene) == oracle);
+  }
+}
+
+TEST_CASE("pairs come near once, persist and leave once, and touch only while they are near")
+{
+  Scene scene = empty_scene({0, 0, 0});
+  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {-3, 0, 0}).linear_velocity = {6, 0, 0};
+  add_body(scene, Motion::fixed, sphere_shape(0.5f), {0, 0.98, 0});
+  add_body(scene, Motion::fixed, box_shape(0.1f, 0.1f, 0.1f), {0, -40, 0});
+  for (Body &body : scene.bodies) body.material = 0;
+  Settings settings;
+  settings.pair_events = settings.events = true;
+  World world(scene, settings);
+  std::vector<ContactEvent::Kind> kinds;
+  for (int step = 0; step < 60; ++step) {
+    world.step();
+    const std::vector<PairEvent> events = world.pair_events();
+    REQUIRE(events.size() <= 1);
+    for (const PairEvent &event : events) {
+      CHECK((event.a == 0 && event.b == 1));
+      kinds.push_back(event.kind);
+    }
+    for (const ContactEvent &contact : world.contact_events())
+      if (contact.kind != ContactEvent::Kind::end) CHECK((!events.empty() && events[0].kind != ContactEvent::Kind::end));
+  }
+  REQUIRE(kinds.size() > 2);
+  CHECK(kinds.front() == ContactEvent::Kind::begin);
+  CHECK(kinds.back() == ContactEvent::Kind::end);
+  CHECK(std::all_of(kinds.begin() + 1, kinds.end() - 1, [](ContactEvent::Kind kind) { return kind == ContactEvent::Kind::persist; }));
+  CHECK_THROWS_AS(World(scene).pair_events(), InputError);
+}
+
+TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
+{
+  const std::string name = GENERATE("mixed:n=120", "compounds:n=30");
+  Settings settings;
+  settings.pair_events = true;
+  World world(load_scene(name), settings);
+  std::set<std::pair<uint32_t, uint32_t>> before;
+  size_t ends = 0;
+  for (int step = 0; step < 60; ++step) {
+    world.step();
+    const uint32_t count = world.memory().read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).front();
+    const auto a = world.memory().read<uint32_t>(Buffer::pair_a, count), b = world.memory().read<uint32_t>(Buffer::pair_b, count);
+    std::set<std::pair<uint32_t, uint32_t>> now;
+    for (uint32_t k = 0; k < count; ++k) now.insert(std::minmax(world.scene_body(a[k]), world.scene_body(b[k])));
+    std::vector<PairEvent> expected;
+    std::set<std::pair<uint32_t, uint32_t>> either = before;
+    either.insert(now.begin(), now.end());
+    for (const auto &pair : either)
+      expected.push_back({!before.contains(pair) ? ContactEvent::Kind::begin : now.contains(pair) ? ContactEvent::Kind::persist : ContactEvent::Kind::end, pair.first, pair.second});
+    const std::vector<PairEvent> events = world.pair_events();
+    CHECK(std::equal(events.begin(), events.end(), expected.begin(), expected.end(),
+                     [](const PairEvent &p, const PairEvent &q) { return p.kind == q.kind && p.a == q.a && p.b == q.b; }));
+    ends += static_cast<size_t>(std::count_if(expected.begin(), expected.end(), [](const PairEvent &event) { return event.kind == ContactEvent::Kind::end; }));
+    before = now;
+  }
+  CHECK(ends > 0);
 }

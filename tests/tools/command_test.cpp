@@ -147,9 +147,12 @@ TEST_CASE("command: scene files that cannot be read", "[command]")
 
 TEST_CASE("command: files that cannot be written are refused before the run", "[command]")
 {
-  for (const char *option : {"--json", "--save", "--trace", "--events"})
+  for (const char *option : {"--json", "--save", "--trace", "--events", "--image"})
     check_refused("run " + tiny + " --steps 1000000000 " + option + " /nonexistent/file.glb", "/nonexistent/file.glb");
-  check_refused("run " + tiny + " --image picture.png", "not supported yet");
+  check_refused("run " + tiny + " --image picture.png --image-size 0x5", "--image-size");
+  check_refused("run " + tiny + " --image picture.png --image-size 640", "WIDTHxHEIGHT");
+  check_refused("run " + tiny + " --image picture.png --camera 1,2,3", "EX,EY,EZ");
+  check_refused("run " + tiny + " --image picture.png --camera 1,2,3,1,5,3", "straight up");
   check_refused("diff " + tiny + " --json /nonexistent/file", "/nonexistent/file");
   check_refused("devices --json /nonexistent/file", "/nonexistent/file");
 }

@@ -38,6 +38,7 @@ double outside_by(const Reach &bounds, const std::vector<Vector> &points, const 
 TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning")
 {
   const double speed = GENERATE(0.0, 8.0), spin = GENERATE(0.0, 10.0);
+  const std::string kind = GENERATE("affine", "tight");
   Random random(5);
   Scene scene = physics_tests::empty_scene();
   constexpr int side = 8;
@@ -46,7 +47,9 @@ TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning"
     body.linear_velocity = physics_tests::vec3_of(speed * direction(random));
     body.angular_velocity = physics_tests::vec3_of(spin * direction(random));
   }
-  World world(scene);
+  Settings settings;
+  settings.bounds = kind;
+  World world(scene, settings);
   const std::vector<BodyState> start = world.bodies();
   world.step();
   REQUIRE(world.statistics().contacts == 0);
@@ -58,8 +61,44 @@ TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning"
     const std::vector<Vector> points = points_of(scene, body, random);
     const Reach bounds = bounds_of(world, index);
     const double before = outside_by(bounds, points, start[i]) + margin, after = outside_by(bounds, points, end[i]);
-    CAPTURE(i, int(scene.shapes[body.shape].type), speed, spin, before, after);
+    CAPTURE(i, kind, int(scene.shapes[body.shape].type), speed, spin, before, after);
     REQUIRE(before < 1e-6);
     REQUIRE(after < 0);
   }
+}
+
+TEST_CASE("tight bounds are the least that hold a shape, and lie within the fast ones")
+{
+  Random random(6);
+  Scene scene = physics_tests::empty_scene({0, 0, 0});
+  for (int i = 0; i < 400; ++i) add_any(scene, random, {12.0 * (i % 20), 0, 12.0 * (i / 20)});
+  Settings settings;
+  settings.bounds = "tight";
+  World tight(scene, settings), fast(scene);
+  tight.step();
+  fast.step();
+  const double margin = 2 * settings.slop;
+  double volume = 0, fast_volume = 0, loosest = 0;
+  for (uint32_t index = 0; index < scene.bodies.size(); ++index) {
+    const uint32_t i = tight.scene_body(index);
+    const Reach bounds = bounds_of(tight, index), around = bounds_of(fast, index);
+    const physics_tests::Matrix axes = physics_tests::axes_of(scene.bodies[i].orientation);
+    const Vector place = physics_tests::vector_of(scene.bodies[i].position);
+    Vector low(1e300, 1e300, 1e300), high(-1e300, -1e300, -1e300);
+    for (const Vector &p : points_of(scene, scene.bodies[i], random)) {
+      low = low.cwiseMin(place + axes * p);
+      high = high.cwiseMax(place + axes * p);
+    }
+    CAPTURE(i, int(scene.shapes[scene.bodies[i].shape].type));
+    CHECK((bounds.low - around.low).minCoeff() > -1e-4);
+    CHECK((around.high - bounds.high).minCoeff() > -1e-4);
+    const ShapeType type = scene.shapes[scene.bodies[i].shape].type;
+    const bool drawn = type == ShapeType::sphere || type == ShapeType::capsule; /* of which the farthest points are not among those */
+    if (!drawn) loosest = std::max({loosest, (low - bounds.low).maxCoeff() - margin, (bounds.high - high).maxCoeff() - margin});
+    volume += (bounds.high - bounds.low).prod();
+    fast_volume += (around.high - around.low).prod();
+  }
+  CAPTURE(volume, fast_volume, loosest);
+  CHECK(loosest < 1e-4);
+  CHECK(volume < 0.6 * fast_volume);
 }

@@ -3,10 +3,11 @@
  * By conservative advancement (narrowphase/conservative_advancement.h): without turning, its bound is exact along the normal, and a few
  * distance queries a body are enough. The way ends up to the touching distance of that method before the body, never behind.
  */
-#ifndef TANDEM_SHARED_QUERIES_SWEEP_SHAPE_H
-#define TANDEM_SHARED_QUERIES_SWEEP_SHAPE_H
+#ifndef TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
+#define TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
 
 #include "shared/queries/body_parts.h"
+#include "shared/queries/ray_walk.h"
 
 /* Of the least size: a query is not served by the broad margin of a contact. */
 #define SWEEP_TOUCHING R(1e-5)
@@ -55,18 +56,34 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
   return hit;
 }
 
+/* Query i against all parts of a body. radius: of what is swept. */
+SHARED first_hit sweep_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body, uint i)
+{
+  first_hit nearest = nothing_hit();
+  if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, i)) return nearest;
+  vec3 center = seen_from(scene->positions, body, load_place(scene->query_start, i));
+  mask is_plane = shape_of(scene->traits[body]) == (uint)SHAPE_HALF_SPACE;
+  if (!is_plane && !passes_near(center, moving->linear, load_row(scene->shapes, body).w + radius)) return nearest;
+  part_walk walk = walk_parts(scene, body, center, moving->linear, radius);
+  convex part;
+  while (next_part(scene, &walk, &part))
+    nearest = nearer_hit(nearest, sweep_against(moving, &part, is_plane, R(1.0), scene->query_body[4u * body]));
+  return nearest;
+}
+
 /* vertices: of the swept shape, if it is a hull; its size and bounding radius in query_shape. */
 SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
                              GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *strips,
                              GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
                              GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                             GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
+                             GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
                              GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
                              GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit, GLOBAL row *query_point,
                              GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint i)
 {
-  query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, orientations,
-                       {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}};
+  query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,
+                       {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves},
+                       hierarchy, leaf_body, query_body, query_filter, query_start, query_way};
   hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   place start = load_place(query_start, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
@@ -77,15 +94,12 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
   swept.hull.vertices = vertices_of_shape;
   moving_convex moving = moving_convex_of(&swept, none, way, none, R(0.0));
   first_hit nearest = nothing_hit();
-  for (uint body = 0u; body < counts[COUNT_BODIES]; ++body) {
-    if (!may_hit(traits, query_body, query_filter, body, i)) continue;
-    vec3 center = seen_from(positions, body, start);
-    mask is_plane = shape_of(traits[body]) == (uint)SHAPE_HALF_SPACE;
-    if (!is_plane && !passes_near(center, way, load_row(shapes, body).w + size.w)) continue;
-    part_walk walk = walk_parts(&scene, body, center, way, size.w);
-    convex part;
-    while (next_part(&scene, &walk, &part))
-      nearest = nearer_hit(nearest, sweep_against(&moving, &part, is_plane, R(1.0), query_body[4u * body]));
+  for (uint body = 0u; body < counts[COUNT_BOUNDLESS]; ++body) nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
+  real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
+  ray_walk walk = start_ray_walk(hierarchy, counts, start, way, make_vec3(slack, slack, slack));
+  for (uint leaf = next_on_ray(&walk, reach); leaf != 0u; leaf = next_on_ray(&walk, reach)) {
+    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, leaf_body[leaf - walk.leaves], i));
+    if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
   store_hit(nearest, query_hit, query_point, query_hit_body, i);
 }

@@ -1,0 +1,80 @@
+/* box_queries.h - the bodies whose boxes a box overlaps, where it stands or on a straight way.
+ *
+ *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own half extents
+ *       |  |- - - ->  [   ]     (Minkowski). One that stands still goes a way of length 0.
+ *       +--+
+ *
+ * Boxes of bodies are those of compute_query_bounds: around the shape where it stands. How many are found is counted, scanned, and
+ * then they are written, each with how much of the way is left behind as the boxes touch.
+ */
+#ifndef TANDEM_SHARED_QUERIES_BOX_QUERIES_H
+#define TANDEM_SHARED_QUERIES_BOX_QUERIES_H
+
+#include "shared/queries/nearest.h"
+#include "shared/queries/ray_walk.h"
+
+typedef struct {
+  GLOBAL const uint *traits, *counts, *leaf_body, *query_body, *query_filter;
+  GLOBAL const row *hierarchy, *query_start, *query_way, *query_extent;
+} box_scene;
+
+/* Box i and the bodies it may meet: half-spaces, then the others. */
+typedef struct {
+  uint query, next_boundless;
+  ray_walk walk;
+} box_walk;
+
+SHARED box_walk start_box_walk(const box_scene *scene, uint i)
+{
+  box_walk b;
+  b.query = i;
+  b.next_boundless = 0u;
+  b.walk = start_ray_walk(scene->hierarchy, scene->counts, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
+  return b;
+}
+
+/* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds: it is always met. */
+SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction)
+{
+  *fraction = R(0.0);
+  while (b->next_boundless < scene->counts[COUNT_BOUNDLESS]) {
+    uint body = b->next_boundless++;
+    if (may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) return body;
+  }
+  for (uint leaf = next_on_ray(&b->walk, R(1.0)); leaf != 0u; leaf = next_on_ray(&b->walk, R(1.0))) {
+    uint body = scene->leaf_body[leaf - b->walk.leaves];
+    if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) continue;
+    *fraction = way_into_node(&b->walk, leaf, R(1.0));
+    if (*fraction < ENDLESS) return body;
+  }
+  return INDEX_NONE;
+}
+
+SHARED void count_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+                                GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
+                                GLOBAL const row *query_extent, GLOBAL uint *query_found, uint i)
+{
+  box_scene scene = {traits, counts, leaf_body, query_body, query_filter, hierarchy, query_start, query_way, query_extent};
+  box_walk b = start_box_walk(&scene, i);
+  real fraction;
+  uint found = 0u;
+  while (next_body_in_box(&scene, &b, &fraction) != INDEX_NONE) ++found;
+  query_found[i] = found;
+}
+
+SHARED void write_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+                                GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
+                                GLOBAL const row *query_extent, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint i)
+{
+  box_scene scene = {traits, counts, leaf_body, query_body, query_filter, hierarchy, query_start, query_way, query_extent};
+  box_walk b = start_box_walk(&scene, i);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  real fraction;
+  uint at = query_found[i];
+  for (uint body = next_body_in_box(&scene, &b, &fraction); body != INDEX_NONE; body = next_body_in_box(&scene, &b, &fraction)) {
+    store_row(query_hit, at, extend(none, fraction));
+    query_hit_body[at++] = query_body[4u * body];
+  }
+}
+
+#endif

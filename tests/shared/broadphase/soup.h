@@ -1,0 +1,156 @@
+/* soup.h - boxes without bodies, and the broadphases run on them alone: no shapes, no solver, any coordinates. */
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/broadphases/broadphase.h"
+#include "host/layout.h"
+#include "host/parameters.h"
+#include "host/random.h"
+#include "host/scene_counts.h"
+#include "shared/body_codes.h"
+#include "shared/features.h"
+#include "shared/platform.h"
+#include "tests/catch.h"
+
+namespace tandem {
+
+/* As the body buffers hold them: half-spaces first, then those called large. */
+struct Soup {
+  std::vector<row> bounds; /* 2 a body */
+  std::vector<uint32_t> traits, filters;
+  uint32_t boundless = 0, large = 0;
+  float hybrid_cell = 1;
+
+  uint32_t size() const { return static_cast<uint32_t>(traits.size()); }
+  void add(const Vec3 &low, const Vec3 &high, uint32_t motion = MOTION_DYNAMIC, uint32_t group = 1, uint32_t mask = 0xffffffffu)
+  {
+    bounds.push_back({low[0], low[1], low[2], 0});
+    bounds.push_back({high[0], high[1], high[2], 0});
+    traits.push_back(SHAPE_BOX | motion << 3);
+    filters.insert(filters.end(), {group, mask});
+  }
+  void add_half_space()
+  {
+    add({-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}, MOTION_FIXED);
+    traits.back() = SHAPE_HALF_SPACE | MOTION_FIXED << 3;
+    large = ++boundless;
+  }
+};
+
+using BodyPairs = std::vector<std::pair<uint32_t, uint32_t>>; /* (a, b), a > b, sorted */
+
+/* The oracle: sorted along x and swept on the host, with the rules written out once more. */
+inline BodyPairs expected_pairs(const Soup &soup)
+{
+  const auto low = [&](uint32_t i) -> const row & { return soup.bounds[2 * i]; };
+  const auto high = [&](uint32_t i) -> const row & { return soup.bounds[2 * i + 1]; };
+  const auto moves = [&](uint32_t i) { return (soup.traits[i] >> 3 & 3u) == MOTION_DYNAMIC; };
+  const auto accepts = [&](uint32_t i, uint32_t j) { return (soup.filters[2 * i] & soup.filters[2 * j + 1]) != 0; };
+  std::vector<uint32_t> order(soup.size());
+  for (uint32_t i = 0; i < soup.size(); ++i) order[i] = i;
+  std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return low(i).x < low(j).x; });
+  BodyPairs pairs;
+  for (size_t p = 0; p < order.size(); ++p)
+    for (size_t q = p + 1; q < order.size() && low(order[q]).x <= high(order[p]).x; ++q) {
+      const uint32_t i = order[p], j = order[q];
+      const bool apart = low(i).y > high(j).y || low(j).y > high(i).y || low(i).z > high(j).z || low(j).z > high(i).z;
+      if (!apart && (moves(i) || moves(j)) && accepts(i, j) && accepts(j, i)) pairs.emplace_back(std::max(i, j), std::min(i, j));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/* One backend with the buffers of a broadphase. Room for pairs grows as World's does: by what was needed. */
+class SoupRunner {
+public:
+  explicit SoupRunner(std::unique_ptr<Backend> backend) : backend_(std::move(backend)), launcher_(memory_, *backend_)
+  {
+    std::vector<Kernel> kernels;
+    for (size_t k = 0; k < kernel_count; ++k)
+      if (const Stage stage = row_of(kernel_at(k)).stage; stage == Stage::parallel || stage == Stage::broadphase) kernels.push_back(kernel_at(k));
+    backend_->prepare(FEATURE_FILTER, kernels);
+  }
+  ~SoupRunner() { backend_->finish(); }
+
+  const std::string &name() const { return backend_->name(); }
+
+  void take(const Soup &soup)
+  {
+    plan_.bodies = soup.size();
+    plan_.capacity_cells = cells_for(soup.size());
+    plan_.features = FEATURE_FILTER;
+    counts_.fill(0);
+    for (const auto &[entry, value] : entries_of({soup.size(), soup.boundless, soup.large})) counts_[entry] = value;
+    counts_[CAPACITY_CELLS] = plan_.capacity_cells;
+    reserve(1000);
+    Parameters parameters{};
+    parameters.hybrid_cell = soup.hybrid_cell;
+    parameters.features = FEATURE_FILTER;
+    memory_.upload(Buffer::parameters, &parameters, sizeof parameters);
+    memory_.upload(Buffer::bounds, soup.bounds.data(), soup.bounds.size() * sizeof(row));
+    memory_.upload(Buffer::body_traits, soup.traits.data(), soup.traits.size() * sizeof(uint32_t));
+    memory_.upload(Buffer::body_filter, soup.filters.data(), soup.filters.size() * sizeof(uint32_t));
+  }
+
+  BodyPairs find(const Broadphase &broadphase)
+  {
+    for (;;) {
+      broadphase.launch(step_);
+      const auto after = memory_.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
+      if (after[COUNT_PAIRS_NEEDED] > plan_.capacity_pairs) {
+        CHECK(after[COUNT_PAIRS] == plan_.capacity_pairs);
+        reserve(after[COUNT_PAIRS_NEEDED]);
+        continue;
+      }
+      check_starts(after[COUNT_PAIRS]);
+      return pairs(after[COUNT_PAIRS]);
+    }
+  }
+
+private:
+  void reserve(uint32_t pairs)
+  {
+    plan_.capacity_pairs = counts_[CAPACITY_PAIRS] = pairs;
+    const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = pairs, .cells = plan_.capacity_cells, .features = FEATURE_FILTER};
+    for (size_t b = 0; b < buffer_count; ++b) {
+      const bool wanted = buffer_at(b) <= Buffer::pair_key_other;
+      if (wanted) memory_.resize(buffer_at(b), bytes_of(buffer_at(b), sizes), buffer_at(b) < Buffer::bounds_sums);
+    }
+    memory_.resize(Buffer::counts, sizeof counts_);
+    memory_.upload(Buffer::counts, counts_.data(), sizeof counts_);
+    plan_.known = counts_;
+    plan_.known[COUNT_PAIRS] = pairs;
+    plan_.known[COUNT_CELLS_PLUS_ONE] = plan_.capacity_cells + 1;
+  }
+
+  BodyPairs pairs(uint32_t count)
+  {
+    const auto a = memory_.read<uint32_t>(Buffer::pair_a, count), b = memory_.read<uint32_t>(Buffer::pair_b, count);
+    BodyPairs found;
+    for (uint32_t k = 0; k < count; ++k) found.emplace_back(a[k], b[k]);
+    return found;
+  }
+
+  void check_starts(uint32_t count)
+  {
+    const auto starts = memory_.read<uint32_t>(Buffer::pair_start, plan_.bodies + 1), owners = memory_.read<uint32_t>(Buffer::pair_a, count);
+    bool right = starts.back() == count;
+    for (uint32_t body = 0; body < plan_.bodies; ++body)
+      for (uint32_t k = starts[body]; k < starts[body + 1] && k < count; ++k) right = right && owners[k] == body;
+    CHECK(right);
+  }
+
+  std::unique_ptr<Backend> backend_;
+  Memory memory_;
+  DirectLauncher launcher_;
+  StepPlan plan_;
+  Settings settings_;
+  StepLaunches step_{launcher_, plan_, settings_};
+  std::array<uint32_t, COUNT_TOTAL> counts_{};
+};
+
+} // namespace tandem

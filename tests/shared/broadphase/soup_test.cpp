@@ -1,0 +1,204 @@
+/* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over six decades, in one
+ * place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for pairs. */
+#include "tests/shared/broadphase/soup.h"
+
+#include <cmath>
+
+#include "tests/host/opencl_device.h"
+#include "host/opencl/device_backend.h"
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+
+namespace {
+
+using MakeSoup = Soup (*)(uint32_t n, Random &random);
+
+Vec3 uniform3(Random &random, double low, double high)
+{
+  return {float(random.uniform(low, high)), float(random.uniform(low, high)), float(random.uniform(low, high))};
+}
+
+void add_around(Soup &soup, const Vec3 &center, const Vec3 &half, Random &random)
+{
+  const uint32_t motion = random.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, mask = random.below(8) == 0 ? 2u : 0xffffffffu;
+  soup.add({center[0] - half[0], center[1] - half[1], center[2] - half[2]}, {center[0] + half[0], center[1] + half[1], center[2] + half[2]}, motion,
+           1u << random.below(3), mask);
+}
+
+/* About four neighbours each. */
+Soup of_one_size(uint32_t n, Random &random)
+{
+  Soup soup;
+  const double side = std::cbrt(2.0 * n);
+  soup.add_half_space();
+  for (uint32_t i = 0; i < n; ++i) add_around(soup, uniform3(random, 0, side), uniform3(random, 0.3, 0.5), random);
+  return soup;
+}
+
+/* Halves from a millimetre to a kilometre: few are large. The largest come first, some of them as `large`. */
+Soup of_all_sizes(uint32_t n, Random &random)
+{
+  Soup soup;
+  std::vector<double> sizes;
+  for (uint32_t i = 0; i < n; ++i) sizes.push_back(1e-3 * std::pow(1e6, std::pow(random.uniform(), 4)));
+  std::sort(sizes.begin(), sizes.begin() + n / 4, std::greater<>());
+  const double side = 8 * std::cbrt(double(n));
+  for (const double size : sizes) add_around(soup, uniform3(random, -side, side), uniform3(random, 0.3 * size, size), random);
+  soup.large = std::min(n, 20u);
+  soup.hybrid_cell = 0.05f;
+  return soup;
+}
+
+Soup in_one_place(uint32_t n, Random &random)
+{
+  Soup soup;
+  for (uint32_t i = 0; i < std::min(n, 600u); ++i) add_around(soup, {3, -7, 11}, {0.5f, 0.5f, 0.5f}, random);
+  return soup;
+}
+
+/* Neighbours touch exactly. */
+Soup in_a_row(uint32_t n, Random &random)
+{
+  Soup soup;
+  for (uint32_t i = 0; i < n; ++i) add_around(soup, {float(i), 0, 0}, {0.5f, 0.5f, 0.5f}, random);
+  return soup;
+}
+
+/* Flat boxes, edges and points, many of them on one another's sides. */
+Soup without_thickness(uint32_t n, Random &random)
+{
+  Soup soup;
+  const double side = std::sqrt(double(n));
+  for (uint32_t i = 0; i < n; ++i) {
+    Vec3 center{float(random.below(uint32_t(side) + 1)), 0, float(random.below(uint32_t(side) + 1))};
+    Vec3 half{0.5f, 0, 0.5f};
+    if (i % 3 == 1) half[0] = 0;
+    if (i % 3 == 2) half = {0, 0, 0};
+    add_around(soup, center, half, random);
+  }
+  return soup;
+}
+
+/* A thousand kilometres away, and a few at home; along a diagonal, so that no axis tells them apart as well as it does. */
+Soup far_away(uint32_t n, Random &random)
+{
+  Soup soup;
+  for (uint32_t i = 0; i < n; ++i) {
+    const float along = float(1e6 - random.uniform(0, double(n)));
+    add_around(soup, i % 50 == 0 ? uniform3(random, -1, 1) : Vec3{along, -along, along}, uniform3(random, 0, 3), random);
+  }
+  return soup;
+}
+
+/* Bounds that fast bodies sweep: long and thin, each along one axis. */
+Soup of_fast_bodies(uint32_t n, Random &random)
+{
+  Soup soup;
+  const double side = 3 * std::cbrt(double(n));
+  for (uint32_t i = 0; i < n; ++i) {
+    Vec3 half = uniform3(random, 0.1, 0.3);
+    half[random.below(3)] = float(random.uniform(0, side / 3));
+    add_around(soup, uniform3(random, 0, side), half, random);
+  }
+  return soup;
+}
+
+struct Kind {
+  const char *name;
+  MakeSoup make;
+};
+constexpr Kind kinds[] = {{"one size", of_one_size},  {"all sizes", of_all_sizes},    {"one place", in_one_place},   {"a row", in_a_row},
+                          {"flat", without_thickness}, {"far away", far_away}, {"fast", of_fast_bodies}};
+
+void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected)
+{
+  runner.take(soup);
+  for (const Broadphase &broadphase : broadphases()) {
+    CAPTURE(broadphase.name, runner.name());
+    const BodyPairs found = runner.find(broadphase);
+    CHECK(found.size() == expected.size());
+    CHECK(found == expected);
+  }
+}
+
+} // namespace
+
+TEST_CASE("broadphases find the pairs of the oracle in any soup")
+{
+  std::vector<std::unique_ptr<SoupRunner>> runners;
+  for (const char *name : {"serial", "serial:order=backward", "tbb:threads=7"}) runners.push_back(std::make_unique<SoupRunner>(make_backend(name)));
+  Random random(77);
+  for (const Kind &kind : kinds)
+    for (const uint32_t n : {0u, 1u, 2u, 3u, 127u, 128u, 129u, 1000u, 1024u, 1025u, 4000u}) {
+      const Soup soup = kind.make(n, random);
+      if (soup.size() == 0) continue; /* no scene has no body */
+      const BodyPairs expected = expected_pairs(soup);
+      CAPTURE(kind.name, n, expected.size());
+      if (n >= 1000) REQUIRE(!expected.empty());
+      for (const auto &runner : runners) check_all(*runner, soup, expected);
+    }
+}
+
+TEST_CASE("broadphases find the pairs of fifty thousand boxes")
+{
+  SoupRunner runner(make_backend("tbb"));
+  Random random(78);
+  for (const Kind &kind : kinds) {
+    const Soup soup = kind.make(50000, random);
+    const BodyPairs expected = expected_pairs(soup);
+    CAPTURE(kind.name, expected.size());
+    check_all(runner, soup, expected);
+  }
+}
+
+TEST_CASE("broadphases on OpenCL find the pairs of the oracle in any soup")
+{
+  if (!parity::has_pocl()) return;
+  SoupRunner runner(make_backend("cl:pocl"));
+  Random random(79);
+  for (const Kind &kind : kinds)
+    for (const uint32_t n : {1u, 129u, 2000u, 10000u}) {
+      const Soup soup = kind.make(n, random);
+      const BodyPairs expected = expected_pairs(soup);
+      CAPTURE(kind.name, n, expected.size());
+      check_all(runner, soup, expected);
+    }
+}
+
+TEST_CASE("a body that is not finite has no pairs, and spoils no others")
+{
+  Random random(80);
+  Soup soup = of_one_size(500, random);
+  const BodyPairs before = expected_pairs(soup);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (row &bound : std::span(soup.bounds).subspan(2 * 100, 2)) bound = {nan, nan, nan, 0};
+  BodyPairs expected;
+  for (const auto &pair : before)
+    if (pair.first != 100 && pair.second != 100) expected.push_back(pair);
+  SoupRunner runner(make_backend("serial"));
+  runner.take(soup);
+  for (const char *name : {"brute-force", "bvh", "bvh-stack", "bvh-history"}) {
+    CAPTURE(name);
+    CHECK(runner.find(broadphase_named(name)) == expected);
+  }
+}
+
+TEST_CASE("ten million pairs in one place grow the list, and all are there")
+{
+  Soup soup;
+  Random random(81);
+  for (uint32_t i = 0; i < 4600; ++i) soup.add({0, 0, 0}, {float(random.uniform(0.5, 1)), 1, 1});
+  SoupRunner runner(make_backend("tbb"));
+  runner.take(soup);
+  for (const char *name : {"grid", "sap", "bvh"}) {
+    CAPTURE(name);
+    const BodyPairs found = runner.find(broadphase_named(name));
+    REQUIRE(found.size() == 4600u * 4599u / 2);
+    size_t k = 0;
+    bool right = true;
+    for (uint32_t a = 1; a < 4600; ++a)
+      for (uint32_t b = 0; b < a; ++b, ++k) right = right && found[k] == std::pair(a, b);
+    CHECK(right);
+  }
+}
