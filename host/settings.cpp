@@ -57,6 +57,7 @@ std::string stage_list()
 } // namespace
 
 std::vector<std::string> broadphase_names() { return {"grid", "brute-force", "sap"}; }
+std::vector<std::string> midphase_names() { return {"walk", "subtrees"}; }
 std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split", "cube-map"}; }
 /* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
 std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
@@ -88,6 +89,7 @@ void validate(const Settings &settings)
     throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, settings.substeps));
   check_name("solver", settings.solver, solver_names());
   check_name("broadphase", settings.broadphase, broadphase_names());
+  check_name("midphase", settings.midphase, midphase_names());
   check_name("narrowphase", settings.narrowphase, narrowphase_names());
   check_name("support", settings.support, support_names());
   if (settings.support_cells < 1 || settings.support_cells > most_cells)

@@ -14,6 +14,7 @@ struct Settings {
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* brute-force, sap, grid */
+  std::string midphase = "walk";        /* how the trees of meshes and compounds are walked; the same list either way */
   std::string narrowphase = "sat";      /* of shapes without a test of their own */
   std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
   uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */
@@ -33,6 +34,7 @@ struct Settings {
 /* The accepted names, default first; --help and error messages list them. */
 std::vector<std::string> solver_names();
 std::vector<std::string> broadphase_names();
+std::vector<std::string> midphase_names();
 std::vector<std::string> narrowphase_names();
 std::vector<std::string> support_names();
 /* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */

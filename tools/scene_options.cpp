@@ -47,6 +47,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   step_ = "1/60";
   solver_ = defaults.solver;
   broadphase_ = defaults.broadphase;
+  midphase_ = defaults.midphase;
   narrowphase_ = defaults.narrowphase;
   support_ = defaults.support;
   support_cells_ = fmt::format("{}", defaults.support_cells);
@@ -63,6 +64,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
   option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
+  option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
   option("--support", support_, one_of("support of hulls", support_names()), "NAME");
   option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
@@ -85,6 +87,7 @@ Settings SceneOptions::settings() const
   if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
   if (!iterations_.empty()) settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = broadphase_;
+  settings.midphase = midphase_;
   settings.narrowphase = narrowphase_;
   settings.support = support_;
   settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
@@ -126,6 +129,7 @@ std::string SceneOptions::typed_again() const
   add("--iterations", iterations_, "");
   add("--solver", solver_, defaults.solver);
   add("--broadphase", broadphase_, defaults.broadphase);
+  add("--midphase", midphase_, defaults.midphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);
   add("--support", support_, defaults.support);
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));

@@ -51,6 +51,33 @@ TEST_CASE("parity on OpenCL: every narrowphase")
   }
 }
 
+TEST_CASE("parity on OpenCL: trees by subtrees")
+{
+  if (!has_pocl()) return;
+  Settings settings = all_features();
+  settings.midphase = "subtrees";
+  for (const std::string &scene : {std::string("compounds:n=40"), std::string("hulls-on-mesh:n=40"), few_trees()})
+    require_parity(scene, {"serial", "cl:pocl"}, 20, settings);
+}
+
+/* Groups smaller and larger than the pairs, subtrees and nodes of a phase. The contacts, which take long to build, stay on the CPU. */
+TEST_CASE("parity on OpenCL: trees by subtrees, every size of work-groups")
+{
+  if (!has_pocl()) return;
+  for (const char *size : {"1", "7", "32", "256"}) {
+    const Environment local_size("TANDEM_LOCAL_SIZE", size);
+    CAPTURE(size);
+    ComparisonRequest request;
+    request.settings.midphase = "subtrees";
+    request.backends = {"serial", "cl:pocl"};
+    request.placement.exceptions = {{"narrowphase", "serial"}};
+    request.steps = 3;
+    const Comparison comparison = compare_backends(load_scene("hulls-on-mesh:n=200"), request);
+    if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
+    CHECK(comparison.steps == 3);
+  }
+}
+
 /* More bodies than a tile has items, so that groups of every size stride over several tiles. */
 TEST_CASE("parity on OpenCL: every size of work-groups")
 {
