@@ -9,8 +9,9 @@
  * without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so that merge.h can join
  * their manifolds; a pair of bodies without any drops out.
  *
- * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in tandem, always the larger box of the two that are
- * not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005, section 6.3.2).
+ * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in tandem,
+ * always the larger box of the two that are not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005,
+ * section 6.3.2).
  */
 #ifndef TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H

@@ -15,8 +15,9 @@
  *     load    boxes of the window's subtrees         test    each pair: which of these boxes does it hit?
  *     copy    nodes of those that some pair hits     walk    each pair: those it hits, by skips, without a stack
  *
- * A subtree beyond the reach of the group, the box around all that its pairs ask of the tree, is dropped as it is loaded. Rounds run over all windows of the first tree that a pair of the group asks, then of the next: one loop, since PoCL 3.1 cannot
- * nest them around phases. Pairs of two trees, and of none, are found by leaf_pairs.h within one phase before.
+ * A subtree beyond the reach of the group, the box around all that its pairs ask of the tree, is dropped as it is loaded. Rounds run
+ * over all windows of the first tree that a pair of the group asks, then of the next: one loop, since PoCL 3.1 cannot nest them
+ * around phases. Pairs of two trees, and of none, are found by leaf_pairs.h within one phase before.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
@@ -163,6 +164,13 @@ SHARED box_bounds reach_of_tree(LOCAL const uint *memory, uint k)
 
 /* --- the phases of a round ----------------------------------------------------------------------------------- */
 
+SHARED void begin_window(LOCAL uint *memory, uint round, uint number)
+{
+  memory[TREE_AT] = number;
+  memory[ANY_HIT_AT] = 0u;
+  memory[IN_REACH_AT + ((round + 1u) & 1u)] = 0u; /* of the next round: this one's is added to in this phase */
+}
+
 /* One subtree of the window of this round, for the pair that asked first for its tree. */
 SHARED void load_subtree(const pair_group *group, LOCAL uint *memory, uint round, uint slot)
 {
@@ -172,11 +180,7 @@ SHARED void load_subtree(const pair_group *group, LOCAL uint *memory, uint round
   GLOBAL const uint *header = group->scene.trees.headers + number * TREE_HEADER;
   memory[WANTED_AT + slot] = 0u;
   memory[SIZE_AT + slot] = 0u;
-  if (slot == 0u) {
-    memory[TREE_AT] = number;
-    memory[ANY_HIT_AT] = 0u;
-    memory[IN_REACH_AT + ((round + 1u) & 1u)] = 0u;
-  }
+  if (slot == 0u) begin_window(memory, round, number);
   if (place >= header[5]) return;
   tree t = load_tree(group->scene.trees, number);
   GLOBAL const uint *subtree = group->subtrees + (header[4] + place) * 4u;
