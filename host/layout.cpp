@@ -27,6 +27,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::TREES: return sizes.trees.trees;
   case Capacity::TREE_NODES: return sizes.trees.nodes;
   case Capacity::TREE_LEAVES: return sizes.trees.leaves;
+  case Capacity::TREE_SUBTREES: return sizes.trees.subtrees;
   case Capacity::MESH_VERTICES: return sizes.trees.vertices;
   case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
   case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;

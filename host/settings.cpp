@@ -58,6 +58,7 @@ std::string stage_list()
 } // namespace
 
 std::vector<std::string> bounds_names() { return {"affine", "tight"}; }
+std::vector<std::string> midphase_names() { return {"walk", "subtrees"}; }
 std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split", "cube-map"}; }
 /* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
 std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
@@ -96,6 +97,7 @@ void validate(const Settings &settings)
   check_name("solver", settings.solver, solver_names());
   check_name("broadphase", settings.broadphase, broadphase_names());
   check_name("bounds", settings.bounds, bounds_names());
+  check_name("midphase", settings.midphase, midphase_names());
   check_name("narrowphase", settings.narrowphase, narrowphase_names());
   check_name("support", settings.support, support_names());
   if (settings.support_cells < 1 || settings.support_cells > most_cells)

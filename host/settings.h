@@ -15,6 +15,7 @@ struct Settings {
   std::string solver = "soft-step";
   std::string broadphase = "grid";      /* which of host/broadphases/; changes no bit */
   std::string bounds = "affine";        /* tight: from the support map; other pairs, so other bits */
+  std::string midphase = "walk";        /* how the trees of meshes and compounds are walked; the same list either way */
   std::string narrowphase = "sat";      /* of shapes without a test of their own */
   std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
   uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */
@@ -36,6 +37,7 @@ struct Settings {
 std::vector<std::string> solver_names();
 std::vector<std::string> broadphase_names();
 std::vector<std::string> bounds_names();
+std::vector<std::string> midphase_names();
 std::vector<std::string> narrowphase_names();
 std::vector<std::string> support_names();
 /* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */

@@ -13,6 +13,7 @@
 #include "host/solvers/solvers.h"
 #include "host/step_launches.h"
 #include "shared/body_codes.h"
+#include "shared/midphase/pair_groups.h"
 
 namespace tandem {
 namespace {
@@ -48,13 +49,23 @@ private:
 
   void find_leaf_pairs()
   {
-    run(Kernel::count_leaf_pairs);
+    const bool by_subtree = settings().midphase == "subtrees";
+    if (by_subtree) run(Kernel::group_body_pairs);
+    if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree);
+    else run(Kernel::count_leaf_pairs);
     exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS, plan().capacity_pairs);
     run(Kernel::count_all_leaf_pairs);
-    run(Kernel::write_leaf_pairs);
+    if (by_subtree) run_pair_groups(Kernel::write_leaf_pairs_by_subtree);
+    else run(Kernel::write_leaf_pairs);
     run(Kernel::start_leaf_pairs);
     run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_a, Buffer::pair_a});
     run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_b, Buffer::pair_b});
+  }
+
+  /* Groups for as many pairs as there is room for: a device launches no more than it is told. */
+  void run_pair_groups(Kernel kernel)
+  {
+    launcher().launch({kernel, {}, {}, COUNT_ZERO, COUNT_PAIR_GROUP_ITEMS, pair_group_items(plan().capacity_pairs)});
   }
 
   void merge_contacts()

@@ -10,9 +10,12 @@
 #include "host/geometry/shape_mass.h"
 #include "host/shape_bounds.h"
 #include "shared/counts.h"
+#include "shared/midphase/tree.h"
 
 namespace tandem {
 namespace {
+
+static_assert(SUBTREE_NODES == most_subtree_nodes);
 
 uint32_t count_of(size_t n) { return static_cast<uint32_t>(n); }
 
@@ -44,7 +47,8 @@ public:
     tables_.sizes.triangles = count_of(tables_.triangles.size() / 6);
     tables_.sizes.nodes = count_of(tables_.nodes.size() / 4);
     tables_.sizes.leaves = count_of(tables_.leaves.size() / 2);
-    tables_.sizes.trees = count_of(tables_.headers.size() / 4);
+    tables_.sizes.subtrees = count_of(tables_.subtrees.size() / 4);
+    tables_.sizes.trees = count_of(tables_.headers.size() / TREE_HEADER);
     return std::move(tables_);
   }
 
@@ -100,18 +104,19 @@ private:
     for (const Leaf &leaf : leaves) boxes.push_back(leaf.box);
     const Bvh bvh = build_bvh(boxes, where);
     const auto &[origin, step] = bvh.quantisation;
-    for (uint32_t word : {count_of(tables_.nodes.size() / 4), count_of(bvh.nodes.size()), count_of(tables_.leaves.size() / 2), count_of(leaves.size())})
-      tables_.headers.push_back(word);
+    for (size_t word : {tables_.nodes.size() / 4, bvh.nodes.size(), tables_.leaves.size() / 2, leaves.size(), tables_.subtrees.size() / 4, bvh.subtrees.size()})
+      tables_.headers.push_back(count_of(word));
     tables_.frames.insert(tables_.frames.end(), {row{origin[0], origin[1], origin[2], 0}, row{step[0], step[1], step[2], 0}});
-    for (const BvhNode &node : bvh.nodes) add_node(node);
+    for (const BvhNode &node : bvh.nodes) add_box(tables_.nodes, node.bounds, static_cast<uint32_t>(node.value));
+    for (const BvhSubtree &subtree : bvh.subtrees) add_box(tables_.subtrees, subtree.bounds, subtree.root);
     for (const Leaf &leaf : leaves) tables_.leaves.insert(tables_.leaves.end(), {leaf.child, leaf.triangle});
   }
 
-  void add_node(const BvhNode &node)
+  static void add_box(std::vector<uint32_t> &words, const QuantisedBounds &bounds, uint32_t last)
   {
     const auto pair = [](uint16_t low, uint16_t high) { return uint32_t{low} | uint32_t{high} << 16; };
-    const auto &[lower, upper] = node.bounds;
-    tables_.nodes.insert(tables_.nodes.end(), {pair(lower[0], lower[1]), pair(lower[2], upper[0]), pair(upper[1], upper[2]), static_cast<uint32_t>(node.value)});
+    const auto &[lower, upper] = bounds;
+    words.insert(words.end(), {pair(lower[0], lower[1]), pair(lower[2], upper[0]), pair(upper[1], upper[2]), last});
   }
 
   const Scene &scene_;
@@ -140,6 +145,7 @@ void upload_trees(Memory &memory, const Scene &scene, const TreeTables &tables, 
   upload_all(memory, Buffer::tree_frame, tables.frames);
   upload_all(memory, Buffer::tree_node, tables.nodes);
   upload_all(memory, Buffer::tree_leaf, tables.leaves);
+  upload_all(memory, Buffer::tree_subtree, tables.subtrees);
   upload_all(memory, Buffer::mesh_vertex, tables.vertices);
   upload_all(memory, Buffer::mesh_triangle, tables.triangles);
 }

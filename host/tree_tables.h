@@ -16,14 +16,14 @@
 namespace tandem {
 
 struct TreeSizes {
-  uint32_t trees = 0, nodes = 0, leaves = 0, vertices = 0, triangles = 0;
+  uint32_t trees = 0, nodes = 0, leaves = 0, subtrees = 0, vertices = 0, triangles = 0;
   uint32_t children = 0; /* of all bodies */
 };
 
 struct TreeTables {
   TreeSizes sizes;
   std::vector<uint32_t> tree_of_shape; /* of Scene::shapes; INDEX_NONE for convex ones */
-  std::vector<uint32_t> headers, nodes, leaves, triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, mesh_triangle */
+  std::vector<uint32_t> headers, nodes, leaves, subtrees, triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, .. */
   std::vector<row> frames, vertices;
 };
 

@@ -149,7 +149,7 @@ struct World::Implementation {
     upload_shapes(memory, scene, special.order);
     upload_hulls(memory, scene, cube_map_cells(settings));
     upload_trees(memory, scene, trees, special.order);
-    trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
+    trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
     upload_materials(memory, scene);
     upload_parameters();
     std::vector<uint32_t> counts(COUNT_TOTAL);

@@ -27,6 +27,7 @@ enum {
   COUNT_PAIRS,         /* pairs kept: min(needed, capacity) */
   COUNT_PAIRS_NEEDED,  /* pairs found */
   COUNT_BODY_PAIRS,    /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */
+  COUNT_PAIR_GROUP_ITEMS, /* TILE times the groups of pairs of bodies: midphase/subtree_pairs.h */
   CAPACITY_PAIRS,      /* pairs there is room for; also the stride of manifold and constraint rows */
   COUNT_CACHED_PAIRS,  /* pairs of the last committed step */
   COUNT_CONSTRAINTS,   /* touching pairs, in colour order */

@@ -4,6 +4,7 @@
 
 #include "shared/lanes_kernels.h"
 #include "shared/midphase/leaf_pairs.h"
+#include "shared/midphase/subtree_pairs.h"
 #include "shared/midphase/grazing.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/narrowphase/limit_motion.h"

@@ -48,6 +48,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   solver_ = defaults.solver;
   broadphase_ = defaults.broadphase;
   bounds_ = defaults.bounds;
+  midphase_ = defaults.midphase;
   narrowphase_ = defaults.narrowphase;
   support_ = defaults.support;
   support_cells_ = fmt::format("{}", defaults.support_cells);
@@ -65,6 +66,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
   option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
   option("--bounds", bounds_, one_of("bounds", bounds_names()), "NAME");
+  option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
   option("--support", support_, one_of("support of hulls", support_names()), "NAME");
   option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
@@ -88,6 +90,7 @@ Settings SceneOptions::settings() const
   if (!iterations_.empty()) settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = broadphase_;
   settings.bounds = bounds_;
+  settings.midphase = midphase_;
   settings.narrowphase = narrowphase_;
   settings.support = support_;
   settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
@@ -130,6 +133,7 @@ std::string SceneOptions::typed_again() const
   add("--solver", solver_, defaults.solver);
   add("--broadphase", broadphase_, defaults.broadphase);
   add("--bounds", bounds_, defaults.bounds);
+  add("--midphase", midphase_, defaults.midphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);
   add("--support", support_, defaults.support);
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));

@@ -8,7 +8,7 @@
  *       /   \           skip:   7   3   .   .   3   .   .            if box i overlaps: leaf ? report : nothing; ++i
  *      1     4          leaf:           a   b       c   d            else: i += leaf ? 1 : skip
  *     / \   / \
- *    2   3 5   6        Subtrees of at most 128 nodes fill 2 KiB of local memory each; their headers are walked first.
+ *    2   3 5   6        Subtrees of at most 128 nodes fill 2 KiB of local memory each: shared/midphase/subtree_pairs.h.
  *
  * Built top down by the surface area heuristic over bins (Wald: On fast construction of SAH-based bounding volume hierarchies,
  * 2007); by halves where that does not pay, or would grow too deep.

@@ -9,8 +9,9 @@
  * without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so that merge.h can join
  * their manifolds; a pair of bodies without any drops out.
  *
- * One leaf against a tree walks it without a stack. Two trees descend in tandem, always the larger box of the two that are
- * not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005, section 6.3.2).
+ * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in tandem,
+ * always the larger box of the two that are not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005,
+ * section 6.3.2).
  */
 #ifndef TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
@@ -126,10 +127,10 @@ SHARED leaf single_leaf(uint body)
   leaf part = {body, INDEX_NONE};
   return part;
 }
-SHARED leaf leaf_of_tree(const midphase_scene *scene, const tree_body *owner, const tree *t, uint number)
+SHARED leaf leaf_of_tree(const midphase_scene *scene, uint body, uint first_child, const tree *t, uint number)
 {
   GLOBAL const uint *entry = scene->trees.leaves + (t->first_leaf + number) * 2u;
-  leaf part = {entry[0] == INDEX_NONE ? owner->body : owner->first_child + entry[0], entry[1]};
+  leaf part = {entry[0] == INDEX_NONE ? body : first_child + entry[0], entry[1]};
   return part;
 }
 
@@ -147,18 +148,46 @@ SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint bod
   list->pair_leaf[place * 4u + 3u] = b.triangle;
 }
 
-/* tree_first: the tree is that of the pair's first body. */
-SHARED void walk_tree(leaf_list *list, const midphase_scene *scene, const tree_body *owner, uint single, const tree_probe *probe, mask tree_first)
+/* A pair of a body with a tree and one without. tree_first: the tree is that of the pair's first body. */
+typedef struct {
+  uint owner, first_child, tree_number, single;
+  mask tree_first;
+} tree_pair;
+
+SHARED mask has_tree(const midphase_scene *scene, uint body) { return scene->body_trees[body * 2u] != INDEX_NONE; }
+SHARED mask one_has_tree(const midphase_scene *scene, uint a, uint b) { return has_tree(scene, a) != has_tree(scene, b); }
+
+SHARED tree_pair load_tree_pair(const midphase_scene *scene, uint a, uint b)
 {
-  tree t = load_tree(scene->trees, owner->tree_number);
+  mask first = has_tree(scene, a);
+  uint owner = first ? a : b;
+  tree_pair pair = {owner, scene->body_trees[owner * 2u + 1u], scene->body_trees[owner * 2u], first ? b : a, first};
+  return pair;
+}
+
+SHARED tree_probe probe_of_pair(const midphase_scene *scene, uint a, uint b, const tree_pair *pair)
+{
+  vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  tree_body owner = load_tree_body(scene, pair->owner, none);
+  return probe_for_single(scene, &owner, pair->single, pair->tree_first ? offset : negate(offset), midphase_margin(scene, a, b, offset));
+}
+
+SHARED void add_leaf_of_tree(leaf_list *list, const midphase_scene *scene, const tree_pair *pair, const tree *t, uint number)
+{
+  leaf part = leaf_of_tree(scene, pair->owner, pair->first_child, t, number), other = single_leaf(pair->single);
+  if (pair->tree_first) add_leaf_pair(list, scene, pair->owner, part, pair->single, other);
+  else add_leaf_pair(list, scene, pair->single, other, pair->owner, part);
+}
+
+SHARED void walk_tree(leaf_list *list, const midphase_scene *scene, uint a, uint b)
+{
+  tree_pair pair = load_tree_pair(scene, a, b);
+  tree_probe probe = probe_of_pair(scene, a, b, &pair);
+  tree t = load_tree(scene->trees, pair.tree_number);
   for (uint node = 0u; node < t.nodes;) {
     uint word = word_of_node(scene->trees, &t, node);
-    mask hit = probe_hits(probe, bounds_of_node(scene->trees, &t, node));
-    if (hit && is_leaf(word)) {
-      leaf part = leaf_of_tree(scene, owner, &t, word), other = single_leaf(single);
-      if (tree_first) add_leaf_pair(list, scene, owner->body, part, single, other);
-      else add_leaf_pair(list, scene, single, other, owner->body, part);
-    }
+    mask hit = probe_hits(&probe, bounds_of_node(scene->trees, &t, node));
+    if (hit && is_leaf(word)) add_leaf_of_tree(list, scene, &pair, &t, word);
     node = node + (hit ? 1u : subtree_size(word));
   }
 }
@@ -186,7 +215,8 @@ SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const t
     if (!bounds_overlap(swept_box(rotation, add(shift, rotate(rotation, middle)), extent, motion, margin), box_b)) continue;
     uint word_a = word_of_node(scene->trees, &tree_a, nodes.a), word_b = word_of_node(scene->trees, &tree_b, nodes.b);
     if (is_leaf(word_a) && is_leaf(word_b)) {
-      add_leaf_pair(list, scene, a->body, leaf_of_tree(scene, a, &tree_a, word_a), b->body, leaf_of_tree(scene, b, &tree_b, word_b));
+      add_leaf_pair(list, scene, a->body, leaf_of_tree(scene, a->body, a->first_child, &tree_a, word_a), b->body,
+                    leaf_of_tree(scene, b->body, b->first_child, &tree_b, word_b));
       continue;
     }
     mask descend_a = is_leaf(word_b) || (!is_leaf(word_a) && size_of_box(box_a) > size_of_box(box_b));
@@ -203,25 +233,22 @@ SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const t
   }
 }
 
-SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a, uint b)
+/* Of two trees, or of none. */
+SHARED void find_without_walk(leaf_list *list, const midphase_scene *scene, uint a, uint b)
 {
-  mask tree_a = scene->body_trees[a * 2u] != INDEX_NONE, tree_b = scene->body_trees[b * 2u] != INDEX_NONE;
-  if (!tree_a && !tree_b) {
+  if (!has_tree(scene, a)) {
     add_leaf_pair(list, scene, a, single_leaf(a), b, single_leaf(b));
     return;
   }
   vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
-  real margin = midphase_margin(scene, a, b, offset);
-  if (tree_a && tree_b) {
-    tree_body first = load_tree_body(scene, a, none), second = load_tree_body(scene, b, offset);
-    walk_two_trees(list, scene, &first, &second, margin);
-    return;
-  }
-  uint owner_body = tree_a ? a : b, single = tree_a ? b : a;
-  vec3 to_single = tree_a ? offset : negate(offset);
-  tree_body owner = load_tree_body(scene, owner_body, none);
-  tree_probe probe = probe_for_single(scene, &owner, single, to_single, margin);
-  walk_tree(list, scene, &owner, single, &probe, tree_a);
+  tree_body first = load_tree_body(scene, a, none), second = load_tree_body(scene, b, offset);
+  walk_two_trees(list, scene, &first, &second, midphase_margin(scene, a, b, offset));
+}
+
+SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a, uint b)
+{
+  if (one_has_tree(scene, a, b)) walk_tree(list, scene, a, b);
+  else find_without_walk(list, scene, a, b);
 }
 
 /* --- kernels ------------------------------------------------------------------------------------------------ */

@@ -17,9 +17,14 @@
 /* Levels of a tree of fewer than 2^30 leaves: depth_bound of host/geometry/bvh.h. */
 #define TREE_DEPTH_LIMIT 68u
 
+/* Words of a tree's header: first node, nodes, first leaf, leaves, first subtree, subtrees. */
+#define TREE_HEADER 6u
+/* Nodes of a subtree that subtree_pairs.h takes into local memory at once, at most: 2 KiB. */
+#define SUBTREE_NODES 128u
+
 /* Of all the scene's trees, one behind the other. */
 typedef struct {
-  GLOBAL const uint *headers; /* 4 a tree: first node, nodes, first leaf, leaves */
+  GLOBAL const uint *headers; /* TREE_HEADER a tree */
   GLOBAL const row *frames;   /* 2 a tree: origin and step of its 16-bit coordinates */
   GLOBAL const uint *nodes;   /* 4 a node */
   GLOBAL const uint *leaves;  /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
@@ -32,7 +37,7 @@ typedef struct {
 
 SHARED tree load_tree(tree_tables tables, uint number)
 {
-  GLOBAL const uint *header = tables.headers + number * 4u;
+  GLOBAL const uint *header = tables.headers + number * TREE_HEADER;
   tree t = {header[0], header[1], header[2], xyz(load_row(tables.frames, number * 2u)), xyz(load_row(tables.frames, number * 2u + 1u))};
   return t;
 }
@@ -41,12 +46,16 @@ SHARED vec3 dequantised(const tree *t, uint x, uint y, uint z)
 {
   return add(t->origin, multiply(make_vec3(to_real(x), to_real(y), to_real(z)), t->step));
 }
+/* The first three words of a node. */
+SHARED box_bounds bounds_of_words(const tree *t, uint first, uint second, uint third)
+{
+  box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu), dequantised(t, second >> 16u, third & 0xffffu, third >> 16u)};
+  return box;
+}
 SHARED box_bounds bounds_of_node(tree_tables tables, const tree *t, uint node)
 {
   GLOBAL const uint *words = tables.nodes + (t->first_node + node) * 4u;
-  uint first = words[0], second = words[1], third = words[2];
-  box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu), dequantised(t, second >> 16u, third & 0xffffu, third >> 16u)};
-  return box;
+  return bounds_of_words(t, words[0], words[1], words[2]);
 }
 
 SHARED uint word_of_node(tree_tables tables, const tree *t, uint node) { return tables.nodes[(t->first_node + node) * 4u + 3u]; }

@@ -15,6 +15,17 @@ TEST_CASE("parity on CPU: convex-hulls") { require_parity(small_scenes()[7], cpu
 TEST_CASE("parity on CPU: compounds") { require_parity("compounds:n=40", cpu_backends(), 60); }
 TEST_CASE("parity on CPU: hulls-on-mesh") { require_parity("hulls-on-mesh:n=40", cpu_backends(), 60); }
 TEST_CASE("parity on CPU: meshes and compounds of every kind") { require_parity(few_trees(), cpu_backends(), 60); }
+/* Another way to the same list: each way on every backend, and one state in the end. */
+TEST_CASE("parity on CPU: trees by subtrees")
+{
+  Settings settings;
+  settings.midphase = "subtrees";
+  for (const std::string &scene : {std::string("compounds:n=40"), std::string("hulls-on-mesh:n=40"), few_trees()}) {
+    require_parity(scene, cpu_backends(), 30, settings);
+    CHECK(state_after(scene, "tbb", 60, settings) == state_after(scene, "serial", 60));
+  }
+}
+
 TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
 
 TEST_CASE("parity on CPU: thin-wall") { require_parity(small_scenes()[10], cpu_backends(), 12); }
@@ -109,6 +120,10 @@ TEST_CASE("parity on CPU: a few bodies of every shape", "[sanitizer]")
   const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
   const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30", every_shape(), few_trees()};
   for (const std::string &scene : scenes) require_parity(scene, backends, 5);
+  Settings settings;
+  settings.midphase = "subtrees";
+  require_parity(few_trees(), backends, 5, settings);
+  require_parity("hulls-on-mesh:n=20", backends, 2, settings);
 }
 
 /* Large enough that every kernel is split over several threads. */

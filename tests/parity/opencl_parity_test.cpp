@@ -62,6 +62,33 @@ TEST_CASE("parity on OpenCL: every narrowphase")
   }
 }
 
+TEST_CASE("parity on OpenCL: trees by subtrees")
+{
+  if (!has_pocl()) return;
+  Settings settings = all_features();
+  settings.midphase = "subtrees";
+  require_parity(few_trees(), {"serial", "cl:pocl"}, 20, settings);
+}
+
+/* Groups smaller and larger than the pairs, subtrees and nodes of a phase. The other stages, which take long to build, stay on the CPU. */
+TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
+{
+  if (!has_pocl()) return;
+  ComparisonRequest request;
+  request.settings.midphase = "subtrees";
+  request.backends = {"serial", "cl:pocl"};
+  request.steps = 3;
+  for (const char *stage : {"parallel", "broadphase", "narrowphase", "batching", "setup", "solve", "integrate"})
+    request.placement.exceptions.emplace_back(stage, "serial");
+  for (const char *size : {"1", "7", "64"}) {
+    const Environment local_size("TANDEM_LOCAL_SIZE", size);
+    CAPTURE(size);
+    const Comparison comparison = compare_backends(load_scene("hulls-on-mesh:n=200"), request);
+    if (comparison.first_difference) FAIL(describe(*comparison.first_difference));
+    CHECK(comparison.steps == 3);
+  }
+}
+
 /* More bodies than a tile has items, so that groups of every size stride over several tiles. */
 TEST_CASE("parity on OpenCL: every size of work-groups")
 {

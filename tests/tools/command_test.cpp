@@ -121,6 +121,7 @@ TEST_CASE("command: names that do not exist", "[command]")
   check_refused("run castle", "castle");
   check_refused("run box-grid:bricks=3", "bricks");
   check_refused("run box-grid:nx=none", "nx");
+  check_refused("run " + tiny + " --midphase forest", "walk, subtrees");
   check_refused("run " + tiny + " --on gpu", "gpu");
   check_refused("run " + tiny + " --on tbb:lanes=3", "lanes");
   check_refused("run " + tiny + " --on cl:nothing-of-this-name", "nothing-of-this-name");
@@ -243,7 +244,7 @@ TEST_CASE("command: help and version", "[command]")
   CHECK(tandem("--version").out.find("tandem ") == 0);
   const Result help = tandem("run --help");
   CHECK(help.status == 0);
-  for (const char *said : {"--on", "--place", "--dt", "warm-up", "soft-step"}) CHECK(help.out.find(said) != std::string::npos);
+  for (const char *said : {"--on", "--place", "--dt", "--midphase", "subtrees", "warm-up", "soft-step"}) CHECK(help.out.find(said) != std::string::npos);
 }
 
 TEST_CASE("command: run writes what its contract says", "[command]")

@@ -127,6 +127,13 @@ Scene heap(uint64_t seed)
   return scene;
 }
 
+Settings settings_with(const std::string &midphase)
+{
+  Settings settings;
+  settings.midphase = midphase;
+  return settings;
+}
+
 using LeafPair = std::array<uint32_t, 6>; /* scene bodies, then child and triangle of either */
 
 } // namespace
@@ -134,8 +141,9 @@ using LeafPair = std::array<uint32_t, 6>; /* scene bodies, then child and triang
 TEST_CASE("no two leaves that meet are missed, none stand twice, and few that are far apart stand in the list")
 {
   const uint64_t seed = GENERATE(1, 2, 3, 4);
+  const std::string midphase = GENERATE(from_range(midphase_names()));
   const Scene scene = heap(seed);
-  World world(scene);
+  World world(scene, settings_with(midphase));
   std::vector<BodyState> before = world.bodies();
   size_t close = 0, listed_in_all = 0;
   for (int step = 0; step < 3; ++step) {
@@ -156,7 +164,7 @@ TEST_CASE("no two leaves that meet are missed, none stand twice, and few that ar
         entry[2 + 2 * side] = shape == body ? INDEX_NONE : shape - trees[2 * body + 1];
         entry[3 + 2 * side] = triangle == INDEX_NONE ? INDEX_NONE : entry[side] == 1 ? triangle - first_mesh : triangle;
       }
-      CAPTURE(seed, step, i);
+      CAPTURE(seed, midphase, step, i);
       REQUIRE(listed.insert(entry).second);
     }
     listed_in_all += listed.size();
@@ -168,7 +176,7 @@ TEST_CASE("no two leaves that meet are missed, none stand twice, and few that ar
           const auto at_p = placed(p.points, before[first]), at_q = placed(q.points, before[second]);
           if (distance_at_most(at_p, at_q, 0.005) > 0.005) continue;
           ++close;
-          CAPTURE(seed, step, first, second, p.child, p.triangle, q.child, q.triangle);
+          CAPTURE(seed, midphase, step, first, second, p.child, p.triangle, q.child, q.triangle);
           REQUIRE(listed.count({first, second, p.child, p.triangle, q.child, q.triangle}) == 1);
         }
     }
@@ -184,7 +192,9 @@ TEST_CASE("a list of leaf pairs that outgrows its room loses nothing")
   std::vector<float> heights(61 * 61, 0.0f);
   add_body(scene, Motion::fixed, height_field_shape(heights, 61, 0.1f, 0.1f, "floor"), {0, 0, 0});
   add_solid(scene, box_shape(2.5f, 0.1f, 2.5f), {0, 0.1, 0});
-  World world(scene);
+  const std::string midphase = GENERATE(from_range(midphase_names()));
+  CAPTURE(midphase);
+  World world(scene, settings_with(midphase));
   run(world, 5);
   const Statistics statistics = world.statistics();
   CHECK(statistics.pairs > 4000);
