@@ -95,7 +95,9 @@ void validate(const Settings &settings)
   if (settings.step / static_cast<float>(settings.substeps) < 1e-9f)
     throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, settings.substeps));
   check_name("solver", settings.solver, solver_names());
-  check_name("broadphase", settings.broadphase, broadphase_names());
+  std::vector<std::string> broadphases = broadphase_names();
+  broadphases.emplace_back("auto");
+  check_name("broadphase", settings.broadphase, broadphases);
   check_name("bounds", settings.bounds, bounds_names());
   check_name("midphase", settings.midphase, midphase_names());
   check_name("narrowphase", settings.narrowphase, narrowphase_names());

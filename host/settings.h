@@ -13,7 +13,7 @@ struct Settings {
   uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
-  std::string broadphase = "grid";      /* which of host/broadphases/; changes no bit */
+  std::string broadphase = "grid";      /* which of host/broadphases/, or auto: as the scene suggests; changes no bit */
   std::string bounds = "affine";        /* tight: from the support map; other pairs, so other bits */
   std::string midphase = "walk";        /* how the trees of meshes and compounds are walked; the same list either way */
   std::string narrowphase = "sat";      /* of shapes without a test of their own */
@@ -35,7 +35,7 @@ struct Settings {
 
 /* The accepted names, default first; --help and error messages list them. */
 std::vector<std::string> solver_names();
-std::vector<std::string> broadphase_names();
+std::vector<std::string> broadphase_names(); /* without auto */
 std::vector<std::string> bounds_names();
 std::vector<std::string> midphase_names();
 std::vector<std::string> narrowphase_names();

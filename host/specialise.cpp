@@ -12,10 +12,6 @@
 namespace tandem {
 namespace {
 
-/* How many bodies may be tested against all others, and how much larger than the median they must be. */
-constexpr size_t most_large_bodies = 64;
-constexpr float large_ratio = 4.0f;
-
 bool is_dynamic(const Body &body) { return body.motion == Motion::dynamic; }
 
 bool has_triggers(const Scene &scene)

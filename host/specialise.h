@@ -14,6 +14,10 @@ namespace tandem {
 
 struct Settings;
 
+/* How many bodies may be tested against all others, and how much larger than the median they must be. */
+constexpr size_t most_large_bodies = 64;
+constexpr float large_ratio = 4.0f;
+
 struct Specialisation {
   uint32_t features = 0; /* FEATURE_ bits */
   /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid, so

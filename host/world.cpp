@@ -9,6 +9,7 @@
 
 #include "host/batch_fault.h"
 #include "host/body_buffers.h"
+#include "host/broadphases/choice.h"
 #include "host/contact_events.h"
 #include "host/debug.h"
 #include "host/hash.h"
@@ -45,9 +46,19 @@ public:
 
 } // namespace
 
+namespace {
+
+Settings resolved(Settings settings, const Scene &scene)
+{
+  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene).name;
+  return settings;
+}
+
+} // namespace
+
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(chosen), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
+      : scene(given), settings(resolved(chosen, given)), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return backend_of(kernel); })
   {
     scene_features = special.features;
@@ -452,9 +463,8 @@ std::vector<KernelTime> World::take_kernel_times()
   std::vector<KernelTime> times;
   for (auto &[text, backend] : implementation_->backends) {
     const std::vector<Backend::Time> spent = backend->take_kernel_times();
-    for (Kernel kernel : implementation_->kernels)
-      if (const auto &time = spent[index_of(kernel)]; time.launches > 0)
-        times.push_back({kernel, backend->name(), time.nanoseconds * 1e-6, time.launches});
+    for (size_t k = 0; k < kernel_count; ++k)
+      if (spent[k].launches > 0) times.push_back({kernel_at(k), backend->name(), spent[k].nanoseconds * 1e-6, spent[k].launches});
   }
   return times;
 }

@@ -122,7 +122,7 @@ public:
   void place(const Placement &placement);
 
   const Scene &scene() const;
-  const Settings &settings() const;
+  const Settings &settings() const; /* with the broadphase that `auto` chose */
 
   std::vector<BodyState> bodies();                     /* in the order of Scene::bodies */
   std::vector<PreciseBodyState> precise_bodies();

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "host/broadphases/broadphase.h"
+#include "host/broadphases/choice.h"
 #include "host/world.h"
 #include "tools/command.h"
 #include "tools/output.h"
@@ -41,6 +43,13 @@ struct Plan {
   }
   bool has(size_t feature) const { return (chosen.features() >> feature & 1) != 0; }
   std::string flags() const { return fmt::format("-D FEATURES={}u", chosen.features()); }
+  /* The broadphase, and why it was chosen where that was left to us. */
+  std::string broadphase_text(const std::string &wanted) const
+  {
+    const std::string &name = chosen.settings().broadphase;
+    const std::string why = wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene()).why) : "";
+    return fmt::format("{} ({}){}", name, broadphase_named(name).what, why);
+  }
   std::string backend_of(Kernel kernel) const { return built[index_of(kernel)] ? chosen.backend_of(kernel).name() : ""; }
 };
 
@@ -78,12 +87,14 @@ Json buffers_json(const Plan &plan)
   return list;
 }
 
-Json plan_json(const Plan &plan, const std::string &scene, const Placement &placement)
+Json plan_json(const Plan &plan, const std::string &scene, const std::string &broadphase, const Placement &placement)
 {
   return {{"scene", scene},
           {"backend", placement.on},
           {"features", features_json(plan)},
           {"flags", plan.flags()},
+          {"broadphase", plan.chosen.settings().broadphase},
+          {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene()).why : "as asked"},
           {"kernels", kernels_json(plan)},
           {"kernels_built", plan.chosen.kernels().size()},
           {"buffers", buffers_json(plan)},
@@ -137,10 +148,11 @@ void print_buffers(const Plan &plan)
   fmt::print("\n{}\n{}\n", kept.text("  "), out.text("  "));
 }
 
-void print_plan(const Plan &plan, const std::string &scene)
+void print_plan(const Plan &plan, const std::string &scene, const std::string &broadphase)
 {
   fmt::print("{}: {} bodies\n\n", scene, plan.chosen.scene().bodies.size());
   print_features(plan);
+  fmt::print("broadphase: {}\n\n", plan.broadphase_text(broadphase));
   fmt::print("kernels: {} of {} built in {:.0f} ms\n", plan.chosen.kernels().size(), kernel_count,
              plan.chosen.build_milliseconds());
   print_kernels(plan);
@@ -151,6 +163,7 @@ void print_plan(const Plan &plan, const std::string &scene)
 int execute(const PlanOptions &options)
 {
   Settings settings = options.scene.settings();
+  const std::string broadphase = settings.broadphase;
   const Placement placement = options.scene.placement();
   options.json.check();
   const Scene scene = options.scene.scene();
@@ -158,8 +171,8 @@ int execute(const PlanOptions &options)
   settings.specialise = false;
   World everything(scene, settings, Placement{"serial", {}, false});
   const Plan plan(chosen, everything);
-  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text());
-  options.json.write(plan_json(plan, options.scene.scene_text(), placement));
+  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text(), broadphase);
+  options.json.write(plan_json(plan, options.scene.scene_text(), broadphase, placement));
   return 0;
 }
 

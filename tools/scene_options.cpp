@@ -64,7 +64,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
-  option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()), "NAME");
+  option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()) + "; auto: as the scene suggests (`tandem plan` says why)", "NAME");
   option("--bounds", bounds_, one_of("bounds", bounds_names()), "NAME");
   option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");

@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "host/broadphases/choice.h"
 #include "host/scene_catalog.h"
 #include "tests/physics/physics.h"
 
@@ -142,4 +143,23 @@ TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
     before = now;
   }
   CHECK(ends > 0);
+}
+
+TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and changes no bit")
+{
+  const auto choice = [](const std::string &scene) { return choose_broadphase(scene_of(scene)); };
+  CHECK(choice("scattered").name == "brute-force");
+  CHECK(choice("box-grid:nx=5,ny=5,nz=5").name == "grid");
+  CHECK(choice("box-grid:nx=5,ny=5,nz=5").why.find("126 bodies, of which 1 are") != std::string::npos);
+  Scene sizes = empty_scene();
+  for (int i = 0; i < 300; ++i) add_body(sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
+  CHECK(choose_broadphase(sizes).name == "hybrid");
+  CHECK(choose_broadphase(sizes).why.find("100 of 300") != std::string::npos);
+  for (const std::string name : {"scattered", "falling-boxes:n=150", "many sizes"}) {
+    CAPTURE(name);
+    CHECK(hashes_with("auto", scene_of(name)) == hashes_with("brute-force", scene_of(name)));
+  }
+  Settings settings;
+  settings.broadphase = "auto";
+  CHECK(World(sizes, settings).settings().broadphase == "hybrid");
 }

@@ -1,0 +1,17 @@
+/* choice.h - which broadphase suits a scene: what `--broadphase auto` means, and why. The bits are those of every other choice. */
+#pragma once
+
+#include <string>
+
+#include "host/scene.h"
+
+namespace tandem {
+
+struct BroadphaseChoice {
+  std::string name; /* of broadphases() */
+  std::string why;  /* the statistics of the scene that led there, in one line */
+};
+
+BroadphaseChoice choose_broadphase(const Scene &scene);
+
+} // namespace tandem
