@@ -233,6 +233,8 @@ std::string missing_text(const Chart &chart, double y)
                      missing == 1 ? "1 point" : fmt::format("{} points", missing));
 }
 
+double whole_height(const Chart &chart) { return chart.height + legend_of(chart).height + (missing_text(chart, 0).empty() ? 0 : legend_row); }
+
 constexpr const char *style =
     "<style>.tandem-chart{font:12px system-ui,sans-serif;color:#1c2530;fill:currentColor;max-width:100%;height:auto}"
     "@media(prefers-color-scheme:dark){.tandem-chart{color:#dfe5ec}}"
@@ -299,13 +301,25 @@ std::string svg_of(const Chart &chart)
   const Frame frame(chart);
   const Legend legend = legend_of(chart);
   const std::string missing = missing_text(chart, chart.height + legend.height + 4);
-  const double height = chart.height + legend.height + (missing.empty() ? 0 : legend_row);
+  const double height = whole_height(chart);
   std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
                                  "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n",
                                  escaped(chart.title), chart.width, height);
   text += style + grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
   for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
   return text + front_text(chart, frame) + legend.text + missing + "</svg>\n";
+}
+
+std::string svg_of(const std::vector<Chart> &charts)
+{
+  double width = 0, height = 0;
+  std::string text;
+  for (const Chart &chart : charts) {
+    text += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", height, svg_of(chart));
+    width = std::max(width, chart.width);
+    height += whole_height(chart);
+  }
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n{2}</svg>\n", width, height, text);
 }
 
 } // namespace tandem

@@ -139,4 +139,16 @@ TEST_CASE("page: one file, escaped text, numbers that sort by value", "[chart]")
   CHECK(text.find("<a href=\"#s1\">Tables</a>") != std::string::npos);
   for (const char *outside : {"http://", "https://", "src=", "@import", "<link"}) CHECK(text.find(outside) == std::string::npos);
 }
+
+TEST_CASE("chart: several stand below each other in one picture", "[chart]")
+{
+  Chart first = two_points(1), second = two_points(2);
+  second.title = "second";
+  const std::string svg = svg_of(std::vector<Chart>{first, second});
+  CHECK(count_of(svg, "<svg") == 3);
+  CHECK(count_of(svg, "</svg>") == 3);
+  CHECK(svg.find("translate(0 0)\">\n<svg") < svg.find("A &amp; B"));
+  CHECK(svg.find("A &amp; B") < svg.find(">second<"));
+  CHECK(svg.find("translate(0 4") != std::string::npos); /* 420 px and a legend */
+}
 #endif
