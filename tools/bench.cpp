@@ -1,6 +1,7 @@
 /* bench.cpp - `tandem bench`: how fast one part runs by itself, on any backend. */
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
@@ -77,10 +78,12 @@ int execute_batching(const BenchOptions &options)
   return right ? 0 : 1;
 }
 
-void print_scenes(const std::vector<BroadphaseScene> &scenes, const std::string &backend)
+constexpr const char *broadphase_time = "from bounds that are ready to the sorted pair list";
+
+void print_scene(const BroadphaseScene &scene)
 {
-  fmt::print("broadphase on {}: ms from bounds that are ready to the sorted pair list, median of the frames\n", backend);
-  for (const BroadphaseScene &scene : scenes) fmt::print("\n{}", broadphase_text(scene));
+  fmt::print("{}\n", broadphase_text(scene));
+  std::fflush(stdout);
 }
 
 /* Exit status 1 if any two broadphases give different pairs. */
@@ -93,11 +96,11 @@ int execute_broadphase(const BenchOptions &options)
   if (!options.count.empty()) request.bodies = {static_cast<uint32_t>(whole_number("--n", options.count, 2, most_bodies))};
   options.json.check();
   check_writable("--chart", options.chart);
-  const std::vector<BroadphaseScene> scenes = bench_broadphase(request);
+  const bool prints = !options.json.takes_standard_output();
+  const std::vector<BroadphaseScene> scenes = bench_broadphase(request, prints ? print_scene : [](const BroadphaseScene &) {});
+  if (prints) fmt::print("on {}: medians, ms a frame, {}\n", options.on, broadphase_time);
   const std::vector<std::string> differences = differences_of(scenes);
-  if (!options.json.takes_standard_output()) print_scenes(scenes, options.on);
-  Json json = {{"what", options.what}, {"backend", options.on}, {"timed", "from bounds that are ready to the sorted pair list, a frame"},
-               {"equal", differences.empty()}, {"scenes", Json::array()}};
+  Json json = {{"what", options.what}, {"backend", options.on}, {"timed", broadphase_time}, {"equal", differences.empty()}, {"scenes", Json::array()}};
   for (const BroadphaseScene &scene : scenes) json["scenes"].push_back(broadphase_json(scene));
   options.json.write(json);
   if (!options.chart.empty()) write_file("--chart", options.chart, broadphase_chart(scenes, options.on));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -49,7 +50,7 @@ void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::functio
     after_frame();
     if (frame >= warm_frames) run.milliseconds.push_back(milliseconds);
     else if (frame + 1 == warm_frames && milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
-      run.skipped = "too slow: skipped";
+      run.skipped = "too slow: stopped";
       return;
     }
   }
@@ -125,6 +126,8 @@ std::string pairs_text(const BroadphaseScene &scene, uint32_t bodies)
   return "";
 }
 
+double mean_of(const std::vector<double> &values) { return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<size_t>(values.size(), 1)); }
+
 Json run_json(const BroadphaseRun &run)
 {
   const Spread time = spread_of(run.milliseconds);
@@ -132,7 +135,7 @@ Json run_json(const BroadphaseRun &run)
   return {{"broadphase", run.broadphase},
           {"n", run.bodies},
           {"pairs", run.pairs.empty() ? Json(nullptr) : Json(run.pairs.back())},
-          {"ms", ran ? Json{{"median", time.median}, {"min", time.minimum}, {"max", time.maximum}} : Json(nullptr)},
+          {"ms", ran ? Json{{"median", time.median}, {"mean", mean_of(run.milliseconds)}, {"min", time.minimum}, {"max", time.maximum}} : Json(nullptr)},
           {"frames_ms", run.milliseconds},
           {"skipped", ran ? Json(nullptr) : Json(run.skipped)},
           {"difference", run.difference.empty() ? Json(nullptr) : Json(run.difference)}};
@@ -164,7 +167,7 @@ BroadphaseRequest broadphase_request(const std::vector<std::string> &names, cons
   return request;
 }
 
-std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request)
+std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request, const std::function<void(const BroadphaseScene &)> &after_scene)
 {
   const std::unique_ptr<Backend> backend = make_backend(request.backend, request.allow_inexact);
   std::vector<BroadphaseScene> scenes;
@@ -174,6 +177,7 @@ std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request)
       const std::vector<BroadphaseRun> runs = run_all(request, *input, bodies, scene.runs, *backend);
       scene.runs.insert(scene.runs.end(), runs.begin(), runs.end());
     }
+    if (after_scene) after_scene(scene);
     scenes.push_back(std::move(scene));
   }
   return scenes;

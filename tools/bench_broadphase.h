@@ -5,6 +5,7 @@
  */
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,7 +44,8 @@ struct BroadphaseRequest {
 /* Of all that there is those that are named, in the order of the list; all if none are. InputError for a scene that does not exist. */
 BroadphaseRequest broadphase_request(const std::vector<std::string> &broadphases, const std::vector<std::string> &scenes);
 
-std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request); /* InputError as make_backend */
+/* `after_scene` hears of each as it is done: all take minutes. InputError as make_backend. */
+std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request, const std::function<void(const BroadphaseScene &)> &after_scene = {});
 
 struct TimeAt {
   double bodies, milliseconds;
