@@ -246,6 +246,15 @@ constexpr const char *style =
     ".tandem-chart .pareto{fill:none;stroke:currentColor;stroke-width:1.4;stroke-dasharray:5 4;opacity:.75}"
     ".tandem-chart .ring{fill:none;stroke:currentColor;stroke-width:1.4}.tandem-chart .point:hover{stroke:currentColor;stroke-width:2}</style>\n";
 
+std::string contents_of(const Chart &chart)
+{
+  const Frame frame(chart);
+  const Legend legend = legend_of(chart);
+  std::string text = grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
+  for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
+  return text + front_text(chart, frame) + legend.text + missing_text(chart, chart.height + legend.height + 4);
+}
+
 std::vector<double> linear_ticks(double low, double high)
 {
   const double rough = (high - low) / 6, decade = std::pow(10.0, std::floor(std::log10(rough)));
@@ -296,30 +305,21 @@ std::string tick_text(double value)
   return fmt::format("{}10{}", std::abs(digits - 1) < 1e-9 ? "" : fmt::format("{:.4g}·", digits), power);
 }
 
-std::string svg_of(const Chart &chart)
-{
-  const Frame frame(chart);
-  const Legend legend = legend_of(chart);
-  const std::string missing = missing_text(chart, chart.height + legend.height + 4);
-  const double height = whole_height(chart);
-  std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
-                                 "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n",
-                                 escaped(chart.title), chart.width, height);
-  text += style + grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
-  for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
-  return text + front_text(chart, frame) + legend.text + missing + "</svg>\n";
-}
+std::string svg_of(const Chart &chart) { return svg_of(std::vector<Chart>{chart}); }
 
 std::string svg_of(const std::vector<Chart> &charts)
 {
   double width = 0, height = 0;
-  std::string text;
+  std::string names, text;
   for (const Chart &chart : charts) {
-    text += fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", height, svg_of(chart));
+    names += (names.empty() ? "" : "; ") + escaped(chart.title);
+    text += charts.size() == 1 ? contents_of(chart) : fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", height, contents_of(chart));
     width = std::max(width, chart.width);
     height += whole_height(chart);
   }
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\">\n{2}</svg>\n", width, height, text);
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
+                     "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n{3}{4}</svg>\n",
+                     names, width, height, style, text);
 }
 
 } // namespace tandem

@@ -434,6 +434,7 @@ TEST_CASE("command: bench broadphase", "[command]")
       CHECK(run["n"] == 300);
       CHECK(run["pairs"] == scene["runs"][0]["pairs"]);
       CHECK(run["ms"]["median"].get<double>() > 0);
+      check_keys(run["ms"], {"median", "mean", "min", "max"});
       CHECK(run["frames_ms"].size() == 9);
       CHECK(run["skipped"].is_null());
       CHECK(run["difference"].is_null());
