@@ -1,6 +1,7 @@
 /* bench.cpp - `tandem bench`: how fast one part runs by itself, on any backend. */
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include "host/scene_catalog.h"
 #include "host/world.h"
 #include "tools/bench_batching.h"
+#include "tools/bench_broadphase.h"
 #include "tools/bench_narrowphase.h"
 #include "tools/bench_support.h"
 #include "tools/bench_primitives.h"
@@ -21,8 +23,8 @@ namespace tandem {
 namespace {
 
 struct BenchOptions {
-  std::string what, on = "tbb", count;
-  std::vector<std::string> pairs;
+  std::string what, on = "tbb", count, chart;
+  std::vector<std::string> pairs, broadphases, scenes;
   bool inexact = false;
   JsonOutput json;
 };
@@ -76,6 +78,36 @@ int execute_batching(const BenchOptions &options)
   return right ? 0 : 1;
 }
 
+constexpr const char *broadphase_time = "from bounds that are ready to the sorted pair list";
+
+void print_scene(const BroadphaseScene &scene)
+{
+  fmt::print("{}\n", broadphase_text(scene));
+  std::fflush(stdout);
+}
+
+/* Exit status 1 if any two broadphases give different pairs. */
+int execute_broadphase(const BenchOptions &options)
+{
+  BroadphaseRequest request = broadphase_request(options.broadphases, options.scenes);
+  request.backend = options.on;
+  request.allow_inexact = options.inexact;
+  request.bodies = {1000, 10000, 100000, 1000000};
+  if (!options.count.empty()) request.bodies = {static_cast<uint32_t>(whole_number("--n", options.count, 2, most_bodies))};
+  options.json.check();
+  check_writable("--chart", options.chart);
+  const bool prints = !options.json.takes_standard_output();
+  const std::vector<BroadphaseScene> scenes = bench_broadphase(request, prints ? print_scene : [](const BroadphaseScene &) {});
+  if (prints) fmt::print("on {}: medians, ms a frame, {}\n", options.on, broadphase_time);
+  const std::vector<std::string> differences = differences_of(scenes);
+  Json json = {{"what", options.what}, {"backend", options.on}, {"timed", broadphase_time}, {"equal", differences.empty()}, {"scenes", Json::array()}};
+  for (const BroadphaseScene &scene : scenes) json["scenes"].push_back(broadphase_json(scene));
+  options.json.write(json);
+  if (!options.chart.empty()) write_file("--chart", options.chart, broadphase_chart(scenes, options.on));
+  for (const std::string &line : differences) fmt::print(stderr, "tandem: {}\n", line);
+  return differences.empty() ? 0 : 1;
+}
+
 int execute_narrowphase(const BenchOptions &options)
 {
   const uint64_t pairs = options.count.empty() ? 4096 : whole_number("--n", options.count, 1, most_bodies / 2);
@@ -123,18 +155,33 @@ Json result_json(const BenchOptions &options, const Result &result)
   return json;
 }
 
-int execute(const BenchOptions &options)
+constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, support or step";
+
+/* Options of one benchmark, given to another. */
+void check_options(const BenchOptions &options)
 {
-  for (const char *later : {"broadphase", "solve"})
-    if (options.what == later) throw InputError(fmt::format("bench {} comes with a later version; use sort, scan, batching, narrowphase, support or step", later));
   if (!options.pairs.empty() && options.what != "narrowphase")
     throw InputError(fmt::format("--pairs names kinds of bench narrowphase; bench {} has none, leave it out", options.what));
+  if (options.what == "broadphase") return;
+  const auto refuse = [&](const char *option, bool given) {
+    if (given) throw InputError(fmt::format("{} is of bench broadphase; bench {} has none, leave it out", option, options.what));
+  };
+  refuse("--broadphase", !options.broadphases.empty());
+  refuse("--scene", !options.scenes.empty());
+  refuse("--chart", !options.chart.empty());
+}
+
+int execute(const BenchOptions &options)
+{
+  if (options.what == "solve") throw InputError(fmt::format("bench solve comes with a later version; use {}", benchmarks));
+  check_options(options);
+  if (options.what == "broadphase") return execute_broadphase(options);
   if (options.what == "batching") return execute_batching(options);
   if (options.what == "narrowphase") return execute_narrowphase(options);
   if (options.what == "support") return execute_support(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
-    throw InputError(fmt::format("bench '{}' is unknown; use sort, scan, batching, narrowphase, support or step", options.what));
+    throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
   const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
   const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
   options.json.check();
@@ -148,12 +195,15 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, batching, narrowphase, support, step");
+  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, narrowphase, support, step");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
+  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
-  command->add_option("--n", options->count, "how many: 1048576 keys, 4096 pairs of each kind, 1000 bodies unless given")->type_name("N");
+  command->add_option("--n", options->count, "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 4096 pairs of each kind, 1000 bodies of step unless given")->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")->delimiter(',')->check(CLI::IsMember(bench_pair_names()))->type_name("KIND,...");
+  command->add_option("--broadphase", options->broadphases, "broadphase: these alone, as grid,bvh")->delimiter(',')->check(CLI::IsMember(broadphase_names()))->type_name("NAME,...");
+  command->add_option("--scene", options->scenes, "broadphase: these inputs alone, as spheres,pile")->delimiter(',')->check(CLI::IsMember(broadphase_input_names()))->type_name("NAME,...");
+  command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")->type_name("FILE.svg");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")->type_name("FILE");
   return {command, [options] { return execute(*options); }};

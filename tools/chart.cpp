@@ -233,6 +233,8 @@ std::string missing_text(const Chart &chart, double y)
                      missing == 1 ? "1 point" : fmt::format("{} points", missing));
 }
 
+double whole_height(const Chart &chart) { return chart.height + legend_of(chart).height + (missing_text(chart, 0).empty() ? 0 : legend_row); }
+
 constexpr const char *style =
     "<style>.tandem-chart{font:12px system-ui,sans-serif;color:#1c2530;fill:currentColor;max-width:100%;height:auto}"
     "@media(prefers-color-scheme:dark){.tandem-chart{color:#dfe5ec}}"
@@ -243,6 +245,15 @@ constexpr const char *style =
     ".tandem-chart .level{stroke:currentColor;stroke-dasharray:2 4;opacity:.7}"
     ".tandem-chart .pareto{fill:none;stroke:currentColor;stroke-width:1.4;stroke-dasharray:5 4;opacity:.75}"
     ".tandem-chart .ring{fill:none;stroke:currentColor;stroke-width:1.4}.tandem-chart .point:hover{stroke:currentColor;stroke-width:2}</style>\n";
+
+std::string contents_of(const Chart &chart)
+{
+  const Frame frame(chart);
+  const Legend legend = legend_of(chart);
+  std::string text = grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
+  for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
+  return text + front_text(chart, frame) + legend.text + missing_text(chart, chart.height + legend.height + 4);
+}
 
 std::vector<double> linear_ticks(double low, double high)
 {
@@ -294,18 +305,21 @@ std::string tick_text(double value)
   return fmt::format("{}10{}", std::abs(digits - 1) < 1e-9 ? "" : fmt::format("{:.4g}·", digits), power);
 }
 
-std::string svg_of(const Chart &chart)
+std::string svg_of(const Chart &chart) { return svg_of(std::vector<Chart>{chart}); }
+
+std::string svg_of(const std::vector<Chart> &charts)
 {
-  const Frame frame(chart);
-  const Legend legend = legend_of(chart);
-  const std::string missing = missing_text(chart, chart.height + legend.height + 4);
-  const double height = chart.height + legend.height + (missing.empty() ? 0 : legend_row);
-  std::string text = fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
-                                 "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n",
-                                 escaped(chart.title), chart.width, height);
-  text += style + grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
-  for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
-  return text + front_text(chart, frame) + legend.text + missing + "</svg>\n";
+  double width = 0, height = 0;
+  std::string names, text;
+  for (const Chart &chart : charts) {
+    names += (names.empty() ? "" : "; ") + escaped(chart.title);
+    text += charts.size() == 1 ? contents_of(chart) : fmt::format("<g transform=\"translate(0 {})\">\n{}</g>\n", height, contents_of(chart));
+    width = std::max(width, chart.width);
+    height += whole_height(chart);
+  }
+  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
+                     "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n{3}{4}</svg>\n",
+                     names, width, height, style, text);
 }
 
 } // namespace tandem

@@ -12,6 +12,7 @@ Installs the missing packages of each GROUP with apt-get (through sudo unless ro
   build          what compiling Tandem needs
   opencl         an OpenCL device for machines without a GPU
   tests          what the tests need besides
+  bullet         what tandem_bullet_bench needs besides
   --no-install   install nothing; if a needed package is missing, print the apt-get line and exit with status 2
   --list         print the packages of the groups and stop
 END
@@ -44,6 +45,7 @@ tests  want mesa-opencl-icd       rusticl: a second OpenCL device for parity
 tests  want oclgrind              an OpenCL simulator that reports races and bad accesses
 tests  want libccd-dev           an outside oracle of overlaps
 tests  want ccache                rebuilds only what changed
+bullet need libbullet-dev         Bullet, whose broadphase is timed beside ours
 END
 }
 
@@ -107,11 +109,11 @@ for argument in "$@"; do
     --no-install) install=no ;;
     --list) list=yes ;;
     --help | -h) usage; exit 0 ;;
-    build | opencl | tests) groups="$groups $argument" ;;
+    build | opencl | tests | bullet) groups="$groups $argument" ;;
     *) fail "unknown argument '$argument'; see --help" ;;
   esac
 done
-[ -n "$groups" ] || fail "name at least one group: build, opencl or tests"
+[ -n "$groups" ] || fail "name at least one group: build, opencl, tests or bullet"
 
 if [ "$list" = yes ]; then
   packages | awk -v groups="$groups " 'index(groups, " " $1 " ") { print $3 }' | sort -u

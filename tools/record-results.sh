@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|narrowphase|times|widths|solvers|batchers|report|stability|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|broadphase|narrowphase|times|widths|solvers|batchers|report|stability|all]
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -48,6 +48,14 @@ if [ "$what" = shapes ] || [ "$what" = all ]; then
       record "${scene%%:*}-${backend%%:*}" run "$scene" --on "$backend" --steps 300
     done
     record "convex-hulls-20000-${backend%%:*}" run convex-hulls:n=20000 --on "$backend" --steps 120
+  done
+fi
+# An input at a time: a million bodies of each take a processor of few cores minutes.
+if [ "$what" = broadphase ] || [ "$what" = all ]; then
+  for backend in "$gpu" tbb; do
+    for scene in spheres pile one-large sizes static; do
+      LIMIT=600 record "broadphase-$scene-${backend%%:*}" bench broadphase --on "$backend" --scene "$scene" --chart "$out/broadphase-$scene-${backend%%:*}.svg"
+    done
   done
 fi
 # Every method of each kind of pair is a build of its own, which takes a driver minutes.

@@ -17,6 +17,7 @@ struct Broadphase {
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
+  void (*commit)(StepLaunches &step) = nullptr; /* keeps what the next step builds on; null for those that keep nothing */
 };
 
 std::span<const Broadphase> broadphases(); /* default first */

@@ -139,4 +139,18 @@ TEST_CASE("page: one file, escaped text, numbers that sort by value", "[chart]")
   CHECK(text.find("<a href=\"#s1\">Tables</a>") != std::string::npos);
   for (const char *outside : {"http://", "https://", "src=", "@import", "<link"}) CHECK(text.find(outside) == std::string::npos);
 }
+
+TEST_CASE("chart: several stand below each other in one picture", "[chart]")
+{
+  Chart first = two_points(1), second = two_points(2);
+  second.title = "second";
+  const std::string svg = svg_of(std::vector<Chart>{first, second});
+  CHECK(count_of(svg, "<svg") == 1); /* one within another would be stretched by the style */
+  CHECK(count_of(svg, "<style>") == 1);
+  CHECK(count_of(svg, "data-name=\"one\"") == 2);
+  const size_t below = svg.find("<g transform=\"translate(0 4"); /* 420 px and a legend */
+  REQUIRE(below != std::string::npos);
+  CHECK(svg.find(">A &amp; B</text>") < below);
+  CHECK(svg.find(">second</text>") > below);
+}
 #endif

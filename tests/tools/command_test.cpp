@@ -208,7 +208,7 @@ TEST_CASE("command: contact problems", "[command]")
 
 TEST_CASE("command: what comes later says so", "[command]")
 {
-  for (const char *later : {"replay f", "bench solve", "bench broadphase"})
+  for (const char *later : {"replay f", "bench solve"})
     check_refused(later, "later version");
 }
 
@@ -416,6 +416,55 @@ TEST_CASE("command: bench batching", "[command]")
     CHECK(sum == scene["contacts"].get<uint32_t>());
     CHECK(batcher["right"] == true);
   }
+}
+
+TEST_CASE("command: bench broadphase", "[command]")
+{
+  const Scratch scratch;
+  const Json bench = json_of("bench broadphase --n 300 --on serial --chart " + scratch.file("c.svg"));
+  check_keys(bench, {"what", "backend", "timed", "equal", "scenes"});
+  CHECK(bench["equal"] == true);
+  std::set<std::string> scenes;
+  for (const Json &scene : bench["scenes"]) {
+    INFO(scene.dump());
+    check_keys(scene, {"name", "what", "runs", "slopes"});
+    scenes.insert(scene["name"].get<std::string>());
+    REQUIRE(scene["runs"].size() >= 6);
+    for (const Json &run : scene["runs"]) {
+      check_keys(run, {"broadphase", "n", "pairs", "ms", "frames_ms", "skipped", "difference"});
+      CHECK(run["n"] == 300);
+      CHECK(run["pairs"] == scene["runs"][0]["pairs"]);
+      CHECK(run["ms"]["median"].get<double>() > 0);
+      check_keys(run["ms"], {"median", "mean", "min", "max"});
+      CHECK(run["frames_ms"].size() == 9);
+      CHECK(run["skipped"].is_null());
+      CHECK(run["difference"].is_null());
+      CHECK(scene["slopes"][run["broadphase"].get<std::string>()].is_null()); /* there is one number of bodies alone */
+    }
+  }
+  CHECK(scenes == std::set<std::string>{"spheres", "pile", "one-large", "sizes", "static"});
+  CHECK(contents(scratch.file("c.svg")).find("data-name=\"bvh\"") != std::string::npos);
+}
+
+TEST_CASE("command: bench broadphase of some, and what it refuses", "[command]")
+{
+  const Json two = json_of("bench broadphase --n 20000 --scene static --broadphase bvh,brute-force");
+  REQUIRE(two["scenes"].size() == 1);
+  REQUIRE(two["scenes"][0]["runs"].size() == 2);
+  CHECK(two["scenes"][0]["runs"][0]["broadphase"] == "brute-force");
+  CHECK(two["scenes"][0]["runs"][0]["skipped"] == "over 16384: skipped");
+  CHECK(two["scenes"][0]["runs"][0]["ms"].is_null());
+  CHECK(two["scenes"][0]["runs"][1]["skipped"].is_null());
+  CHECK(two["scenes"][0]["runs"][1]["pairs"].get<int>() > 0);
+  check_refused("bench broadphase --broadphase magic", "magic");
+  check_refused("bench broadphase --scene castle", "castle");
+  for (const char *n : {"1", "4000001", "many"}) check_refused(std::string("bench broadphase --n ") + n, "--n");
+  check_refused("bench broadphase --on abacus --n 100", "abacus");
+  check_refused("bench broadphase --chart /nonexistent/c.svg", "/nonexistent/c.svg");
+  check_refused("bench broadphase --pairs box-box", "--pairs");
+  check_refused("bench sort --broadphase grid", "--broadphase");
+  check_refused("bench narrowphase --scene pile", "--scene");
+  check_refused("bench step --chart c.svg", "--chart");
 }
 
 TEST_CASE("command: bench narrowphase", "[command]")
