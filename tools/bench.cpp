@@ -11,6 +11,7 @@
 #include "tools/bench_batching.h"
 #include "tools/bench_broadphase.h"
 #include "tools/bench_narrowphase.h"
+#include "tools/bench_rays.h"
 #include "tools/bench_support.h"
 #include "tools/bench_primitives.h"
 #include "tools/command.h"
@@ -118,6 +119,18 @@ int execute_narrowphase(const BenchOptions &options)
   return 0;
 }
 
+constexpr uint32_t boxes_for_rays = 100000;
+
+int execute_rays(const BenchOptions &options)
+{
+  const auto rays = static_cast<uint32_t>(options.count.empty() ? 1000000 : whole_number("--n", options.count, 1, uint64_t{1} << 26));
+  options.json.check();
+  const std::vector<RayTime> times = bench_rays(options.on, boxes_for_rays, rays, options.inexact);
+  if (!options.json.takes_standard_output()) fmt::print("rays on {}: {} rays, {} boxes\n{}", options.on, rays, boxes_for_rays, rays_text(times, rays));
+  options.json.write({{"what", options.what}, {"backend", options.on}, {"n", rays}, {"boxes", boxes_for_rays}, {"times", rays_json(times, rays)}});
+  return 0;
+}
+
 /* Exit status 1 if climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
@@ -155,7 +168,7 @@ Json result_json(const BenchOptions &options, const Result &result)
   return json;
 }
 
-constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, support or step";
+constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support or step";
 
 /* Options of one benchmark, given to another. */
 void check_options(const BenchOptions &options)
@@ -178,6 +191,7 @@ int execute(const BenchOptions &options)
   if (options.what == "broadphase") return execute_broadphase(options);
   if (options.what == "batching") return execute_batching(options);
   if (options.what == "narrowphase") return execute_narrowphase(options);
+  if (options.what == "rays") return execute_rays(options);
   if (options.what == "support") return execute_support(options);
   const bool step = options.what == "step";
   if (!step && options.what != "sort" && options.what != "scan")
@@ -195,11 +209,11 @@ int execute(const BenchOptions &options)
 
 Command bench_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, narrowphase, support, step");
+  CLI::App *command = parser.add_subcommand("bench", "time one part by itself: sort, scan, broadphase, batching, narrowphase, rays, support, step");
   auto options = std::make_shared<BenchOptions>();
-  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
+  command->add_option("WHAT", options->what, "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching (scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 boxes), support (farthest vertices of hulls), step (box-grid)")->required()->type_name("");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
-  command->add_option("--n", options->count, "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 4096 pairs of each kind, 1000 bodies of step unless given")->type_name("N");
+  command->add_option("--n", options->count, "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each kind, 1000 bodies of step unless given")->type_name("N");
   command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")->delimiter(',')->check(CLI::IsMember(bench_pair_names()))->type_name("KIND,...");
   command->add_option("--broadphase", options->broadphases, "broadphase: these alone, as grid,bvh")->delimiter(',')->check(CLI::IsMember(broadphase_names()))->type_name("NAME,...");
   command->add_option("--scene", options->scenes, "broadphase: these inputs alone, as spheres,pile")->delimiter(',')->check(CLI::IsMember(broadphase_input_names()))->type_name("NAME,...");

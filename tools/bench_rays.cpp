@@ -1,6 +1,7 @@
 /* bench_rays.cpp - see bench_rays.h. */
 #include "tools/bench_rays.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

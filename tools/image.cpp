@@ -60,13 +60,14 @@ Ray ray_along(const Point &origin, const Vector &direction)
 
 Vector sky(const Vector &direction) { return mixed({0.93, 0.95, 0.97}, {0.55, 0.70, 0.88}, std::clamp(1.6 * unit(direction)[1], 0.0, 1.0)); }
 
-/* Squares of a metre on what does not move, so that sizes can be read. */
-Vector color_of(const Scene &scene, const RayHit &hit)
+/* Squares of a metre on what does not move, so that sizes can be read; fainter where they would be smaller than a pixel. */
+Vector color_of(const Scene &scene, const RayHit &hit, double distance)
 {
   const Body &body = scene.bodies[hit.body];
   if (body.motion != Motion::fixed) return body_colors[(hit.body * 2654435761u >> 8) % std::size(body_colors)];
   const double squares = std::floor(hit.point[0]) + std::floor(hit.point[1] + 0.5) + std::floor(hit.point[2]);
-  return plus({0, 0, 0}, ground_color, std::fmod(std::abs(squares), 2) < 0.5 ? 1.0 : 0.88);
+  const double contrast = 0.12 / (1 + distance * distance / 1600);
+  return plus({0, 0, 0}, ground_color, 1 - (std::fmod(std::abs(squares), 2) < 0.5 ? 0 : contrast));
 }
 
 Vector lit(const Vector &color, const Vector &normal, bool in_shadow)
@@ -90,7 +91,10 @@ std::vector<Vector> colors_along(World &world, const std::vector<Ray> &rays)
   size_t next = 0;
   for (size_t k = 0; k < rays.size(); ++k)
     if (hits[k].body == no_body) colors.push_back(sky(vector_of(rays[k].direction)));
-    else colors.push_back(lit(color_of(world.scene(), hits[k]), vector_of(hits[k].normal), blocked[next++]));
+    else {
+      const Vector way = plus(hits[k].point, rays[k].origin, -1);
+      colors.push_back(lit(color_of(world.scene(), hits[k], std::sqrt(inner(way, way))), vector_of(hits[k].normal), blocked[next++]));
+    }
   return colors;
 }
 
@@ -152,7 +156,7 @@ Camera camera_for(World &world, uint32_t width, uint32_t height)
   camera.height = height;
   camera.target = plus(plus({0, 0, 0}, low, 0.5), high, 0.5);
   const Vector size = plus(high, low, -1);
-  const double narrow = std::min(1.0, double(width) / height), distance = 0.55 * std::sqrt(inner(size, size)) / (std::tan(camera.view * M_PI / 360) * narrow);
+  const double narrow = std::min(1.0, double(width) / height), distance = 0.46 * std::sqrt(inner(size, size)) / (std::tan(camera.view * M_PI / 360) * narrow);
   camera.eye = plus(camera.target, unit({0.55, 0.42, 1.0}), std::max(distance, 0.1));
   return camera;
 }

@@ -56,7 +56,7 @@ TEST_CASE("rays through everything hit what each body alone is hit by, nearest f
 {
   Random random(21);
   const Scene scene = crowd(70, 6, random);
-  const std::vector<Ray> rays = rays_across(1500, 7, random);
+  const std::vector<Ray> rays = rays_across(2500, 7, random);
   std::vector<std::vector<RayHit>> expected(rays.size());
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     const std::vector<RayHit> alone = hits_of_body_alone(scene, body, rays);
@@ -119,7 +119,7 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
                           {random.uniform(-8, 8), random.uniform(1, 12), random.uniform(-8, 8)});
     body.orientation = random.orientation();
   }
-  std::vector<QueryBox> boxes(1000);
+  std::vector<QueryBox> boxes(1200);
   for (QueryBox &box : boxes) {
     box.center = {random.uniform(-9, 9), random.uniform(0, 13), random.uniform(-9, 9)};
     box.half_extents = {float(random.uniform(0, 2)), float(random.uniform(0, 0.5)), float(random.below(2))};
