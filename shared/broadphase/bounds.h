@@ -52,14 +52,15 @@ SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
   return make_vec3(turned_extent(extent.x, radius, turn), turned_extent(extent.y, radius, turn), turned_extent(extent.z, radius, turn));
 }
 
-/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius. */
+/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius. Parameters are not
+ * assigned to: rusticl passes both as one where the caller gives one vector twice. */
 SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_mass, GLOBAL row *bounds, natural i,
                                  vec3 center, motion m, vec3 below, vec3 above, real radius)
 {
   real step = parameters->step, turn = length_of(m.angular) * step, margin = parameters->bounds_margin;
   vec3 spare = make_vec3(margin, margin, margin), rounding = rounding_of_bounds(center);
-  below = add(add(turned_extents(below, radius, turn), spare), rounding);
-  above = add(add(turned_extents(above, radius, turn), spare), rounding);
+  vec3 reach_below = add(add(turned_extents(below, radius, turn), spare), rounding);
+  vec3 reach_above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
   real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
   vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
@@ -76,8 +77,8 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
     low = choose3(continuous, negate(anywhere), low);
     high = choose3(continuous, anywhere, high);
   }
-  store_row(bounds, i * 2u, extend(add(subtract(center, below), low), R(0.0)));
-  store_row(bounds, i * 2u + 1u, extend(add(add(center, above), high), R(0.0)));
+  store_row(bounds, i * 2u, extend(add(subtract(center, reach_below), low), R(0.0)));
+  store_row(bounds, i * 2u + 1u, extend(add(add(center, reach_above), high), R(0.0)));
 }
 
 SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,

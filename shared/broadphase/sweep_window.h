@@ -25,12 +25,12 @@ SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sweep_boun
 }
 
 /* Where the last interval of a block ends. */
-SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *counts, GLOBAL uint *sweep_block, uint block)
+SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *counts, GLOBAL uint *sweep_block, uint i)
 {
   uint large = counts[COUNT_LARGE], last = 0u;
-  for (uint i = block * SWEEP_BLOCK; i < (block + 1u) * SWEEP_BLOCK && i < counts[COUNT_BODIES]; ++i)
-    if (i >= large && sweep_end[i - large] > last) last = sweep_end[i - large];
-  sweep_block[block] = last;
+  for (uint k = i * SWEEP_BLOCK; k < (i + 1u) * SWEEP_BLOCK && k < counts[COUNT_BODIES]; ++k)
+    if (k >= large && sweep_end[k - large] > last) last = sweep_end[k - large];
+  sweep_block[i] = last;
 }
 
 /* What a group sweeps with; writes: where the keys go, 0 to count only. */

@@ -52,9 +52,10 @@ TEST_CASE("shadows lie where the ball is between floor and light")
   World world(ball_on_floor());
   const Camera camera = camera_from("0,12,0.1,0,0,0", 200, 200); /* from above; x to the right, z down */
   const std::vector<uint8_t> image = draw(world, camera);
-  /* The middle of the shadow: the ball's centre, a metre up, along the light: 0.5 m to the left and 0.35 m up in the picture; its rim
-   * leaves the ball's there. 100 pixels are 4.4 m. */
-  const int shadow = brightness(pixel(image, camera, 100 - 36, 100 - 24)), lit = brightness(pixel(image, camera, 100 + 36, 100 + 24));
+  /* The ball's shadow lies about (-0.5, -0.35), where the light through its centre meets the floor, and reaches 1.17 m (1 over the sine
+   * of the light's height) beyond that, away from the light: 1.78 m. The ball itself hides what is nearer than 1.10 m to the middle of the
+   * picture. 1.44 m is between; 100 pixels are 4.37 m. */
+  const int shadow = brightness(pixel(image, camera, 100 - 27, 100 - 19)), lit = brightness(pixel(image, camera, 100 + 27, 100 + 19));
   CHECK(shadow < lit - 60);
 }
 

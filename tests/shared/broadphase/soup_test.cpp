@@ -36,14 +36,22 @@ Soup of_one_size(uint32_t n, Random &random)
   return soup;
 }
 
-/* Halves from a millimetre to a kilometre: few are large. The largest come first, some of them as `large`. */
+/* Halves from a millimetre to a kilometre: one in twenty above a metre, one in a thousand above thirty. */
+double any_size(Random &random)
+{
+  const double kind = random.uniform(), within = random.uniform();
+  if (kind < 0.95) return 1e-3 * std::pow(1e3, within);
+  return kind < 0.999 ? std::pow(30, within) : 30 * std::pow(1000.0 / 30, within);
+}
+
+/* Of a quarter the largest come first, some of them as `large`; the others stand in any order. */
 Soup of_all_sizes(uint32_t n, Random &random)
 {
   Soup soup;
   std::vector<double> sizes;
-  for (uint32_t i = 0; i < n; ++i) sizes.push_back(1e-3 * std::pow(1e6, std::pow(random.uniform(), 4)));
+  for (uint32_t i = 0; i < n; ++i) sizes.push_back(any_size(random));
   std::sort(sizes.begin(), sizes.begin() + n / 4, std::greater<>());
-  const double side = 8 * std::cbrt(double(n));
+  const double side = 4 * std::cbrt(double(n));
   for (const double size : sizes) add_around(soup, uniform3(random, -side, side), uniform3(random, 0.3 * size, size), random);
   soup.large = std::min(n, 20u);
   soup.hybrid_cell = 0.05f;
@@ -107,18 +115,22 @@ Soup of_fast_bodies(uint32_t n, Random &random)
 struct Kind {
   const char *name;
   MakeSoup make;
+  bool suits_all; /* false: some large or far body makes the grid's cells or the sweep's intervals hold most of the others */
 };
-constexpr Kind kinds[] = {{"one size", of_one_size},  {"all sizes", of_all_sizes},    {"one place", in_one_place},   {"a row", in_a_row},
-                          {"flat", without_thickness}, {"far away", far_away}, {"fast", of_fast_bodies}};
+constexpr Kind kinds[] = {{"one size", of_one_size, true},   {"all sizes", of_all_sizes, false}, {"one place", in_one_place, true}, {"a row", in_a_row, true},
+                          {"flat", without_thickness, true}, {"far away", far_away, false},      {"fast", of_fast_bodies, false}};
 
 /* brute-force looks at every two: so many that more of them would prove nothing more. */
 constexpr uint32_t most_by_brute_force = 10000;
 
-void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected)
+/* Those that take n log n whatever the soup. */
+bool never_crowds(const Broadphase &broadphase) { return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping; }
+
+void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected, bool suits_all = true)
 {
   runner.take(soup);
   for (const Broadphase &broadphase : broadphases()) {
-    if (soup.size() > most_by_brute_force && broadphase.launch == find_pairs_by_brute_force) continue;
+    if (soup.size() > most_by_brute_force && (broadphase.launch == find_pairs_by_brute_force || !(suits_all || never_crowds(broadphase)))) continue;
     CAPTURE(broadphase.name, runner.name());
     const BodyPairs found = runner.find(broadphase);
     CHECK(found.size() == expected.size());
@@ -152,7 +164,7 @@ TEST_CASE("broadphases find the pairs of fifty thousand boxes")
     const Soup soup = kind.make(50000, random);
     const BodyPairs expected = expected_pairs(soup);
     CAPTURE(kind.name, expected.size());
-    check_all(runner, soup, expected);
+    check_all(runner, soup, expected, kind.suits_all);
   }
 }
 
@@ -162,7 +174,7 @@ TEST_CASE("broadphases on OpenCL find the pairs of the oracle in any soup")
   SoupRunner runner(make_backend("cl:pocl"));
   Random random(79);
   for (const Kind &kind : kinds)
-    for (const uint32_t n : {1u, 129u, 2000u, 10000u}) {
+    for (const uint32_t n : {1u, 129u, 5000u}) {
       const Soup soup = kind.make(n, random);
       const BodyPairs expected = expected_pairs(soup);
       CAPTURE(kind.name, n, expected.size());
