@@ -16,6 +16,7 @@
 #include "host/host_stages.h"
 #include "host/layout.h"
 #include "host/parameters.h"
+#include "host/recorder.h"
 #include "host/scene_counts.h"
 #include "host/specialise.h"
 #include "host/step.h"
@@ -28,25 +29,6 @@ namespace {
 
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
 constexpr int most_repetitions = 64;
-
-/* Collects the kernels of a step, and the buffers they touch, instead of running them. */
-class Recorder : public Launcher {
-public:
-  void launch(const Launch &launch) override
-  {
-    for (Buffer slot : launch.slots) touched[index_of(slot)] = true;
-    if (std::find(kernels.begin(), kernels.end(), launch.kernel) != kernels.end()) return;
-    kernels.push_back(launch.kernel);
-    for (const Argument &argument : row_of(launch.kernel).arguments)
-      if (argument.kind == Argument::Kind::buffer) touched[index_of(argument.buffer)] = true;
-  }
-  std::vector<Kernel> kernels;
-  std::array<bool, buffer_count> touched{};
-};
-
-} // namespace
-
-namespace {
 
 Settings resolved(Settings settings, const Scene &scene)
 {
@@ -276,8 +258,9 @@ struct World::Implementation {
   {
     Backend *&backend = placed[index_of(kernel)];
     if (!backend) {
-      backend = &backend_for(wanted, kernel);
-      backend->prepare(special.features, {kernel});
+      Backend &chosen = backend_for(wanted, kernel);
+      chosen.prepare(special.features, {kernel}); /* may fail, and then none is chosen */
+      backend = &chosen;
     }
     return *backend;
   }

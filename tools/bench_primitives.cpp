@@ -8,21 +8,12 @@
 #include <stdexcept>
 
 #include "host/primitives.h"
+#include "host/recorder.h"
 
 namespace tandem {
 namespace {
 
 constexpr int warm_up_calls = 2, timed_calls = 10;
-
-/* Collects the kernels of a primitive, for Backend::prepare. */
-class Recorder : public Launcher {
-public:
-  void launch(const Launch &launch) override
-  {
-    if (std::find(kernels.begin(), kernels.end(), launch.kernel) == kernels.end()) kernels.push_back(launch.kernel);
-  }
-  std::vector<Kernel> kernels;
-};
 
 /* Numbers without a pattern, the same on every run. */
 std::vector<uint32_t> scrambled(uint32_t count)

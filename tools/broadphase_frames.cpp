@@ -10,6 +10,7 @@
 #include "host/body_buffers.h"
 #include "host/layout.h"
 #include "host/parameters.h"
+#include "host/recorder.h"
 #include "host/scene_counts.h"
 #include "minicl/floating_point.h"
 
@@ -17,20 +18,6 @@ namespace tandem {
 namespace {
 
 constexpr int most_repetitions = 8; /* one is enough: the count of pairs is that of all, also where they find no room */
-
-/* Kernels and buffers of a frame, instead of running it. */
-class Recorder : public Launcher {
-public:
-  void launch(const Launch &launch) override
-  {
-    for (Buffer slot : launch.slots) touched[index_of(slot)] = true;
-    for (const Argument &argument : row_of(launch.kernel).arguments)
-      if (argument.kind == Argument::Kind::buffer) touched[index_of(argument.buffer)] = true;
-    if (std::find(kernels.begin(), kernels.end(), launch.kernel) == kernels.end()) kernels.push_back(launch.kernel);
-  }
-  std::vector<Kernel> kernels;
-  std::vector<bool> touched = std::vector<bool>(buffer_count);
-};
 
 void prepare(StepLaunches &step)
 {

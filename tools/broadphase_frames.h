@@ -7,6 +7,7 @@
  */
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "host/broadphases/broadphase.h"
@@ -44,7 +45,7 @@ private:
   Settings settings_;
   StepPlan plan_;
   std::vector<Kernel> kernels_;
-  std::vector<bool> touched_; /* buffers */
+  std::array<bool, buffer_count> touched_{};
   Memory memory_;
   DirectLauncher launcher_{memory_, backend_};
   StepLaunches step_{launcher_, plan_, settings_};
