@@ -12,6 +12,9 @@ namespace {
 struct Answers {
   std::vector<RayHit> rays;
   std::vector<SweepHit> sweeps;
+  std::vector<bool> blocked;
+  std::vector<std::vector<RayHit>> through;
+  std::vector<std::vector<BoxHit>> boxes;
   size_t found = 0;
 };
 
@@ -36,7 +39,12 @@ Answers ask(const std::string &scene, const std::string &backend, size_t queries
     }
   }
   Answers answers;
+  std::vector<QueryBox> boxes(queries);
+  for (size_t k = 0; k < queries; ++k) boxes[k] = {poses[k].position, {0.3f, 0.2f, 0.1f}, k % 2 ? ways[k] : Vec3{0, 0, 0}, {}};
   answers.rays = world.cast_rays(rays);
+  answers.blocked = world.find_blocked_rays(rays);
+  answers.through = world.cast_rays_through(rays);
+  answers.boxes = world.sweep_boxes(boxes);
   for (const Shape &shape : {sphere_shape(0.1f), box_shape(0.2f, 0.1f, 0.15f), world.scene().shapes.front()}) {
     if (shape.type == ShapeType::half_space) continue;
     const std::vector<SweepHit> hits = world.sweep(shape, poses, ways);
@@ -55,6 +63,17 @@ bool same_bits(const std::vector<QueryHit> &a, const std::vector<QueryHit> &b)
          });
 }
 
+bool same_bits(const std::vector<std::vector<BoxHit>> &a, const std::vector<std::vector<BoxHit>> &b)
+{
+  const auto same = [](const BoxHit &p, const BoxHit &q) { return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const auto &p, const auto &q) { return std::equal(p.begin(), p.end(), q.begin(), q.end(), same); });
+}
+
+bool same_bits(const std::vector<std::vector<RayHit>> &a, const std::vector<std::vector<RayHit>> &b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto &p, const auto &q) { return same_bits(p, q); });
+}
+
 void require_equal_answers(const std::string &scene, const std::vector<std::string> &backends, size_t queries, int steps)
 {
   const Answers expected = ask(scene, "serial", queries, steps);
@@ -65,6 +84,9 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
     const Answers found = ask(scene, backend, queries, steps);
     CHECK(same_bits(found.rays, expected.rays));
     CHECK(same_bits(found.sweeps, expected.sweeps));
+    CHECK(found.blocked == expected.blocked);
+    CHECK(same_bits(found.through, expected.through));
+    CHECK(same_bits(found.boxes, expected.boxes));
   }
 }
 
