@@ -215,6 +215,19 @@ __kernel void window_write(__global const Parameters *parameters, __global const
   END_GROUP;
 }
 
+__kernel void count_strays(__global const row *bounds, __global const uint *leaf_body,
+                           __global const row *filed_bounds, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  count_strays_item(bounds, leaf_body, filed_bounds, counts, i);
+}
+
+__kernel void plan_hierarchy(__global uint *counts, uint keep, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  plan_hierarchy_item(counts, keep, i);
+}
+
 __kernel void curve_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
                          __global uint *sort_key, __global uint *sort_value, RANGE)
 {
@@ -222,38 +235,60 @@ __kernel void curve_keys(__global const row *bounds, __global const row *grid, _
   curve_keys_item(bounds, grid, counts, sort_key, sort_value, i);
 }
 
-__kernel void hierarchy_leaves(__global const row *bounds, __global const uint *sort_value,
-                               __global const uint *counts, __global row *hierarchy, __global uint *leaf_body,
-                               RANGE)
+__kernel void file_leaves(__global const row *bounds, __global const uint *sort_value, __global uint *leaf_body,
+                          __global row *filed_bounds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_leaves_item(bounds, sort_value, counts, hierarchy, leaf_body, i);
+  file_leaves_item(bounds, sort_value, leaf_body, filed_bounds, i);
 }
 
-__kernel void hierarchy_levels(__global const uint *counts, __global row *hierarchy, uint height, RANGE)
+__kernel void link_nodes(__global const uint *sort_key, __global const uint *counts,
+                         __global uint *hierarchy_link, __global uint *hierarchy_stretch, RANGE)
 {
-  hierarchy_levels_group(counts, hierarchy, height, 0, GROUP_NUMBER);
+  FOR_EACH_IN_RANGE(i)
+  link_nodes_item(sort_key, counts, hierarchy_link, hierarchy_stretch, i);
+}
+
+__kernel void pyramid_leaves(__global const row *bounds, __global const uint *list, __global const uint *counts,
+                             __global row *box_pyramid, uint length, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  pyramid_leaves_item(bounds, list, counts, box_pyramid, length, i);
+}
+
+__kernel void pyramid_levels(__global const uint *counts, __global row *box_pyramid, uint height, RANGE)
+{
+  pyramid_levels_group(counts, box_pyramid, height, 0, GROUP_NUMBER);
   END_GROUP;
+}
+
+__kernel void node_boxes(__global const row *box_pyramid, __global const uint *hierarchy_stretch,
+                         __global const uint *counts, __global row *hierarchy, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  node_boxes_item(box_pyramid, hierarchy_stretch, counts, hierarchy, i);
 }
 
 __kernel void hierarchy_count(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *hierarchy, __global const uint *leaf_body,
+                              __global const row *hierarchy, __global const uint *hierarchy_link,
+                              __global const uint *leaf_body,
                               __global const uint *counts, __global uint *pair_start, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, leaf_body, counts, pair_start,
+  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body, counts, pair_start,
                        walk, i);
 }
 
 __kernel void hierarchy_write(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *hierarchy, __global const uint *leaf_body,
+                              __global const row *hierarchy, __global const uint *hierarchy_link,
+                              __global const uint *leaf_body,
                               __global const uint *counts, __global const uint *pair_start,
                               __global uint *pair_a, __global uint *pair_b, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, leaf_body, counts, pair_start,
+  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body, counts, pair_start,
                        pair_a, pair_b, walk, i);
 }
 
@@ -264,22 +299,20 @@ __kernel void large_keys(__global const row *bounds, __global const row *grid, _
   large_keys_item(bounds, grid, counts, sort_key, sort_value, i);
 }
 
-__kernel void large_leaves(__global const row *bounds, __global const uint *sort_key,
-                           __global const uint *sort_value, __global const uint *counts,
-                           __global row *hierarchy, __global uint *leaf_body, RANGE)
+__kernel void plan_large(__global const uint *sort_key, __global uint *counts, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  large_leaves_item(bounds, sort_key, sort_value, counts, hierarchy, leaf_body, i);
+  plan_large_item(sort_key, counts, i);
 }
 
 __kernel void large_count(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *hierarchy,
-                          __global const uint *leaf_body, __global const uint *counts,
+                          __global const row *grid, __global const row *hierarchy, __global const uint *hierarchy_link,
+                              __global const uint *leaf_body, __global const uint *counts,
                           __global uint *large_finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  large_count_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, leaf_body, counts,
+  large_count_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body, counts,
                    large_finds, i);
 }
 
@@ -310,12 +343,12 @@ __kernel void join_finds(__global const uint *small_finds, __global const uint *
 
 __kernel void large_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *hierarchy,
-                          __global const uint *leaf_body, __global const uint *counts,
+                          __global const row *grid, __global const row *hierarchy, __global const uint *hierarchy_link,
+                              __global const uint *leaf_body, __global const uint *counts,
                           __global const uint *share_start, __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  large_write_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, leaf_body, counts,
+  large_write_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body, counts,
                    share_start, pair_key, i);
 }
 

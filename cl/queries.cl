@@ -12,7 +12,8 @@ __kernel void cast_rays(__global const Parameters *parameters, __global const ui
                         __global const uint *tree_node, __global const uint *tree_leaf,
                         __global const row *mesh_vertex, __global const uint *mesh_triangle,
                         __global const row *body_position, __global const row *body_orientation,
-                        __global const row *hierarchy, __global const uint *leaf_body,
+                        __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                         __global const uint *query_body, __global const uint *query_filter,
                         __global const row *query_start, __global const row *query_way, __global row *query_hit,
                         __global row *query_point, __global uint *query_hit_body, RANGE)
@@ -20,7 +21,7 @@ __kernel void cast_rays(__global const Parameters *parameters, __global const ui
   FOR_EACH_IN_RANGE(i)
   cast_rays_item(parameters, counts, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
                  hull_vertex, hull_plane, body_tree, tree_header, tree_frame, tree_node, tree_leaf, mesh_vertex,
-                 mesh_triangle, body_position, body_orientation, hierarchy, leaf_body, query_body, query_filter,
+                 mesh_triangle, body_position, body_orientation, hierarchy, hierarchy_link, leaf_body, query_body, query_filter,
                  query_start, query_way, query_hit, query_point, query_hit_body, i);
 }
 
@@ -33,7 +34,8 @@ __kernel void find_blocked_rays(__global const Parameters *parameters, __global 
                               __global const uint *tree_node, __global const uint *tree_leaf,
                               __global const row *mesh_vertex, __global const uint *mesh_triangle,
                               __global const row *body_position, __global const row *body_orientation,
-                              __global const row *hierarchy, __global const uint *leaf_body,
+                              __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                               __global const uint *query_body, __global const uint *query_filter,
                               __global const row *query_start, __global const row *query_way,
                               __global uint *query_found, RANGE)
@@ -41,7 +43,7 @@ __kernel void find_blocked_rays(__global const Parameters *parameters, __global 
   FOR_EACH_IN_RANGE(i)
   find_blocked_rays_item(parameters, counts, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
                          hull_vertex, hull_plane, body_tree, tree_header, tree_frame, tree_node, tree_leaf,
-                         mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, leaf_body,
+                         mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, hierarchy_link, leaf_body,
                          query_body, query_filter, query_start, query_way, query_found, i);
 }
 
@@ -54,7 +56,8 @@ __kernel void count_ray_hits(__global const Parameters *parameters, __global con
                              __global const uint *tree_node, __global const uint *tree_leaf,
                              __global const row *mesh_vertex, __global const uint *mesh_triangle,
                              __global const row *body_position, __global const row *body_orientation,
-                             __global const row *hierarchy, __global const uint *leaf_body,
+                             __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                              __global const uint *query_body, __global const uint *query_filter,
                              __global const row *query_start, __global const row *query_way,
                              __global uint *query_found, RANGE)
@@ -62,7 +65,7 @@ __kernel void count_ray_hits(__global const Parameters *parameters, __global con
   FOR_EACH_IN_RANGE(i)
   count_ray_hits_item(parameters, counts, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
                       hull_vertex, hull_plane, body_tree, tree_header, tree_frame, tree_node, tree_leaf,
-                      mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, leaf_body,
+                      mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, hierarchy_link, leaf_body,
                       query_body, query_filter, query_start, query_way, query_found, i);
 }
 
@@ -75,7 +78,8 @@ __kernel void write_ray_hits(__global const Parameters *parameters, __global con
                              __global const uint *tree_node, __global const uint *tree_leaf,
                              __global const row *mesh_vertex, __global const uint *mesh_triangle,
                              __global const row *body_position, __global const row *body_orientation,
-                             __global const row *hierarchy, __global const uint *leaf_body,
+                             __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                              __global const uint *query_body, __global const uint *query_filter,
                              __global const row *query_start, __global const row *query_way,
                              __global const uint *query_found, __global row *query_hit,
@@ -84,30 +88,32 @@ __kernel void write_ray_hits(__global const Parameters *parameters, __global con
   FOR_EACH_IN_RANGE(i)
   write_ray_hits_item(parameters, counts, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
                       hull_vertex, hull_plane, body_tree, tree_header, tree_frame, tree_node, tree_leaf,
-                      mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, leaf_body,
+                      mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, hierarchy_link, leaf_body,
                       query_body, query_filter, query_start, query_way, query_found, query_hit, query_point,
                       query_hit_body, i);
 }
 
 __kernel void count_box_hits(__global const uint *counts, __global const uint *body_traits,
-                             __global const row *hierarchy, __global const uint *leaf_body,
+                             __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                              __global const uint *query_body, __global const uint *query_filter,
                              __global const row *query_start, __global const row *query_way,
                              __global const row *query_extent, __global uint *query_found, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  count_box_hits_item(counts, body_traits, hierarchy, leaf_body, query_body, query_filter, query_start,
+  count_box_hits_item(counts, body_traits, hierarchy, hierarchy_link, leaf_body, query_body, query_filter, query_start,
                       query_way, query_extent, query_found, i);
 }
 
 __kernel void write_box_hits(__global const uint *counts, __global const uint *body_traits,
-                             __global const row *hierarchy, __global const uint *leaf_body,
+                             __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                              __global const uint *query_body, __global const uint *query_filter,
                              __global const row *query_start, __global const row *query_way,
                              __global const row *query_extent, __global const uint *query_found,
                              __global row *query_hit, __global uint *query_hit_body, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  write_box_hits_item(counts, body_traits, hierarchy, leaf_body, query_body, query_filter, query_start,
+  write_box_hits_item(counts, body_traits, hierarchy, hierarchy_link, leaf_body, query_body, query_filter, query_start,
                       query_way, query_extent, query_found, query_hit, query_hit_body, i);
 }

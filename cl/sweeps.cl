@@ -12,7 +12,8 @@ __kernel void sweep_shape(__global const Parameters *parameters, __global const 
                           __global const uint *tree_node, __global const uint *tree_leaf,
                           __global const row *mesh_vertex, __global const uint *mesh_triangle,
                           __global const row *body_position, __global const row *body_orientation,
-                          __global const row *hierarchy, __global const uint *leaf_body,
+                          __global const row *hierarchy, __global const uint *hierarchy_link,
+    __global const uint *leaf_body,
                           __global const uint *query_body, __global const uint *query_filter,
                           __global const row *query_start, __global const row *query_turn,
                           __global const row *query_way, __global const row *query_shape,
@@ -23,7 +24,7 @@ __kernel void sweep_shape(__global const Parameters *parameters, __global const 
   FOR_EACH_IN_RANGE(i)
   sweep_shape_item(parameters, counts, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
                    hull_vertex, hull_strip, body_tree, tree_header, tree_frame, tree_node, tree_leaf,
-                   mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, leaf_body,
+                   mesh_vertex, mesh_triangle, body_position, body_orientation, hierarchy, hierarchy_link, leaf_body,
                    query_body, query_filter, query_start, query_turn, query_way, query_shape, query_vertex,
                    query_strip, query_hit, query_point, query_hit_body, kind, vertices, i);
 }

@@ -188,7 +188,7 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
 void launch_query_hierarchy(StepLaunches &step)
 {
   step.run(Kernel::compute_query_bounds);
-  build_hierarchy(step);
+  build_hierarchy(step, false);
 }
 
 std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)

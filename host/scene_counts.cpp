@@ -13,7 +13,7 @@ namespace tandem {
 
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
 {
-  const uint32_t leaves = leaves_for(scene.bodies), blocks = (scene.bodies + SWEEP_BLOCK - 1) / SWEEP_BLOCK;
+  const uint32_t blocks = (scene.bodies + SWEEP_BLOCK - 1) / SWEEP_BLOCK;
   return {{COUNT_ZERO, 0},
           {COUNT_ONE, 1},
           {COUNT_BODIES, scene.bodies},
@@ -22,8 +22,6 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BOUNDED, scene.bodies - scene.boundless},
           {COUNT_LARGE, scene.large},
           {COUNT_SMALL, scene.bodies - scene.large},
-          {COUNT_LEAVES, leaves},
-          {COUNT_LEAF_TILES, std::max(leaves / TILE, 1u)},
           {COUNT_SHARES, SWEEP_SHARES * scene.bodies},
           {COUNT_SWEEP_BLOCKS, blocks},
           {COUNT_SWEEP_ITEMS, TILE * blocks},

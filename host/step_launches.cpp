@@ -16,6 +16,11 @@ void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const
   launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
 }
 
+void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
+}
+
 void StepLaunches::for_each_color(Kernel kernel, const std::vector<uint32_t> &values)
 {
   for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)

@@ -22,6 +22,8 @@ public:
   void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
   /* A kernel over [counts[first], counts[last]). */
   void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
+  void run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
   /* One launch a colour of constraints; those without a colour of their own are left to host/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
   /* The same, and `tail` over those without a colour. */

@@ -9,6 +9,7 @@
 
 #include "host/batch_fault.h"
 #include "host/body_buffers.h"
+#include "host/broadphases/broadphase.h"
 #include "host/broadphases/choice.h"
 #include "host/contact_events.h"
 #include "host/debug.h"
@@ -226,6 +227,7 @@ struct World::Implementation {
       throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
     }
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+    forget_kept(memory);
     place(wanted);
     guess_counts();
   }
@@ -251,6 +253,7 @@ struct World::Implementation {
     quarantined.push_back({body, scene.bodies[body].name, stages[code >> 28], statistics.steps});
     ++statistics.nonfinite;
     quarantine_body(memory, index);
+    forget_kept(memory);
   }
 
   /* Kernels of queries are built when they are first asked for, then kept. */

@@ -22,8 +22,13 @@ enum {
   COUNT_BOUNDED,       /* the bodies after them */
   COUNT_LARGE,         /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
   COUNT_SMALL,         /* the bodies after them */
-  COUNT_LEAVES,        /* room for leaves in a hierarchy of all bodies: a power of two, at least COUNT_BOUNDED; set by the host */
-  COUNT_LEAF_TILES,    /* nodes of it with TILE leaves each, at least 1 */
+  COUNT_HIERARCHY,     /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
+  COUNT_LEAVES,        /* leaves of the pyramid under it: a power of two, at least as many */
+  COUNT_LEAF_TILES,    /* nodes of that with TILE leaves each, at least 1 */
+  COUNT_FILED,         /* leaves whose order is made anew in this step: all, or none */
+  COUNT_STRAYS,        /* leaves that have left the boxes they were filed under */
+  COUNT_KEPT,          /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or bodies change */
+  COUNT_HIERARCHY_KEPT, /* the same of the order of the hierarchy */
   COUNT_PAIRS,         /* pairs kept: min(needed, capacity) */
   COUNT_PAIRS_NEEDED,  /* pairs found */
   COUNT_BODY_PAIRS,    /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */

@@ -37,6 +37,7 @@ typedef float4 row;
 #define ATOMIC_MIN(pointer, value) atomic_min((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or((pointer), (value))
 #define LOCAL_ADD(pointer, value) atomic_add((pointer), (value))
+#define LEADING_ZEROS(x) ((int)clz((uint)(x)))
 typedef unsigned short half_word;
 #define SQUARE_ROOT(x) sqrt(x)
 #define FLOAT_BITS(x) as_uint(x)
@@ -91,6 +92,7 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 #endif
 
 #define FLOAT_BITS(x) float_bits((float)(x))
+#define LEADING_ZEROS(x) __builtin_clz(x)
 #define ATOMIC_ADD(pointer, value) atomic_add_uint((pointer), (value))
 #define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))
 #define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))

@@ -25,15 +25,6 @@ void prepare(StepLaunches &step)
   step.run(Kernel::compute_bounds);
 }
 
-/* As in a step: what is kept is kept of whole steps alone, which finish_step tells from the others on the device. */
-void launch(StepLaunches &step, const Broadphase &broadphase)
-{
-  broadphase.launch(step);
-  if (!broadphase.commit) return;
-  step.run(Kernel::finish_step, {step.plan().colors});
-  broadphase.commit(step);
-}
-
 } // namespace
 
 BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend, uint32_t pairs)
@@ -56,18 +47,18 @@ void BroadphaseFrames::record_kernels()
   Recorder recorder;
   StepLaunches step(recorder, plan_, settings_);
   prepare(step);
-  launch(step, broadphase_);
+  broadphase_.launch(step);
   kernels_ = recorder.kernels;
   touched_ = recorder.touched;
   backend_.prepare(plan_.features, kernels_);
 }
 
-/* What a broadphase keeps from frame to frame stays, also where buffers grow. */
+/* What a broadphase keeps from frame to frame is lost, as in a world. */
 void BroadphaseFrames::allocate()
 {
   const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan_.capacity_pairs, .cells = plan_.capacity_cells, .features = plan_.features};
   for (size_t k = 0; k < buffer_count; ++k)
-    if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes), true);
+    if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes), buffer_at(k) < Buffer::bounds_sums);
 }
 
 void BroadphaseFrames::upload()
@@ -117,7 +108,7 @@ double BroadphaseFrames::find_pairs()
   prepare(step_);
   backend_.finish();
   const Clock::time_point start = Clock::now();
-  launch(step_, broadphase_);
+  broadphase_.launch(step_);
   backend_.finish();
   const double milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   memory_.download(Buffer::counts, plan_.known.data(), sizeof plan_.known);
@@ -130,6 +121,7 @@ void BroadphaseFrames::grow(uint32_t needed)
   record_kernels(); /* longer scans and sorts take other kernels */
   allocate();
   memory_.upload(Buffer::counts, &plan_.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
+  forget_kept(memory_);
   guess_counts();
 }
 

@@ -33,6 +33,12 @@ const Broadphase &broadphase_named(const std::string &name)
   throw std::logic_error("no broadphase '" + name + "'");
 }
 
+void forget_kept(Memory &memory)
+{
+  const uint32_t none = 0;
+  for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT}) memory.upload(Buffer::counts, &none, sizeof none, entry * sizeof none);
+}
+
 void find_extent(StepLaunches &step, bool hybrid)
 {
   step.run(Kernel::extent_tiles);

@@ -17,11 +17,13 @@ struct Broadphase {
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
-  void (*commit)(StepLaunches &step) = nullptr; /* keeps what the next step builds on; null for those that keep nothing */
 };
 
 std::span<const Broadphase> broadphases(); /* default first */
 const Broadphase &broadphase_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
+
+/* What is kept from the last launch no longer holds. */
+void forget_kept(Memory &memory);
 
 /* Each in the file of its kind. */
 void find_pairs_by_brute_force(StepLaunches &step);
@@ -39,9 +41,9 @@ void find_pairs_by_history(StepLaunches &step);
 void find_extent(StepLaunches &step, bool hybrid = false);
 /* The list from pair_key, in any order. */
 void pairs_from_keys(StepLaunches &step);
-/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. */
-void build_hierarchy(StepLaunches &step);
-/* The levels above its leaves, ten a launch. */
-void join_levels(StepLaunches &step);
+/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and becomes, a kept one. */
+void build_hierarchy(StepLaunches &step, bool keep);
+/* The boxes of its nodes, whose order and links stand. */
+void raise_boxes(StepLaunches &step);
 
 } // namespace tandem

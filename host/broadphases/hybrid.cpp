@@ -2,6 +2,7 @@
 #include <bit>
 
 #include "host/broadphases/broadphase.h"
+#include "shared/broadphase/curve_limits.h"
 
 namespace tandem {
 
@@ -10,9 +11,11 @@ void find_pairs_in_hybrid(StepLaunches &step)
   const uint32_t bodies = step.plan().bodies;
   find_extent(step, true);
   step.run(Kernel::large_keys);
-  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, 31);
-  step.run(Kernel::large_leaves);
-  join_levels(step);
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, CURVE_BITS + 1);
+  step.run_range(Kernel::copy, COUNT_ZERO, COUNT_BOUNDED, {}, {Buffer::sort_value, Buffer::leaf_body});
+  step.run(Kernel::plan_large);
+  step.run(Kernel::link_nodes);
+  raise_boxes(step);
   step.run(Kernel::large_count);
   step.run(Kernel::small_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, std::bit_width(step.plan().capacity_cells));

@@ -1,116 +1,160 @@
-/* hierarchy.h - a tree of boxes over all bodies of finite size, along a space-filling curve: the linear BVH.
+/* hierarchy.h - a tree of boxes over bodies of finite size along a space-filling curve: the linear BVH, built at once on the device.
  *
- * After the GPU tree of the 2009 talk, and Lauterbach and others, "Fast BVH construction on GPUs", 2009. Bodies are sorted by the
- * Morton code of their centres; a tree stands over the sorted list as a heap does over an array, so that no links are stored:
+ * After the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", 2012.
+ * Bodies are sorted by the Morton code of their centres (curve.h); every node holds a stretch of the list and splits it where the codes
+ * first differ, so that it also splits space. Each node finds its stretch by itself:
  *
- *                1                  node n: children 2 n and 2 n + 1, parent n / 2
- *           2         3             leaf i of the sorted list: node leaves + i
- *         4   5     6   7           behind the last body: empty boxes, which overlap nothing
- *        8 9 10 11 12 . . .
- *                                   The node after the subtree of n: n + 1, once n has been halved while it was odd: the
- *      bodies 9 2 0 4 7             skip index is arithmetic, and depth never exceeds the bits of the number of bodies.
+ *     code   00001 00010 00100 00101 10011 11000        stretch of inner node i: it starts or ends at place i, as far as codes share
+ *     place    0     1     2     3     4     5          more with code i than the neighbour on the other side does
+ *     inner  [0------------------------------5]         children of a node split between s and s + 1: whatever ends at s, and
+ *            [------- 3 -------]      [--4---]          whatever starts at s + 1: leaf or inner node of that number
+ *            [--1--]     [--2--]
  *
- * A node also knows the lowest number of a body below it: a body looks for those before it alone, and passes over the rest. Half-spaces,
- * which have no bounds to speak of, come first of all bodies and are tested against everything.
+ * Leaf i stands in slot 2 i, inner node i in slot 2 i + 1: neighbours on the curve are neighbours in memory. Links of a slot: its
+ * children, the slot after its subtree (the second child of whom it is the first child of), its parent.
+ *
+ * The order and the links are kept from step to step, and only the boxes made anew, until one body in sixteen has left the box it was
+ * filed under. A node also knows the lowest number of a body below it: a body looks for those before it alone, and passes over the
+ * rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are tested against everything.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_H
 
-#include "shared/broadphase/extent.h"
+#include "shared/broadphase/box_pyramid.h"
+#include "shared/broadphase/curve.h"
 
-/* The lowest body below a node, as a number that a real holds: exact to 2^24, rounded down from there on. */
-SHARED real lowest_as_real(uint body) { return to_real(body < 16777216u ? body : body & 0xffffff00u); }
+enum { LINK_FIRST, LINK_SECOND, LINK_AFTER, LINK_PARENT };
 
-typedef struct {
-  box_bounds box;
-  real lowest;
-} hierarchy_node;
+#define LINKS 4u
 
-SHARED hierarchy_node load_node(GLOBAL const row *nodes, uint node)
+SHARED uint leaf_slot(uint place) { return 2u * place; }
+SHARED uint inner_slot(uint node) { return 2u * node + 1u; }
+SHARED mask is_leaf_slot(uint slot) { return (slot & 1u) == 0u; }
+SHARED uint root_slot(GLOBAL const uint *counts)
 {
-  vec4 lower = load_row(nodes, 2u * node);
-  hierarchy_node n = {{xyz(lower), xyz(load_row(nodes, 2u * node + 1u))}, lower.w};
-  return n;
-}
-SHARED void store_node(GLOBAL row *nodes, uint node, hierarchy_node n)
-{
-  store_row(nodes, 2u * node, extend(n.box.lower, n.lowest));
-  store_row(nodes, 2u * node + 1u, extend(n.box.upper, R(0.0)));
+  uint leaves = counts[COUNT_HIERARCHY];
+  return leaves == 0u ? INDEX_NONE : leaves == 1u ? leaf_slot(0u) : inner_slot(0u);
 }
 
-SHARED hierarchy_node join_nodes(hierarchy_node a, hierarchy_node b)
+/* --- whether to file the bodies anew ------------------------------------------------------------------ */
+
+#define STRAYS_PER_REBUILD 16u
+
+/* Leaf i, filed in some step before this. */
+SHARED void count_strays_item(GLOBAL const row *bounds, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds, GLOBAL uint *counts, uint i)
 {
-  hierarchy_node n = {{lower_of(a.box.lower, b.box.lower), upper_of(a.box.upper, b.box.upper)}, minimum(a.lowest, b.lowest)};
-  return n;
+  if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
+  if (!bounds_overlap(load_bounds(bounds, leaf_body[i]), load_bounds(filed_bounds, i))) ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+}
+
+/* A tree over the first `leaves` of the sorted list: how large its pyramid is. */
+SHARED void set_leaves(GLOBAL uint *counts, uint leaves)
+{
+  uint room = 1u;
+  while (room < leaves) room = room * 2u;
+  counts[COUNT_HIERARCHY] = leaves;
+  counts[COUNT_LEAVES] = room;
+  counts[COUNT_LEAF_TILES] = room > TILE ? room / TILE : 1u;
+}
+
+/* keep: whether the order of the last step will do, if there is one. */
+SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
+{
+  (void)i;
+  uint leaves = counts[COUNT_BOUNDED];
+  uint stands = keep != 0u && counts[COUNT_HIERARCHY_KEPT] != 0u && counts[COUNT_STRAYS] * STRAYS_PER_REBUILD <= leaves ? 1u : 0u;
+  counts[COUNT_STRAYS] = 0u;
+  counts[COUNT_FILED] = stands != 0u ? 0u : leaves;
+  counts[COUNT_HIERARCHY_KEPT] = keep;
+  set_leaves(counts, leaves);
+}
+
+SHARED void file_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body, GLOBAL row *filed_bounds, uint i)
+{
+  uint body = sort_value[i];
+  leaf_body[i] = body;
+  store_row(filed_bounds, 2u * i, load_row(bounds, 2u * body));
+  store_row(filed_bounds, 2u * i + 1u, load_row(bounds, 2u * body + 1u));
 }
 
 /* --- building ----------------------------------------------------------------------------------------- */
 
-/* Spreads ten bits to every third. */
-SHARED uint spread_bits(uint x)
+typedef struct {
+  GLOBAL const uint *keys; /* sorted */
+  uint length;
+} sorted_codes;
+
+/* How many leading bits the codes of two places share; equal ones are told apart by their places. -1 outside the list. */
+SHARED int shared_bits(const sorted_codes *codes, uint place, int other)
 {
-  x = (x | x << 16) & 0x030000ffu;
-  x = (x | x << 8) & 0x0300f00fu;
-  x = (x | x << 4) & 0x030c30c3u;
-  return (x | x << 2) & 0x09249249u;
-}
-SHARED uint curve_cell(real offset, real scale)
-{
-  int cell = floor_to_int(offset * scale);
-  return cell < 0 ? 0u : cell < CURVE_CELLS ? (uint)cell : (uint)CURVE_CELLS - 1u;
+  if (other < 0 || other >= (int)codes->length) return -1;
+  uint difference = codes->keys[place] ^ codes->keys[other];
+  return difference != 0u ? LEADING_ZEROS(difference) : 32 + LEADING_ZEROS(place ^ (uint)other);
 }
 
-/* The frame is that of the small bodies; large ones beside it stand on its border. */
-SHARED uint curve_key(GLOBAL const row *grid, box_bounds box)
+/* How far from `place`, in steps of `direction` (1 or -1), at least `least` bits are shared; a power of two known to be too far. */
+SHARED int reach_of_bits(const sorted_codes *codes, uint place, int direction, int least, int too_far)
 {
-  vec4 frame = load_row(grid, 1u);
-  vec3 offset = subtract(scale(add(box.lower, box.upper), R(0.5)), xyz(frame));
-  return spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 | spread_bits(curve_cell(offset.z, frame.w));
+  int reach = 0;
+  for (int step = too_far / 2; step > 0; step = step / 2)
+    if (shared_bits(codes, place, (int)place + (reach + step) * direction) >= least) reach = reach + step;
+  return reach;
 }
 
-/* Body i of finite size. */
-SHARED void curve_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+typedef struct { uint first, last, split; } stretch;
+
+/* Of inner node i. */
+SHARED stretch stretch_of_node(const sorted_codes *codes, uint i)
 {
-  uint body = counts[COUNT_BOUNDLESS] + i;
-  sort_key[i] = curve_key(grid, load_bounds(bounds, body));
-  sort_value[i] = body;
+  int direction = shared_bits(codes, i, (int)i + 1) > shared_bits(codes, i, (int)i - 1) ? 1 : -1;
+  int least = shared_bits(codes, i, (int)i - direction) + 1, too_far = 2;
+  while (shared_bits(codes, i, (int)i + too_far * direction) >= least) too_far = too_far * 2;
+  int length = reach_of_bits(codes, i, direction, least, too_far);
+  int end = (int)i + length * direction;
+  int common = shared_bits(codes, i, end);
+  int reach = reach_of_bits(codes, i, direction, common + 1, too_far);
+  stretch s;
+  s.first = direction > 0 ? i : (uint)end;
+  s.last = direction > 0 ? (uint)end : i;
+  s.split = direction > 0 ? i + (uint)reach : i - (uint)reach - 1u;
+  return s;
 }
 
-/* body: INDEX_NONE for an empty leaf. */
-SHARED void store_leaf(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i, uint body)
+/* What comes after a subtree that ends at place `last`: the largest that starts behind it. */
+SHARED uint slot_after(const sorted_codes *codes, uint last)
 {
-  hierarchy_node leaf = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)}, BOUNDLESS};
-  if (body != INDEX_NONE) {
-    box_bounds box = load_bounds(bounds, body);
-    if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
-    leaf.lowest = lowest_as_real(body);
-  }
-  store_node(hierarchy, counts[COUNT_LEAVES] + i, leaf);
+  uint next = last + 1u;
+  if (next >= codes->length) return INDEX_NONE;
+  return shared_bits(codes, next, (int)next + 1) > shared_bits(codes, next, (int)last) ? inner_slot(next) : leaf_slot(next);
 }
 
-SHARED void hierarchy_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *hierarchy,
-                                  GLOBAL uint *leaf_body, uint i)
+/* Leaf i, and inner node i unless i is the last place. A parent is written by whoever has the child. */
+SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *hierarchy_link, GLOBAL uint *hierarchy_stretch, uint i)
 {
-  mask is_body = i < counts[COUNT_BOUNDED];
-  store_leaf(bounds, counts, hierarchy, i, is_body ? sort_value[i] : INDEX_NONE);
-  if (is_body) leaf_body[i] = sort_value[i];
+  sorted_codes codes = {sort_key, counts[COUNT_HIERARCHY]};
+  GLOBAL uint *leaf = hierarchy_link + LINKS * leaf_slot(i), *inner = leaf + LINKS;
+  leaf[LINK_FIRST] = leaf[LINK_SECOND] = INDEX_NONE;
+  leaf[LINK_AFTER] = slot_after(&codes, i);
+  if (i == 0u) hierarchy_link[LINKS * root_slot(counts) + LINK_PARENT] = INDEX_NONE;
+  if (i + 1u == codes.length) return;
+  stretch s = stretch_of_node(&codes, i);
+  uint first = s.split == s.first ? leaf_slot(s.split) : inner_slot(s.split);
+  uint second = s.split + 1u == s.last ? leaf_slot(s.split + 1u) : inner_slot(s.split + 1u);
+  inner[LINK_FIRST] = first;
+  inner[LINK_SECOND] = second;
+  inner[LINK_AFTER] = slot_after(&codes, s.last);
+  hierarchy_link[LINKS * first + LINK_PARENT] = hierarchy_link[LINKS * second + LINK_PARENT] = inner_slot(i);
+  hierarchy_stretch[2u * i] = s.first;
+  hierarchy_stretch[2u * i + 1u] = s.last;
 }
 
-/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level. */
-SHARED void hierarchy_levels_group(GLOBAL const uint *counts, GLOBAL row *hierarchy, uint height, LOCAL uint *local_memory, uint group)
+/* The boxes of leaf i and of inner node i. */
+SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i)
 {
-  (void)local_memory;
-  uint level = counts[COUNT_LEAVES] >> height, first = group * TILE;
-  uint width = first >= level ? 0u : level < TILE ? level / 2u : TILE / 2u;
-  for (; width > 0u; width /= 2u) {
-    level = level / 2u;
-    first = first / 2u;
-    FOR_EACH_ITEM(item, width)
-    {
-      uint node = level + first + item;
-      store_node(hierarchy, node, join_nodes(load_node(hierarchy, 2u * node), load_node(hierarchy, 2u * node + 1u)));
-    }
-  }
+  uint leaves = counts[COUNT_LEAVES];
+  store_box(hierarchy, leaf_slot(i), load_box(box_pyramid, leaves + i));
+  if (i + 1u < counts[COUNT_HIERARCHY])
+    store_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, hierarchy_stretch[2u * i], hierarchy_stretch[2u * i + 1u]));
 }
 
 #endif

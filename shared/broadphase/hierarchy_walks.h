@@ -1,8 +1,8 @@
 /* hierarchy_walks.h - three ways through the tree of hierarchy.h, and the pairs that they find: for the comparison that the talks make.
  *
- *   skip      a box that is missed is passed over by arithmetic: one number of state
+ *   skip      a box that is missed is passed over by the link behind its subtree: one number of state
  *   stack     the nodes still to come
- *   history   two bits a level: which children have been visited (2009 talk); up by halving the node
+ *   history   two bits a level: which children have been visited (2009 talk); up by the link to the parent
  *
  * Each finds the leaves that a box overlaps in the order of the curve; bodies sort what they find, so the list is the same.
  */
@@ -11,89 +11,84 @@
 
 #include "shared/broadphase/hierarchy.h"
 
-/* Of fewer than 2^31 bodies; a stack holds the second child of each level, and the root. */
-#define HIERARCHY_LEVELS 32u
+/* The bits of a code tell CURVE_BITS levels apart, those of the places of equal codes up to 31 more. */
+#define HIERARCHY_LEVELS 64u
 
 typedef struct {
   GLOBAL const row *nodes;
-  uint leaves; /* node of the first leaf */
+  GLOBAL const uint *links;
   box_bounds box;
   real before; /* bodies below this number are looked for */
 } hierarchy_search;
 
-SHARED mask search_hits(const hierarchy_search *search, uint node)
+SHARED uint link_of(const hierarchy_search *search, uint slot, uint link) { return search->links[LINKS * slot + link]; }
+
+SHARED mask search_hits(const hierarchy_search *search, uint slot)
 {
-  hierarchy_node n = load_node(search->nodes, node);
+  numbered_box n = load_box(search->nodes, slot);
   return n.lowest < search->before && bounds_overlap(search->box, n.box);
 }
 
-/* The first node, in the order of the curve, behind the subtree of `node`; 0 behind the last. */
-SHARED uint node_after(uint node)
-{
-  while ((node & 1u) != 0u) node = node >> 1;
-  return node == 0u ? 0u : node + 1u;
-}
-
-/* Each yields the next leaf that is hit, 0 behind the last. next: the node to look at. */
+/* Each yields the slot of the next leaf that is hit, INDEX_NONE behind the last. next: the slot to look at. */
 SHARED uint next_by_skipping(const hierarchy_search *search, uint *next)
 {
-  while (*next != 0u) {
-    uint node = *next;
-    mask hit = search_hits(search, node), is_leaf = node >= search->leaves;
-    *next = hit && !is_leaf ? 2u * node : node_after(node);
-    if (hit && is_leaf) return node;
+  while (*next != INDEX_NONE) {
+    uint slot = *next;
+    mask hit = search_hits(search, slot), is_leaf = is_leaf_slot(slot);
+    *next = link_of(search, slot, hit && !is_leaf ? LINK_FIRST : LINK_AFTER);
+    if (hit && is_leaf) return slot;
   }
-  return 0u;
+  return INDEX_NONE;
 }
 
 typedef struct {
-  uint node[HIERARCHY_LEVELS];
+  uint slot[HIERARCHY_LEVELS];
   uint height;
-} node_stack;
+} slot_stack;
 
-SHARED uint next_from_stack(const hierarchy_search *search, node_stack *stack)
+SHARED uint next_from_stack(const hierarchy_search *search, slot_stack *stack)
 {
   while (stack->height > 0u) {
     stack->height = stack->height - 1u;
-    uint node = stack->node[stack->height];
-    if (!search_hits(search, node)) continue;
-    if (node >= search->leaves) return node;
-    stack->node[stack->height] = 2u * node + 1u;
-    stack->node[stack->height + 1u] = 2u * node;
+    uint slot = stack->slot[stack->height];
+    if (!search_hits(search, slot)) continue;
+    if (is_leaf_slot(slot)) return slot;
+    stack->slot[stack->height] = link_of(search, slot, LINK_SECOND);
+    stack->slot[stack->height + 1u] = link_of(search, slot, LINK_FIRST);
     stack->height = stack->height + 2u;
   }
-  return 0u;
+  return INDEX_NONE;
 }
 
-/* visited: how many children of the node of each level, the root's in the lowest bits. */
+/* How many children of each node on the way down have been visited: that of the present one in the two lowest bits of `near`. */
 typedef struct {
-  uint node, level;
-  ulong visited;
+  uint slot;
+  ulong near, far;
 } history;
 
-/* Up to the parent; behind the root the node is 0. */
-SHARED void go_up(history *h)
+SHARED void go_up(const hierarchy_search *search, history *h)
 {
-  h->node = h->node >> 1;
-  h->level = h->level - 1u;
+  h->slot = link_of(search, h->slot, LINK_PARENT);
+  h->near = h->near >> 2 | h->far << 62;
+  h->far = h->far >> 2;
 }
-SHARED void go_down(history *h, uint child)
+SHARED void go_down(const hierarchy_search *search, history *h, uint link)
 {
-  h->visited += (ulong)1 << 2u * h->level;
-  h->level = h->level + 1u;
-  h->visited &= ~((ulong)3 << 2u * h->level);
-  h->node = 2u * h->node + child;
+  h->near = h->near + (ulong)1;
+  h->far = h->far << 2 | h->near >> 62;
+  h->near = h->near << 2;
+  h->slot = link_of(search, h->slot, link);
 }
 SHARED uint next_by_history(const hierarchy_search *search, history *h)
 {
-  while (h->node != 0u) {
-    uint node = h->node, visited = (uint)(h->visited >> 2u * h->level) & 3u;
-    mask hit = visited == 0u && search_hits(search, node), is_leaf = node >= search->leaves;
-    if (visited == 2u || is_leaf || (visited == 0u && !hit)) go_up(h);
-    else go_down(h, visited);
-    if (hit && is_leaf) return node;
+  while (h->slot != INDEX_NONE) {
+    uint slot = h->slot, visited = (uint)h->near & 3u;
+    mask hit = visited == 0u && search_hits(search, slot), is_leaf = is_leaf_slot(slot);
+    if (visited == 2u || is_leaf || (visited == 0u && !hit)) go_up(search, h);
+    else go_down(search, h, visited == 0u ? LINK_FIRST : LINK_SECOND);
+    if (hit && is_leaf) return slot;
   }
-  return 0u;
+  return INDEX_NONE;
 }
 
 /* Body of item i: neighbours in the launch are neighbours on the curve. */
@@ -107,32 +102,33 @@ SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777
 
 /* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of `search`. */
 #define VISIT_LEAVES(a, VISIT, NEXT)                                                         \
-  for (uint leaf = NEXT; leaf != 0u; leaf = NEXT) {                                          \
-    uint b = leaf_body[leaf - search.leaves];                                               \
+  for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                                  \
+    uint b = leaf_body[leaf / 2u];                                                           \
     if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b)          \
   }
 #define HIERARCHY_SEARCH(a, walk, VISIT)                                                     \
   {                                                                                          \
-    uint boundless = counts[COUNT_BOUNDLESS];                                                \
-    hierarchy_search search = {hierarchy, counts[COUNT_LEAVES], load_bounds(bounds, a), before_body(a)}; \
+    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                       \
+    hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(bounds, a), before_body(a)}; \
     for (uint b = 0u; b < boundless && b < a; ++b)                                           \
       if (bounds_overlap(search.box, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
     if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                  \
-      uint next = 1u;                                                                        \
+      uint next = root;                                                                      \
       VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                               \
     } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                              \
-      node_stack stack;                                                                      \
-      stack.node[0] = 1u;                                                                    \
+      slot_stack stack;                                                                      \
+      stack.slot[0] = root;                                                                  \
       stack.height = 1u;                                                                     \
       VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                               \
     } else if (a >= boundless) {                                                             \
-      history past = {1u, 0u, 0u};                                                           \
+      history past = {root, 0u, 0u};                                                         \
       VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                \
     }                                                                                        \
   }
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
+                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
+                                 GLOBAL const uint *counts,
                                  GLOBAL uint *pair_start, uint walk, uint i)
 {
   uint a = hierarchy_body(leaf_body, counts, i), found = 0u;
@@ -143,7 +139,8 @@ SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL con
 }
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
+                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
+                                 GLOBAL const uint *counts,
                                  GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint walk, uint i)
 {
   uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];

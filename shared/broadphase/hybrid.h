@@ -26,17 +26,17 @@ SHARED void large_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
 {
   uint body = counts[COUNT_BOUNDLESS] + i;
   box_bounds box = load_bounds(bounds, body);
-  sort_key[i] = is_small(grid, box) ? 1u << 30 : curve_key(grid, box);
+  sort_key[i] = is_small(grid, box) ? 1u << CURVE_BITS : curve_key(grid, box);
   sort_value[i] = body;
 }
 
-/* Leaves of small bodies are empty; they stand in the list all the same, which every body walks from. */
-SHARED void large_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
-                              GLOBAL row *hierarchy, GLOBAL uint *leaf_body, uint i)
+/* The hierarchy is that of the large ones alone, filed anew every step. */
+SHARED void plan_large_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
-  mask is_body = i < counts[COUNT_BOUNDED], is_large = is_body && sort_key[i] < 1u << 30;
-  store_leaf(bounds, counts, hierarchy, i, is_large ? sort_value[i] : INDEX_NONE);
-  if (is_body) leaf_body[i] = sort_value[i];
+  (void)i;
+  uint large = lower_bound_of(sort_key, counts[COUNT_BOUNDED], 1u << CURVE_BITS);
+  counts[COUNT_FILED] = large;
+  set_leaves(counts, large);
 }
 
 /* Small ones by cell, large ones behind the last. */
@@ -88,21 +88,22 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
 /* Calls VISIT(body, b) for each half-space and large body that body i may meet; two large ones meet once. Items along the curve. */
 #define LARGE_SEARCH(i, VISIT)                                                                                      \
   {                                                                                                                 \
-    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : leaf_body[i - boundless];                  \
-    hierarchy_search search = {hierarchy, counts[COUNT_LEAVES], load_bounds(bounds, body), BOUNDLESS};              \
+    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : leaf_body[i - boundless];                \
+    hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(bounds, body), BOUNDLESS};                    \
     mask small = is_small(grid, search.box);                                                                        \
     if (!small) search.before = before_body(body);                                                                  \
     for (uint b = 0u; b < boundless && b < body; ++b)                                                               \
       if (bounds_overlap(search.box, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
-    uint next = i < boundless ? 0u : 1u;                                                                            \
-    for (uint leaf = next_by_skipping(&search, &next); leaf != 0u; leaf = next_by_skipping(&search, &next)) {       \
-      uint b = leaf_body[leaf - search.leaves];                                                                     \
+    uint next = i < boundless ? INDEX_NONE : root_slot(counts);                                                     \
+    for (uint leaf = next_by_skipping(&search, &next); leaf != INDEX_NONE; leaf = next_by_skipping(&search, &next)) { \
+      uint b = leaf_body[leaf / 2u];                                                                                \
       if ((small || b < body) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b)        \
     }                                                                                                               \
   }
 
 SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                             GLOBAL const uint *leaf_body,
                              GLOBAL const uint *counts, GLOBAL uint *large_finds, uint i)
 {
   uint finds = 0u;
@@ -113,7 +114,8 @@ SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                             GLOBAL const uint *leaf_body,
                              GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];

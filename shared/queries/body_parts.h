@@ -10,6 +10,7 @@
 #include "shared/midphase/tree.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/queries/nearest.h"
+#include "shared/queries/ray_walk.h"
 
 /* What queries know of the scene, and of one another. */
 typedef struct {
@@ -18,8 +19,8 @@ typedef struct {
   GLOBAL const row *shapes, *poses, *positions, *orientations;
   hull_tables tables;
   tree_tables trees;
-  GLOBAL const row *hierarchy; /* of compute_query_bounds */
-  GLOBAL const uint *leaf_body, *query_body, *query_filter;
+  body_hierarchy hierarchy; /* of compute_query_bounds */
+  GLOBAL const uint *query_body, *query_filter;
   GLOBAL const row *query_start, *query_way;
 } query_scene;
 

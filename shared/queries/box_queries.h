@@ -14,8 +14,9 @@
 #include "shared/queries/ray_walk.h"
 
 typedef struct {
-  GLOBAL const uint *traits, *counts, *leaf_body, *query_body, *query_filter;
-  GLOBAL const row *hierarchy, *query_start, *query_way, *query_extent;
+  GLOBAL const uint *traits, *query_body, *query_filter;
+  body_hierarchy hierarchy;
+  GLOBAL const row *query_start, *query_way, *query_extent;
 } box_scene;
 
 /* Box i and the bodies it may meet: half-spaces, then the others. */
@@ -24,50 +25,52 @@ typedef struct {
   ray_walk walk;
 } box_walk;
 
-SHARED box_walk start_box_walk(const box_scene *scene, uint i)
+SHARED void start_box_walk(const box_scene *scene, uint i, box_walk *b)
 {
-  box_walk b;
-  b.query = i;
-  b.next_boundless = 0u;
-  b.walk = start_ray_walk(scene->hierarchy, scene->counts, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
-  return b;
+  b->query = i;
+  b->next_boundless = 0u;
+  start_ray_walk(&b->walk, scene->hierarchy, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
 }
 
 /* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds: it is always met. */
 SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction)
 {
   *fraction = R(0.0);
-  while (b->next_boundless < scene->counts[COUNT_BOUNDLESS]) {
+  while (b->next_boundless < scene->hierarchy.counts[COUNT_BOUNDLESS]) {
     uint body = b->next_boundless++;
     if (may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) return body;
   }
-  for (uint leaf = next_on_ray(&b->walk, R(1.0)); leaf != 0u; leaf = next_on_ray(&b->walk, R(1.0))) {
-    uint body = scene->leaf_body[leaf - b->walk.leaves];
+  for (uint leaf = next_on_ray(&b->walk, R(1.0)); leaf != INDEX_NONE; leaf = next_on_ray(&b->walk, R(1.0))) {
+    uint body = body_of_leaf(&b->walk, leaf);
     if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) continue;
-    *fraction = way_into_node(&b->walk, leaf, R(1.0));
+    *fraction = way_into_slot(&b->walk, leaf, R(1.0));
     if (*fraction < ENDLESS) return body;
   }
   return INDEX_NONE;
 }
 
-SHARED void count_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+SHARED void count_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                                GLOBAL const uint *leaf_body,
                                 GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
                                 GLOBAL const row *query_extent, GLOBAL uint *query_found, uint i)
 {
-  box_scene scene = {traits, counts, leaf_body, query_body, query_filter, hierarchy, query_start, query_way, query_extent};
-  box_walk b = start_box_walk(&scene, i);
+  box_scene scene = {traits, query_body, query_filter, {hierarchy, hierarchy_link, leaf_body, counts}, query_start, query_way, query_extent};
+  box_walk b;
+  start_box_walk(&scene, i, &b);
   real fraction;
   uint found = 0u;
   while (next_body_in_box(&scene, &b, &fraction) != INDEX_NONE) ++found;
   query_found[i] = found;
 }
 
-SHARED void write_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body,
+SHARED void write_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                                GLOBAL const uint *leaf_body,
                                 GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
                                 GLOBAL const row *query_extent, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint i)
 {
-  box_scene scene = {traits, counts, leaf_body, query_body, query_filter, hierarchy, query_start, query_way, query_extent};
-  box_walk b = start_box_walk(&scene, i);
+  box_scene scene = {traits, query_body, query_filter, {hierarchy, hierarchy_link, leaf_body, counts}, query_start, query_way, query_extent};
+  box_walk b;
+  start_box_walk(&scene, i, &b);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   real fraction;
   uint at = query_found[i];

@@ -29,27 +29,25 @@ typedef struct {
   ray_walk walk;
 } ray;
 
-SHARED ray load_ray(const query_scene *scene, GLOBAL const uint *counts, uint i)
+SHARED void load_ray(const query_scene *scene, uint i, ray *r)
 {
-  ray r;
   vec4 given = load_row(scene->query_way, i);
-  r.start = load_place(scene->query_start, i);
-  r.length = length_of(xyz(given));
-  r.reach = given.w;
-  r.farthest = minimum(given.w * r.length, ENDLESS);
-  r.direction = scale(xyz(given), R(1.0) / r.length);
-  r.query = i;
-  r.next_boundless = 0u;
-  r.walk = start_ray_walk(scene->hierarchy, counts, r.start, r.direction, make_vec3(R(0.0), R(0.0), R(0.0)));
-  return r;
+  r->start = load_place(scene->query_start, i);
+  r->length = length_of(xyz(given));
+  r->reach = given.w;
+  r->farthest = minimum(given.w * r->length, ENDLESS);
+  r->direction = scale(xyz(given), R(1.0) / r->length);
+  r->query = i;
+  r->next_boundless = 0u;
+  start_ray_walk(&r->walk, scene->hierarchy, r->start, r->direction, make_vec3(R(0.0), R(0.0), R(0.0)));
 }
 
 /* The next body that the ray may meet before `reach`, in m; INDEX_NONE behind the last. */
-SHARED uint next_body_on_ray(const query_scene *scene, GLOBAL const uint *counts, ray *r, real reach)
+SHARED uint next_body_on_ray(ray *r, real reach)
 {
-  if (r->next_boundless < counts[COUNT_BOUNDLESS]) return r->next_boundless++;
+  if (r->next_boundless < r->walk.tree.counts[COUNT_BOUNDLESS]) return r->next_boundless++;
   uint leaf = next_on_ray(&r->walk, reach);
-  return leaf == 0u ? INDEX_NONE : scene->leaf_body[leaf - r->walk.leaves];
+  return leaf == INDEX_NONE ? INDEX_NONE : body_of_leaf(&r->walk, leaf);
 }
 
 /* Where the ray first hits a body. */
@@ -58,10 +56,8 @@ SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, 
   first_hit nearest = nothing_hit();
   if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, r->query)) return nearest;
   vec3 center = seen_from(scene->positions, body, r->start), none = make_vec3(R(0.0), R(0.0), R(0.0));
-  mask endless = shape_of(scene->traits[body]) == (uint)SHAPE_HALF_SPACE;
   /* As long as the ray need be to pass the body: one without an end has no length to work with. */
   real way = minimum(reach, length_of(center) + load_row(scene->shapes, body).w);
-  if (!endless && !passes_near(center, scale(r->direction, way), load_row(scene->shapes, body).w)) return nearest;
   part_walk walk = walk_parts(scene, body, center, scale(r->direction, way), R(0.0));
   convex part;
   while (next_part(scene, &walk, &part))
@@ -72,22 +68,23 @@ SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, 
 #define QUERY_SCENE                                                                                                                        \
   {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,                                                       \
    {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}, \
-   hierarchy, leaf_body, query_body, query_filter, query_start, query_way}
+   {hierarchy, hierarchy_link, leaf_body, counts}, query_body, query_filter, query_start, query_way}
 #define QUERY_SCENE_PARAMETERS                                                                                                             \
   GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes, \
       GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *body_trees, \
       GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,       \
       GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,     \
-      GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,           \
+      GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter, \
       GLOBAL const row *query_start, GLOBAL const row *query_way
 
 SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint i)
 {
   query_scene scene = QUERY_SCENE;
-  ray r = load_ray(&scene, counts, i);
+  ray r;
+  load_ray(&scene, i, &r);
   first_hit nearest = nothing_hit();
   real reach = r.farthest;
-  for (uint body = next_body_on_ray(&scene, counts, &r, reach); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, reach)) {
+  for (uint body = next_body_on_ray(&r, reach); body != INDEX_NONE; body = next_body_on_ray(&r, reach)) {
     nearest = nearer_hit(nearest, hit_of_body(&scene, &r, body, reach));
     if (nearest.body != INDEX_NONE) reach = minimum(r.farthest, nearest.fraction * r.length);
   }
@@ -98,9 +95,10 @@ SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL
 SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint i)
 {
   query_scene scene = QUERY_SCENE;
-  ray r = load_ray(&scene, counts, i);
+  ray r;
+  load_ray(&scene, i, &r);
   uint found = 0u;
-  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE && found == 0u; body = next_body_on_ray(&scene, counts, &r, r.farthest))
+  for (uint body = next_body_on_ray(&r, r.farthest); body != INDEX_NONE && found == 0u; body = next_body_on_ray(&r, r.farthest))
     if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) found = 1u;
   query_found[i] = found;
 }
@@ -109,9 +107,10 @@ SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_fo
 SHARED void count_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint i)
 {
   query_scene scene = QUERY_SCENE;
-  ray r = load_ray(&scene, counts, i);
+  ray r;
+  load_ray(&scene, i, &r);
   uint found = 0u;
-  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, r.farthest))
+  for (uint body = next_body_on_ray(&r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&r, r.farthest))
     if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) ++found;
   query_found[i] = found;
 }
@@ -120,9 +119,10 @@ SHARED void write_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL const uint *query
                                 GLOBAL uint *query_hit_body, uint i)
 {
   query_scene scene = QUERY_SCENE;
-  ray r = load_ray(&scene, counts, i);
+  ray r;
+  load_ray(&scene, i, &r);
   uint at = query_found[i];
-  for (uint body = next_body_on_ray(&scene, counts, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, counts, &r, r.farthest)) {
+  for (uint body = next_body_on_ray(&r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&r, r.farthest)) {
     first_hit hit = hit_of_body(&scene, &r, body, r.farthest);
     if (hit.body != INDEX_NONE) store_hit(hit, query_hit, query_point, query_hit_body, at++);
   }

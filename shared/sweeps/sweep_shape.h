@@ -76,14 +76,15 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *strips,
                              GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
                              GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                             GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
+                             GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                             GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
                              GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
                              GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit, GLOBAL row *query_point,
                              GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint i)
 {
   query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,
                        {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves},
-                       hierarchy, leaf_body, query_body, query_filter, query_start, query_way};
+                       {hierarchy, hierarchy_link, leaf_body, counts}, query_body, query_filter, query_start, query_way};
   hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   place start = load_place(query_start, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
@@ -96,9 +97,10 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
   first_hit nearest = nothing_hit();
   for (uint body = 0u; body < counts[COUNT_BOUNDLESS]; ++body) nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
   real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
-  ray_walk walk = start_ray_walk(hierarchy, counts, start, way, make_vec3(slack, slack, slack));
-  for (uint leaf = next_on_ray(&walk, reach); leaf != 0u; leaf = next_on_ray(&walk, reach)) {
-    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, leaf_body[leaf - walk.leaves], i));
+  ray_walk walk;
+  start_ray_walk(&walk, scene.hierarchy, start, way, make_vec3(slack, slack, slack));
+  for (uint leaf = next_on_ray(&walk, reach); leaf != INDEX_NONE; leaf = next_on_ray(&walk, reach)) {
+    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body_of_leaf(&walk, leaf), i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
   store_hit(nearest, query_hit, query_point, query_hit_body, i);

@@ -61,8 +61,6 @@ void find_pairs_wrongly(StepLaunches &step)
   if (--frames_until_wrong == 0) step.run_range(Kernel::fill, COUNT_ZERO, COUNT_ONE, {7}, {Buffer::pair_b});
 }
 
-void keep_pairs(StepLaunches &step) { step.run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_b, Buffer::cached_b}); }
-
 } // namespace
 
 TEST_CASE("bench broadphase: all find the pairs that two loops count, in every frame", "[bench-broadphase]")
@@ -145,19 +143,6 @@ TEST_CASE("bench broadphase: a list that outgrows its room is found again with r
       CHECK(tight.pairs() == roomy.pairs());
       CHECK(tight.hash() == roomy.hash());
     }
-  }
-}
-
-TEST_CASE("bench broadphase: what a broadphase keeps is kept of whole frames", "[bench-broadphase]")
-{
-  const MovingBodies moving(broadphase_input_named("pile"), 500);
-  const std::unique_ptr<Backend> backend = make_backend("serial");
-  const Broadphase keeping{"keeping", "", find_pairs_in_grid, keep_pairs};
-  BroadphaseFrames frames(moving, keeping, *backend, 1);
-  for (uint32_t frame = 0; frame < 2; ++frame) {
-    frames.run(frame);
-    REQUIRE(frames.pairs() > 500);
-    CHECK(frames.memory().read<uint32_t>(Buffer::cached_b, frames.pairs()) == frames.memory().read<uint32_t>(Buffer::pair_b, frames.pairs()));
   }
 }
 

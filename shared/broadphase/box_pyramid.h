@@ -1,0 +1,88 @@
+/* box_pyramid.h - unions of the boxes of any stretch of a list, in as many loads as the stretch's length has bits.
+ *
+ *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node leaves + i.
+ *           2         3             Behind the list: empty boxes, which overlap nothing.
+ *         4   5     6   7
+ *        8 9 10 11 12 . . .         Places 1 to 4 are the nodes 9, 5 and 12.
+ *
+ * A tree over the list (hierarchy.h) takes the boxes of its nodes from here, all at once: no node waits for those below it, as it must
+ * where boxes are joined from the leaves up with flags and fences, which OpenCL 1.2 does not promise to work across work-groups.
+ * A box also knows the lowest number of a body in it.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
+#define TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
+
+#include "shared/broadphase/extent.h"
+
+/* The lowest body in a box, as a number that a real holds: exact to 2^24, rounded down from there on. */
+SHARED real lowest_as_real(uint body) { return to_real(body < 16777216u ? body : body & 0xffffff00u); }
+
+typedef struct {
+  box_bounds box;
+  real lowest;
+} numbered_box;
+
+SHARED numbered_box empty_box(void)
+{
+  numbered_box empty = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)}, BOUNDLESS};
+  return empty;
+}
+SHARED numbered_box load_box(GLOBAL const row *boxes, uint i)
+{
+  vec4 lower = load_row(boxes, 2u * i);
+  numbered_box b = {{xyz(lower), xyz(load_row(boxes, 2u * i + 1u))}, lower.w};
+  return b;
+}
+SHARED void store_box(GLOBAL row *boxes, uint i, numbered_box b)
+{
+  store_row(boxes, 2u * i, extend(b.box.lower, b.lowest));
+  store_row(boxes, 2u * i + 1u, extend(b.box.upper, R(0.0)));
+}
+SHARED numbered_box join_boxes(numbered_box a, numbered_box b)
+{
+  numbered_box joined = {{lower_of(a.box.lower, b.box.lower), upper_of(a.box.upper, b.box.upper)}, minimum(a.lowest, b.lowest)};
+  return joined;
+}
+
+/* Place i of a list of `length` bodies. */
+SHARED void pyramid_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *list, GLOBAL const uint *counts, GLOBAL row *pyramid, uint length, uint i)
+{
+  numbered_box leaf = empty_box();
+  if (i < counts[length]) {
+    box_bounds box = load_bounds(bounds, list[i]);
+    if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
+    leaf.lowest = lowest_as_real(list[i]);
+  }
+  store_box(pyramid, counts[COUNT_LEAVES] + i, leaf);
+}
+
+/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level. */
+SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL row *pyramid, uint height, LOCAL uint *local_memory, uint group)
+{
+  (void)local_memory;
+  uint level = counts[COUNT_LEAVES] >> height, first = group * TILE;
+  uint width = first >= level ? 0u : level < TILE ? level / 2u : TILE / 2u;
+  for (; width > 0u; width /= 2u) {
+    level = level / 2u;
+    first = first / 2u;
+    FOR_EACH_ITEM(item, width)
+    {
+      uint node = level + first + item;
+      store_box(pyramid, node, join_boxes(load_box(pyramid, 2u * node), load_box(pyramid, 2u * node + 1u)));
+    }
+  }
+}
+
+/* Of places first .. last. */
+SHARED numbered_box box_of_stretch(GLOBAL const row *pyramid, uint leaves, uint first, uint last)
+{
+  numbered_box all = empty_box();
+  uint left = leaves + first, right = leaves + last + 1u;
+  for (; left < right; left = left >> 1, right = right >> 1) {
+    if ((left & 1u) != 0u) all = join_boxes(all, load_box(pyramid, left++));
+    if ((right & 1u) != 0u) all = join_boxes(all, load_box(pyramid, --right));
+  }
+  return all;
+}
+
+#endif
