@@ -6,6 +6,7 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/grid_symmetric.h"
 #include "shared/broadphase/hybrid.h"
+#include "shared/broadphase/sap3.h"
 #include "shared/broadphase/sweep_window.h"
 #include "shared/broadphase/tight_bounds.h"
 
@@ -213,6 +214,80 @@ __kernel void window_write(__global const Parameters *parameters, __global const
   window_write_group(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end,
                      sweep_block, counts, share_start, pair_key, local_memory, GROUP_NUMBER);
   END_GROUP;
+}
+
+__kernel void axis_keys(__global const row *bounds, __global const uint *counts, __global uint *sort_key,
+                        __global uint *sort_value, uint axis, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  axis_keys_item(bounds, counts, sort_key, sort_value, axis, i);
+}
+
+__kernel void axis_places(__global const uint *sort_value, __global const uint *counts,
+                          __global uint *axis_order, __global uint *axis_place, uint axis, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  axis_places_item(sort_value, counts, axis_order, axis_place, axis, i);
+}
+
+__kernel void count_changes(__global const Parameters *parameters, __global const uint *body_traits,
+                            __global const uint *body_filter, __global const row *bounds,
+                            __global const uint *axis_order, __global const uint *axis_place,
+                            __global const row *kept_bounds, __global const uint *kept_order,
+                            __global const uint *kept_place, __global const uint *counts,
+                            __global uint *share_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  count_changes_item(parameters, body_traits, body_filter, bounds, axis_order, axis_place, kept_bounds,
+                     kept_order, kept_place, counts, share_start, i);
+}
+
+__kernel void total_changes(__global const uint *share_start, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  total_changes_item(share_start, counts, i);
+}
+
+__kernel void write_changes(__global const Parameters *parameters, __global const uint *body_traits,
+                            __global const uint *body_filter, __global const row *bounds,
+                            __global const uint *axis_order, __global const uint *axis_place,
+                            __global const row *kept_bounds, __global const uint *kept_order,
+                            __global const uint *kept_place, __global const uint *counts,
+                            __global const uint *share_start, __global ulong *pair_key, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  write_changes_item(parameters, body_traits, body_filter, bounds, axis_order, axis_place, kept_bounds,
+                     kept_order, kept_place, counts, share_start, pair_key, i);
+}
+
+__kernel void merge_count(__global const ulong *pair_key, __global const uint *kept_start,
+                          __global const uint *kept_b, __global const uint *counts,
+                          __global uint *pair_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  merge_count_item(pair_key, kept_start, kept_b, counts, pair_start, i);
+}
+
+__kernel void merge_write(__global const ulong *pair_key, __global const uint *kept_start,
+                          __global const uint *kept_b, __global const uint *counts,
+                          __global const uint *pair_start, __global uint *pair_a, __global uint *pair_b, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  merge_write_item(pair_key, kept_start, kept_b, counts, pair_start, pair_a, pair_b, i);
+}
+
+__kernel void keep_ends(__global const row *bounds, __global const uint *axis_order,
+                        __global const uint *axis_place, __global const uint *counts,
+                        __global row *kept_bounds, __global uint *kept_order, __global uint *kept_place, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  keep_ends_item(bounds, axis_order, axis_place, counts, kept_bounds, kept_order, kept_place, i);
+}
+
+__kernel void keep_or_forget(__global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  keep_or_forget_item(counts, i);
 }
 
 __kernel void count_strays(__global const row *bounds, __global const uint *leaf_body,

@@ -13,7 +13,7 @@ namespace {
 
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
-  const size_t sortable = std::max(sizes.bodies, sizes.pairs);
+  const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
   const size_t most_sorted = std::max(sortable, 2 * size_t{sizes.pairs}); /* incidences are sorted in buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;

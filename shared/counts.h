@@ -54,7 +54,10 @@ enum {
   COUNT_SHARES,        /* four times the bodies: work-items of the windowed sweep; set by the host */
   COUNT_SWEEP_BLOCKS,  /* groups of it, of SWEEP_BLOCK bodies each */
   COUNT_SWEEP_ITEMS,   /* TILE times as many: a group a block */
-  COUNT_HALVES,        /* twice the bodies: the two halves of the hybrid broadphase */
+  COUNT_HALVES,        /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
+  COUNT_CHANGES,       /* pairs that came or went since the last launch of an incremental broadphase: min(found, CAPACITY_PAIRS) */
+  COUNT_CHANGES_FOUND,
+  COUNT_KEPT,          /* 1 while what a broadphase keeps from step to step holds; the host clears it where buffers grow or a body is quarantined */
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_DIRECT_ISLANDS, /* islands that the solver `direct` solved in the last pass of the step */
   COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */

@@ -1,0 +1,57 @@
+/* endpoints.h - where boxes start and end along each axis, in sorted order: what the incremental sweep and prune compares with the
+ * order of the launch before.
+ *
+ * End e of so many bodies is the lower end of body e, or the upper end of body e - bodies:
+ *
+ *     axis -->    |--- 0 ---|
+ *                      |-- 1 --|
+ *     order:      0    1    2  3        (2 bodies: ends 2 and 3 are upper ones)
+ *     place:      0    1    2  3        of ends 0, 1, 2, 3
+ *
+ * Ends of equal value stay in the order of their numbers, since the sort is stable: lower ends come before upper ones, and boxes that
+ * touch overlap. So for two bodies a and b "a.lower <= b.upper" is "a's lower end stands before b's upper end", exactly, in floats.
+ * Orders and places are planes, one an axis, of all ends.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
+#define TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
+
+#include "shared/broadphase/sweep.h"
+
+SHARED uint body_of_end(uint end, uint bodies) { return end < bodies ? end : end - bodies; }
+
+/* What is no number overlaps nothing, as in bounds_overlap: it starts behind all ends and ends before all starts. */
+SHARED uint end_key(interval along, int is_lower)
+{
+  int is_number = along.start == along.start && along.end == along.end;
+  if (is_number) return sweep_key(is_lower ? along.start : along.end);
+  return is_lower ? 0xffffffffu : 0u;
+}
+
+SHARED void axis_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint axis, uint i)
+{
+  uint bodies = counts[COUNT_BODIES];
+  sort_key[i] = end_key(interval_along_axis(load_bounds(bounds, body_of_end(i, bodies)), axis), i < bodies);
+  sort_value[i] = i;
+}
+
+/* Both ways, since the sort's buffers are used again for the next axis: which end stands at a place, and the place of an end. */
+SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *axis_order, GLOBAL uint *axis_place, uint axis, uint i)
+{
+  uint plane = axis * counts[COUNT_HALVES], end = sort_value[i];
+  axis_order[plane + i] = end;
+  axis_place[plane + end] = i;
+}
+
+/* For the next launch: the orders, and the bounds, of which there are as many rows as ends. */
+SHARED void keep_ends_item(GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place, GLOBAL const uint *counts,
+                           GLOBAL row *kept_bounds, GLOBAL uint *kept_order, GLOBAL uint *kept_place, uint i)
+{
+  store_row(kept_bounds, i, load_row(bounds, i));
+  for (uint axis = 0; axis < 3u; ++axis) {
+    uint at = axis * counts[COUNT_HALVES] + i;
+    kept_order[at] = axis_order[at];
+    kept_place[at] = axis_place[at];
+  }
+}
+
+#endif
