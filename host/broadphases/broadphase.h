@@ -32,6 +32,7 @@ void find_pairs_in_half_the_cells(StepLaunches &step);
 void find_pairs_by_sweep(StepLaunches &step);
 void find_pairs_by_principal_sweep(StepLaunches &step);
 void find_pairs_by_plain_sweep(StepLaunches &step);
+void find_pairs_incrementally(StepLaunches &step);
 void find_pairs_in_hybrid(StepLaunches &step);
 void find_pairs_by_skipping(StepLaunches &step);
 void find_pairs_by_stack(StepLaunches &step);
@@ -39,6 +40,8 @@ void find_pairs_by_history(StepLaunches &step);
 
 /* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
 void find_extent(StepLaunches &step, bool hybrid = false);
+/* Sorts as many keys of pair_key as the entry of counts says. */
+void sort_pair_keys(StepLaunches &step, uint32_t length);
 /* The list from pair_key, in any order. */
 void pairs_from_keys(StepLaunches &step);
 /* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and becomes, a kept one. */
