@@ -6,6 +6,7 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/grid_symmetric.h"
 #include "shared/broadphase/hybrid.h"
+#include "shared/broadphase/near_pairs.h"
 #include "shared/broadphase/sap3.h"
 #include "shared/broadphase/sweep_window.h"
 #include "shared/broadphase/tight_bounds.h"
@@ -81,6 +82,13 @@ __kernel void lay_out(__global const Parameters *parameters, __global const row 
   lay_out_item(parameters, bounds_sums, grid, counts, hybrid, i);
 }
 
+__kernel void find_principal_direction(__global const row *bounds_sums, __global const uint *counts,
+                                       __global row *grid, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  find_principal_direction_item(bounds_sums, counts, grid, i);
+}
+
 __kernel void grid_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
                         __global uint *sort_key, __global uint *sort_value, RANGE)
 {
@@ -96,24 +104,23 @@ __kernel void grid_cells(__global const uint *sort_key, __global const uint *cou
 }
 
 __kernel void grid_count(__global const Parameters *parameters, __global const uint *body_traits,
-                         __global const uint *body_filter, __global const row *bounds,
-                         __global const row *grid, __global const uint *sort_value,
-                         __global const uint *cell_start, __global const uint *counts,
-                         __global uint *pair_start, RANGE)
+                         __global const uint *body_filter, __global const row *bounds, __global const row *grid,
+                         __global const uint *sort_value, __global const uint *cell_start,
+                         __global const uint *counts, __global uint *pair_start, __global uint *finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   grid_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
-                  pair_start, i);
+                  pair_start, finds, i);
 }
 
 __kernel void grid_write(__global const Parameters *parameters, __global const uint *body_traits,
-                         __global const uint *body_filter, __global const row *bounds,
-                         __global const row *grid, __global const uint *sort_value,
-                         __global const uint *cell_start, __global const uint *counts,
+                         __global const uint *body_filter, __global const row *bounds, __global const row *grid,
+                         __global const uint *sort_value, __global const uint *cell_start,
+                         __global const uint *finds, __global const uint *counts,
                          __global const uint *pair_start, __global uint *pair_a, __global uint *pair_b, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  grid_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
+  grid_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, finds, counts,
                   pair_start, pair_a, pair_b, i);
 }
 
@@ -121,22 +128,23 @@ __kernel void symmetric_count(__global const Parameters *parameters, __global co
                               __global const uint *body_filter, __global const row *bounds,
                               __global const row *grid, __global const uint *sort_value,
                               __global const uint *cell_start, __global const uint *counts,
-                              __global uint *sweep_start, RANGE)
+                              __global uint *sweep_start, __global uint *finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   symmetric_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
-                       sweep_start, i);
+                       sweep_start, finds, i);
 }
 
 __kernel void symmetric_write(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
                               __global const row *grid, __global const uint *sort_value,
-                              __global const uint *cell_start, __global const uint *counts,
-                              __global const uint *sweep_start, __global ulong *pair_key, RANGE)
+                              __global const uint *cell_start, __global const uint *finds,
+                              __global const uint *counts, __global const uint *sweep_start,
+                              __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  symmetric_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
-                       sweep_start, pair_key, i);
+  symmetric_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, finds,
+                       counts, sweep_start, pair_key, i);
 }
 
 __kernel void sweep_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
@@ -310,11 +318,11 @@ __kernel void curve_keys(__global const row *bounds, __global const row *grid, _
   curve_keys_item(bounds, grid, counts, sort_key, sort_value, i);
 }
 
-__kernel void file_leaves(__global const row *bounds, __global const uint *sort_value, __global uint *leaf_body,
+__kernel void file_leaves(__global const row *boxes, __global const uint *sort_value, __global uint *leaf_body,
                           __global row *filed_bounds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  file_leaves_item(bounds, sort_value, leaf_body, filed_bounds, i);
+  file_leaves_item(boxes, sort_value, leaf_body, filed_bounds, i);
 }
 
 __kernel void link_nodes(__global const uint *sort_key, __global const uint *counts,
@@ -324,47 +332,153 @@ __kernel void link_nodes(__global const uint *sort_key, __global const uint *cou
   link_nodes_item(sort_key, counts, hierarchy_link, hierarchy_stretch, i);
 }
 
-__kernel void pyramid_leaves(__global const row *bounds, __global const uint *list, __global const uint *counts,
-                             __global row *box_pyramid, uint length, RANGE)
+__kernel void pyramid_leaves(__global const row *boxes, __global const uint *leaf_body,
+                             __global const uint *counts, __global row *box_pyramid,
+                             __global uint *tile_changed, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  pyramid_leaves_item(bounds, list, counts, box_pyramid, length, i);
+  pyramid_leaves_item(boxes, leaf_body, counts, box_pyramid, tile_changed, i);
 }
 
-__kernel void pyramid_levels(__global const uint *counts, __global row *box_pyramid, uint height, RANGE)
+__kernel void pyramid_levels(__global const uint *counts, __global const uint *tile_changed,
+                             __global row *box_pyramid, uint height, RANGE)
 {
-  pyramid_levels_group(counts, box_pyramid, height, 0, GROUP_NUMBER);
+  pyramid_levels_group(counts, tile_changed, box_pyramid, height, 0, GROUP_NUMBER);
   END_GROUP;
 }
 
 __kernel void node_boxes(__global const row *box_pyramid, __global const uint *hierarchy_stretch,
-                         __global const uint *counts, __global row *hierarchy, RANGE)
+                         __global const uint *tile_changed, __global const uint *counts,
+                         __global row *hierarchy, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  node_boxes_item(box_pyramid, hierarchy_stretch, counts, hierarchy, i);
+  node_boxes_item(box_pyramid, hierarchy_stretch, tile_changed, counts, hierarchy, i);
+}
+
+__kernel void leave_fat_boxes(__global const Parameters *parameters, __global const row *bounds,
+                              __global const row *body_velocity, __global row *fat_bounds,
+                              __global uint *body_rest, __global uint *body_left, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  leave_fat_boxes_item(parameters, bounds, body_velocity, fat_bounds, body_rest, body_left, counts, i);
+}
+
+__kernel void plan_trees(__global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  plan_trees_item(counts, i);
+}
+
+__kernel void refit_leaves(__global const row *fat_bounds, __global const uint *body_left,
+                           __global const uint *leaf_body, __global const row *filed_bounds,
+                           __global uint *tile_changed, __global row *box_pyramid, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  refit_leaves_item(fat_bounds, body_left, leaf_body, filed_bounds, tile_changed, box_pyramid, counts, i);
+}
+
+__kernel void tree_keys(__global const uint *body_traits, __global const row *fat_bounds,
+                        __global const uint *body_rest, __global const row *grid, __global const uint *counts,
+                        __global uint *sort_key, __global uint *sort_value, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  tree_keys_item(body_traits, fat_bounds, body_rest, grid, counts, sort_key, sort_value, i);
+}
+
+__kernel void near_count(__global const Parameters *parameters, __global const uint *body_traits,
+                         __global const uint *body_filter, __global const row *fat_bounds,
+                         __global const uint *body_left, __global const row *hierarchy,
+                         __global const uint *hierarchy_link, __global const uint *leaf_body,
+                         __global const uint *counts, __global uint *sweep_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  near_count_item(parameters, body_traits, body_filter, fat_bounds, body_left, hierarchy, hierarchy_link,
+                  leaf_body, counts, sweep_start, i);
+}
+
+__kernel void count_near_keys(__global const uint *sweep_start, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  count_near_keys_item(sweep_start, counts, i);
+}
+
+__kernel void near_write(__global const Parameters *parameters, __global const uint *body_traits,
+                         __global const uint *body_filter, __global const row *fat_bounds,
+                         __global const uint *body_left, __global const row *hierarchy,
+                         __global const uint *hierarchy_link, __global const uint *leaf_body,
+                         __global const uint *counts, __global const uint *sweep_start,
+                         __global ulong *near_key, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  near_write_item(parameters, body_traits, body_filter, fat_bounds, body_left, hierarchy, hierarchy_link,
+                  leaf_body, counts, sweep_start, near_key, i);
+}
+
+__kernel void merge_near_count(__global const uint *body_left, __global const ulong *near_key,
+                               __global const uint *near_start, __global const uint *near_b,
+                               __global const uint *counts, __global uint *sweep_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  merge_near_count_item(body_left, near_key, near_start, near_b, counts, sweep_start, i);
+}
+
+__kernel void merge_near_write(__global const uint *body_left, __global const ulong *near_key,
+                               __global const uint *sweep_start, __global const uint *counts,
+                               __global uint *near_start, __global uint *near_b, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  merge_near_write_item(body_left, near_key, sweep_start, counts, near_start, near_b, i);
+}
+
+__kernel void turn_near_list(__global const uint *sweep_start, __global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  turn_near_list_item(sweep_start, counts, i);
+}
+
+__kernel void filter_near(__global const row *bounds, __global const uint *near_start,
+                          __global const uint *near_b, __global const uint *counts, __global uint *near_found,
+                          __global uint *pair_start, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  filter_near_item(bounds, near_start, near_b, counts, near_found, pair_start, i);
+}
+
+__kernel void take_near(__global const uint *near_start, __global const uint *near_found,
+                        __global const uint *pair_start, __global const uint *counts, __global uint *pair_a,
+                        __global uint *pair_b, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  take_near_item(near_start, near_found, pair_start, counts, pair_a, pair_b, i);
+}
+
+__kernel void keep_near(__global uint *counts, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+  keep_near_item(counts, i);
 }
 
 __kernel void hierarchy_count(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
                               __global const row *hierarchy, __global const uint *hierarchy_link,
-                              __global const uint *leaf_body,
-                              __global const uint *counts, __global uint *pair_start, uint walk, RANGE)
+                              __global const uint *leaf_body, __global const uint *counts,
+                              __global uint *pair_start, __global uint *finds, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body, counts, pair_start,
-                       walk, i);
+  hierarchy_count_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body,
+                       counts, pair_start, finds, walk, i);
 }
 
 __kernel void hierarchy_write(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
                               __global const row *hierarchy, __global const uint *hierarchy_link,
-                              __global const uint *leaf_body,
+                              __global const uint *leaf_body, __global const uint *finds,
                               __global const uint *counts, __global const uint *pair_start,
                               __global uint *pair_a, __global uint *pair_b, uint walk, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body, counts, pair_start,
-                       pair_a, pair_b, walk, i);
+  hierarchy_write_item(parameters, body_traits, body_filter, bounds, hierarchy, hierarchy_link, leaf_body,
+                       finds, counts, pair_start, pair_a, pair_b, walk, i);
 }
 
 __kernel void large_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
@@ -382,13 +496,13 @@ __kernel void plan_large(__global const uint *sort_key, __global uint *counts, R
 
 __kernel void large_count(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *hierarchy, __global const uint *hierarchy_link,
-                              __global const uint *leaf_body, __global const uint *counts,
-                          __global uint *large_finds, RANGE)
+                          __global const row *grid, __global const row *hierarchy,
+                          __global const uint *hierarchy_link, __global const uint *leaf_body,
+                          __global const uint *counts, __global uint *large_finds, __global uint *finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  large_count_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body, counts,
-                   large_finds, i);
+  large_count_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body,
+                   counts, large_finds, finds, i);
 }
 
 __kernel void small_keys(__global const row *bounds, __global const row *grid, __global const uint *counts,
@@ -402,11 +516,11 @@ __kernel void small_count(__global const Parameters *parameters, __global const 
                           __global const uint *body_filter, __global const row *bounds,
                           __global const row *grid, __global const uint *sort_value,
                           __global const uint *cell_start, __global const uint *counts,
-                          __global uint *small_finds, RANGE)
+                          __global uint *small_finds, __global uint *grid_finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   small_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
-                   small_finds, i);
+                   small_finds, grid_finds, i);
 }
 
 __kernel void join_finds(__global const uint *small_finds, __global const uint *large_finds,
@@ -418,24 +532,26 @@ __kernel void join_finds(__global const uint *small_finds, __global const uint *
 
 __kernel void large_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *hierarchy, __global const uint *hierarchy_link,
-                              __global const uint *leaf_body, __global const uint *counts,
+                          __global const row *grid, __global const row *hierarchy,
+                          __global const uint *hierarchy_link, __global const uint *leaf_body,
+                          __global const uint *finds, __global const uint *counts,
                           __global const uint *share_start, __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  large_write_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body, counts,
-                   share_start, pair_key, i);
+  large_write_item(parameters, body_traits, body_filter, bounds, grid, hierarchy, hierarchy_link, leaf_body,
+                   finds, counts, share_start, pair_key, i);
 }
 
 __kernel void small_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
                           __global const row *grid, __global const uint *sort_value,
-                          __global const uint *cell_start, __global const uint *counts,
-                          __global const uint *share_start, __global ulong *pair_key, RANGE)
+                          __global const uint *cell_start, __global const uint *grid_finds,
+                          __global const uint *counts, __global const uint *share_start,
+                          __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  small_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
-                   share_start, pair_key, i);
+  small_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, grid_finds,
+                   counts, share_start, pair_key, i);
 }
 
 __kernel void count_pairs(__global const uint *starts, __global uint *counts, uint length, RANGE)

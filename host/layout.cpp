@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "host/primitives.h"
+#include "shared/broadphase/near_limits.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
 
@@ -14,7 +15,7 @@ namespace {
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
-  const size_t most_sorted = std::max(sortable, 2 * size_t{sizes.pairs}); /* incidences are sorted in buffers of their own */
+  const size_t most_sorted = std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -40,6 +41,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::LEAVES: return leaves_for(sizes.bodies);
+  case Capacity::LEAF_TILES: return leaves_for(sizes.bodies) / TILE + 1;
+  case Capacity::NEAR_PAIRS: return size_t{NEAR_PER_PAIR} * sizes.pairs;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);

@@ -26,6 +26,8 @@ enum {
   COUNT_LEAVES,        /* leaves of the pyramid under it: a power of two, at least as many */
   COUNT_LEAF_TILES,    /* nodes of that with TILE leaves each, at least 1 */
   COUNT_FILED,         /* leaves whose order is made anew in this step: all, or none */
+  COUNT_FILED_LEAVES,  /* leaves of the pyramid in a step that does so */
+  COUNT_RAISED,        /* leaves above which boxes are made anew: all, or none */
   COUNT_STRAYS,        /* leaves that have left the boxes they were filed under */
   COUNT_KEPT,          /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or bodies change */
   COUNT_HIERARCHY_KEPT, /* the same of the order of the hierarchy */
@@ -55,9 +57,14 @@ enum {
   COUNT_SWEEP_BLOCKS,  /* groups of it, of SWEEP_BLOCK bodies each */
   COUNT_SWEEP_ITEMS,   /* TILE times as many: a group a block */
   COUNT_HALVES,        /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
+  COUNT_LEFT,          /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
+  COUNT_LARGE_LEFT,    /* COUNT_LARGE if one of these did */
+  COUNT_CHANGED,       /* all bodies if any did */
+  COUNT_NEAR_KEYS,     /* new pairs of fat boxes, as many as found room */
+  COUNT_NEAR_NEEDED,   /* the most that any list of them needed */
+  COUNT_NEAR_SIDE,     /* 0 or 1: the side of the kept list that holds */
   COUNT_CHANGES,       /* pairs that came or went since the last launch of an incremental broadphase: min(found, CAPACITY_PAIRS) */
   COUNT_CHANGES_FOUND,
-  COUNT_KEPT,          /* 1 while what a broadphase keeps from step to step holds; the host clears it where buffers grow or a body is quarantined */
   COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_DIRECT_ISLANDS, /* islands that the solver `direct` solved in the last pass of the step */
   COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */

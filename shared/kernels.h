@@ -23,6 +23,7 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/grid_symmetric.h"
 #include "shared/broadphase/hybrid.h"
+#include "shared/broadphase/near_pairs.h"
 #include "shared/broadphase/sap3.h"
 #include "shared/broadphase/sweep_window.h"
 #include "shared/broadphase/tight_bounds.h"

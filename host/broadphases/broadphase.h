@@ -28,6 +28,7 @@ void forget_kept(Memory &memory);
 /* Each in the file of its kind. */
 void find_pairs_by_brute_force(StepLaunches &step);
 void find_pairs_in_grid(StepLaunches &step);
+void find_pairs_in_bitonic_grid(StepLaunches &step);
 void find_pairs_in_half_the_cells(StepLaunches &step);
 void find_pairs_by_sweep(StepLaunches &step);
 void find_pairs_by_principal_sweep(StepLaunches &step);
@@ -37,16 +38,19 @@ void find_pairs_in_hybrid(StepLaunches &step);
 void find_pairs_by_skipping(StepLaunches &step);
 void find_pairs_by_stack(StepLaunches &step);
 void find_pairs_by_history(StepLaunches &step);
+void find_pairs_in_trees(StepLaunches &step);
 
 /* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
 void find_extent(StepLaunches &step, bool hybrid = false);
-/* Sorts as many keys of pair_key as the entry of counts says. */
-void sort_pair_keys(StepLaunches &step, uint32_t length);
+/* Sorts as many keys of pairs as the entry of counts says. */
+void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity);
 /* The list from pair_key, in any order. */
 void pairs_from_keys(StepLaunches &step);
 /* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and becomes, a kept one. */
 void build_hierarchy(StepLaunches &step, bool keep);
-/* The boxes of its nodes, whose order and links stand. */
-void raise_boxes(StepLaunches &step);
+/* The order and the links of its leaves, once they are sorted, and the boxes of its nodes. boxes: those that it is of; the ranges of the
+ * leaves and of the nodes are entries of counts. */
+void link_leaves(StepLaunches &step, Buffer boxes);
+void raise_boxes(StepLaunches &step, Buffer boxes, uint32_t leaves = COUNT_LEAVES, uint32_t nodes = COUNT_HIERARCHY);
 
 } // namespace tandem

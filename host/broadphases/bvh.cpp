@@ -19,13 +19,24 @@ void find_pairs_by(StepLaunches &step, uint32_t walk)
 
 } // namespace
 
-void raise_boxes(StepLaunches &step)
+void link_leaves(StepLaunches &step, Buffer boxes)
 {
-  const uint32_t most_leaves = leaves_for(step.plan().bodies);
-  step.run_at_most(Kernel::pyramid_leaves, most_leaves, {COUNT_HIERARCHY}, {Buffer::leaf_body});
-  for (const auto &[range, height] : {std::pair{COUNT_LEAVES, 0u}, {COUNT_LEAF_TILES, 10u}, {COUNT_ONE, 20u}})
-    step.launcher().launch({Kernel::pyramid_levels, {}, {height}, COUNT_ZERO, uint32_t(range), std::max(most_leaves >> height, 1u)});
-  step.run(Kernel::node_boxes);
+  step.run_at_most(Kernel::file_leaves, step.plan().bodies, {}, {boxes});
+  step.run_at_most(Kernel::link_nodes, step.plan().bodies);
+}
+
+void raise_boxes(StepLaunches &step, Buffer boxes, uint32_t leaves, uint32_t nodes)
+{
+  const uint32_t most = leaves_for(step.plan().bodies);
+  const auto levels = [&](uint32_t range, uint32_t height) {
+    step.launcher().launch({Kernel::pyramid_levels, {}, {height}, COUNT_ZERO, range, std::max(most >> height, 1u)});
+  };
+  step.launcher().launch({Kernel::pyramid_leaves, {boxes}, {}, COUNT_ZERO, leaves, most});
+  levels(COUNT_LEAVES, 0);
+  levels(COUNT_LEAF_TILES, 10);
+  levels(COUNT_ONE, 20);
+  step.launcher().launch({Kernel::node_boxes, {}, {}, COUNT_ZERO, nodes, step.plan().bodies});
+  step.run_range(Kernel::fill, COUNT_ZERO, COUNT_LEAF_TILES, {0}, {Buffer::tile_changed});
 }
 
 void build_hierarchy(StepLaunches &step, bool keep)
@@ -35,9 +46,8 @@ void build_hierarchy(StepLaunches &step, bool keep)
   find_extent(step);
   step.run_at_most(Kernel::curve_keys, bodies);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS);
-  step.run_at_most(Kernel::file_leaves, bodies);
-  step.run_at_most(Kernel::link_nodes, bodies);
-  raise_boxes(step);
+  link_leaves(step, Buffer::bounds);
+  raise_boxes(step, Buffer::bounds);
 }
 
 void find_pairs_by_skipping(StepLaunches &step) { find_pairs_by(step, WALK_BY_SKIPPING); }

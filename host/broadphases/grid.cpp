@@ -2,16 +2,29 @@
 #include <bit>
 
 #include "host/broadphases/broadphase.h"
+#include "host/primitives.h"
 
 namespace tandem {
 namespace {
 
-void sort_into_cells(StepLaunches &step)
+void begin_cells(StepLaunches &step)
 {
   find_extent(step);
   step.run(Kernel::grid_keys);
+}
+
+void sort_into_cells(StepLaunches &step)
+{
+  begin_cells(step);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
   step.run(Kernel::grid_cells, {COUNT_SMALL});
+}
+
+void search_cells(StepLaunches &step)
+{
+  step.run(Kernel::grid_count);
+  step.scan_pairs(Buffer::pair_start);
+  step.run(Kernel::grid_write);
 }
 
 } // namespace
@@ -19,9 +32,15 @@ void sort_into_cells(StepLaunches &step)
 void find_pairs_in_grid(StepLaunches &step)
 {
   sort_into_cells(step);
-  step.run(Kernel::grid_count);
-  step.scan_pairs(Buffer::pair_start);
-  step.run(Kernel::grid_write);
+  search_cells(step);
+}
+
+void find_pairs_in_bitonic_grid(StepLaunches &step)
+{
+  begin_cells(step);
+  bitonic_sort(step.launcher(), Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies);
+  step.run(Kernel::grid_cells, {COUNT_SMALL});
+  search_cells(step);
 }
 
 void find_pairs_in_half_the_cells(StepLaunches &step)

@@ -14,8 +14,8 @@ void find_pairs_in_hybrid(StepLaunches &step)
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, CURVE_BITS + 1);
   step.run_range(Kernel::copy, COUNT_ZERO, COUNT_BOUNDED, {}, {Buffer::sort_value, Buffer::leaf_body});
   step.run(Kernel::plan_large);
-  step.run(Kernel::link_nodes);
-  raise_boxes(step);
+  step.run_at_most(Kernel::link_nodes, bodies);
+  raise_boxes(step, Buffer::bounds);
   step.run(Kernel::large_count);
   step.run(Kernel::small_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, std::bit_width(step.plan().capacity_cells));

@@ -7,6 +7,7 @@ namespace {
 void sort_along_axis(StepLaunches &step, uint32_t principal)
 {
   find_extent(step);
+  if (principal) step.run(Kernel::find_principal_direction);
   step.run(Kernel::sweep_keys, {principal});
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, 32);
   step.run(Kernel::sweep_gather);

@@ -20,7 +20,7 @@ void find_changed_pairs(StepLaunches &step)
   exclusive_scan(step.launcher(), Buffer::share_start, Buffer::share_start, Buffer::scan_sums, COUNT_HALVES, 2 * step.plan().bodies);
   step.run(Kernel::total_changes);
   step.run(Kernel::write_changes);
-  sort_pair_keys(step, COUNT_CHANGES);
+  sort_pair_keys(step, Buffer::pair_key, Buffer::pair_key_other, COUNT_CHANGES, step.plan().capacity_pairs);
 }
 
 void merge_with_kept_pairs(StepLaunches &step)

@@ -44,24 +44,32 @@ SHARED numbered_box join_boxes(numbered_box a, numbered_box b)
   return joined;
 }
 
-/* Place i of a list of `length` bodies. */
-SHARED void pyramid_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *list, GLOBAL const uint *counts, GLOBAL row *pyramid, uint length, uint i)
+SHARED void store_leaf(GLOBAL row *pyramid, uint node, box_bounds box, uint body)
 {
   numbered_box leaf = empty_box();
-  if (i < counts[length]) {
-    box_bounds box = load_bounds(bounds, list[i]);
-    if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
-    leaf.lowest = lowest_as_real(list[i]);
-  }
-  store_box(pyramid, counts[COUNT_LEAVES] + i, leaf);
+  if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
+  leaf.lowest = lowest_as_real(body);
+  store_box(pyramid, node, leaf);
 }
 
-/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level. */
-SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL row *pyramid, uint height, LOCAL uint *local_memory, uint group)
+/* All leaves; tiles of them that have changed are told to those who build upon them. */
+SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL row *pyramid,
+                                GLOBAL uint *tile_changed, uint i)
+{
+  uint node = counts[COUNT_LEAVES] + i;
+  if (i % TILE == 0u) tile_changed[i / TILE] = 1u;
+  if (i < counts[COUNT_HIERARCHY]) store_leaf(pyramid, node, load_bounds(boxes, leaf_body[i]), leaf_body[i]);
+  else store_box(pyramid, node, empty_box());
+}
+
+/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if they changed. */
+SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL row *pyramid, uint height, LOCAL uint *local_memory,
+                                 uint group)
 {
   (void)local_memory;
   uint level = counts[COUNT_LEAVES] >> height, first = group * TILE;
   uint width = first >= level ? 0u : level < TILE ? level / 2u : TILE / 2u;
+  if (width > 0u && height == 0u && tile_changed[group] == 0u) width = 0u;
   for (; width > 0u; width /= 2u) {
     level = level / 2u;
     first = first / 2u;

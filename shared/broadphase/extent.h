@@ -192,17 +192,26 @@ SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL row *bounds_sum
   FOR_EACH_ITEM(first, 1u) store_extent_tile(bounds_sums, first, load_extent_local(extents, first));
 }
 
+SHARED covariance spread_of(extent whole, GLOBAL const uint *counts)
+{
+  uint bodies = counts[COUNT_SMALL];
+  return covariance_of(whole, (real)(bodies > 0u ? bodies : 1u));
+}
+
+/* One item, for the sweep along it. */
+SHARED void find_principal_direction_item(GLOBAL const row *bounds_sums, GLOBAL const uint *counts, GLOBAL row *grid, uint i)
+{
+  store_row(grid, 2u, extend(principal_direction(spread_of(load_extent_tile(bounds_sums, i), counts)), R(0.0)));
+}
+
 /* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
 SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint hybrid, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
-  uint bodies = counts[COUNT_SMALL];
-  if (bodies == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
+  if (counts[COUNT_SMALL] == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
   lay_out_grid(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
   lay_out_curve(whole, grid);
-  covariance spread = covariance_of(whole, (real)(bodies > 0u ? bodies : 1u));
-  counts[COUNT_SWEEP_AXIS] = widest_axis(spread);
-  store_row(grid, 2u, extend(principal_direction(spread), R(0.0)));
+  counts[COUNT_SWEEP_AXIS] = widest_axis(spread_of(whole, counts));
 }
 
 #endif

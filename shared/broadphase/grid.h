@@ -14,6 +14,7 @@
 #define TANDEM_SHARED_BROADPHASE_GRID_H
 
 #include "shared/broadphase/extent.h"
+#include "shared/broadphase/finds.h"
 #include "shared/parallel/search.h"
 
 typedef struct { int x, y, z; } grid_cell;
@@ -96,11 +97,10 @@ SHARED uint grid_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, 
 
 SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                            GLOBAL const uint *counts, GLOBAL uint *pair_start, uint i)
+                            GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
 {
-  uint a = grid_body(sort_value, counts, i);
-  uint found = 0;
-#define VISIT(b) ++found;
+  uint a = grid_body(sort_value, counts, i), found = 0u;
+#define VISIT(b) keep_find(finds, i, found++, b);
   GRID_SEARCH(a, VISIT)
 #undef VISIT
   pair_start[a] = found;
@@ -108,12 +108,16 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 
 SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                            GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint i)
+                            GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
+                            GLOBAL uint *pair_b, uint i)
 {
-  uint a = grid_body(sort_value, counts, i);
-  uint used = 0, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
+  uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
 #define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
-  GRID_SEARCH(a, VISIT)
+  if (found <= FINDS_KEPT) {
+    for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
+  } else {
+    GRID_SEARCH(a, VISIT)
+  }
 #undef VISIT
   sort_stretch(pair_b + first, used);
 }

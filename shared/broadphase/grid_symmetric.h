@@ -42,22 +42,23 @@ SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *co
 
 SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                                  GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                                 GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+                                 GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
 {
-  uint finds = 0;
-#define VISIT(body, b) ++finds;
+  uint found = 0u;
+#define VISIT(body, b) keep_find(finds, i, found++, b);
   SYMMETRIC_SEARCH(i, VISIT)
 #undef VISIT
-  sweep_start[i] = finds;
+  sweep_start[i] = found;
 }
 
 SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                                  GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                                 GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
+                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
+  uint to = sweep_start[i], end = sweep_start[i + 1u], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
-  SYMMETRIC_SEARCH(i, VISIT)
+  if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, grid_body(sort_value, counts, i), pair_key, to, end, capacity);
+  else SYMMETRIC_SEARCH(i, VISIT)
 #undef VISIT
 }
 

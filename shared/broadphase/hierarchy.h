@@ -67,14 +67,16 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
   counts[COUNT_FILED] = stands != 0u ? 0u : leaves;
   counts[COUNT_HIERARCHY_KEPT] = keep;
   set_leaves(counts, leaves);
+  counts[COUNT_FILED_LEAVES] = stands != 0u ? 0u : counts[COUNT_LEAVES];
 }
 
-SHARED void file_leaves_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body, GLOBAL row *filed_bounds, uint i)
+/* boxes: those that the tree is of. */
+SHARED void file_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body, GLOBAL row *filed_bounds, uint i)
 {
   uint body = sort_value[i];
   leaf_body[i] = body;
-  store_row(filed_bounds, 2u * i, load_row(bounds, 2u * body));
-  store_row(filed_bounds, 2u * i + 1u, load_row(bounds, 2u * body + 1u));
+  store_row(filed_bounds, 2u * i, load_row(boxes, 2u * body));
+  store_row(filed_bounds, 2u * i + 1u, load_row(boxes, 2u * body + 1u));
 }
 
 /* --- building ----------------------------------------------------------------------------------------- */
@@ -148,13 +150,16 @@ SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *coun
   hierarchy_stretch[2u * i + 1u] = s.last;
 }
 
-/* The boxes of leaf i and of inner node i. */
-SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i)
+/* The boxes of leaf i and of inner node i, unless the one tile that the node lies in is as it was. */
+SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch, GLOBAL const uint *tile_changed, GLOBAL const uint *counts,
+                            GLOBAL row *hierarchy, uint i)
 {
   uint leaves = counts[COUNT_LEAVES];
-  store_box(hierarchy, leaf_slot(i), load_box(box_pyramid, leaves + i));
-  if (i + 1u < counts[COUNT_HIERARCHY])
-    store_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, hierarchy_stretch[2u * i], hierarchy_stretch[2u * i + 1u]));
+  if (tile_changed[i / TILE] != 0u) store_box(hierarchy, leaf_slot(i), load_box(box_pyramid, leaves + i));
+  if (i + 1u >= counts[COUNT_HIERARCHY]) return;
+  uint first = hierarchy_stretch[2u * i], last = hierarchy_stretch[2u * i + 1u];
+  if (first / TILE == last / TILE && tile_changed[first / TILE] == 0u) return;
+  store_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, first, last));
 }
 
 #endif

@@ -9,6 +9,7 @@
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 
+#include "shared/broadphase/finds.h"
 #include "shared/broadphase/hierarchy.h"
 
 /* The bits of a code tell CURVE_BITS levels apart, those of the places of equal codes up to 31 more. */
@@ -128,11 +129,10 @@ SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                                  GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *counts,
-                                 GLOBAL uint *pair_start, uint walk, uint i)
+                                 GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
 {
   uint a = hierarchy_body(leaf_body, counts, i), found = 0u;
-#define VISIT(b) ++found;
+#define VISIT(b) keep_find(finds, i, found++, b);
   HIERARCHY_SEARCH(a, walk, VISIT)
 #undef VISIT
   pair_start[a] = found;
@@ -140,12 +140,16 @@ SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL con
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                                  GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *counts,
-                                 GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint walk, uint i)
+                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
+                                 GLOBAL uint *pair_b, uint walk, uint i)
 {
-  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], capacity = counts[CAPACITY_PAIRS];
+  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
 #define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
-  HIERARCHY_SEARCH(a, walk, VISIT)
+  if (found <= FINDS_KEPT) {
+    for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
+  } else {
+    HIERARCHY_SEARCH(a, walk, VISIT)
+  }
 #undef VISIT
   sort_stretch(pair_b + first, used);
 }

@@ -66,22 +66,23 @@ SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
 
 SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                              GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                             GLOBAL const uint *counts, GLOBAL uint *small_finds, uint i)
+                             GLOBAL const uint *counts, GLOBAL uint *small_finds, GLOBAL uint *grid_finds, uint i)
 {
-  uint finds = 0u;
-#define VISIT(body, b) ++finds;
+  uint found = 0u;
+#define VISIT(body, b) keep_find(grid_finds, i, found++, b);
   SMALL_SEARCH(i, VISIT)
 #undef VISIT
-  small_finds[i] = finds;
+  small_finds[i] = found;
 }
 
 SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                              GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                             GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
+                             GLOBAL const uint *grid_finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint to = share_start[2u * i], capacity = counts[CAPACITY_PAIRS];
+  uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i], end = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
-  SMALL_SEARCH(i, VISIT)
+  if (end - to <= FINDS_KEPT) write_kept_finds(grid_finds, i, i < boundless ? i : sort_value[i - boundless], pair_key, to, end, capacity);
+  else SMALL_SEARCH(i, VISIT)
 #undef VISIT
 }
 
@@ -104,23 +105,24 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
 SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                              GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
                              GLOBAL const uint *leaf_body,
-                             GLOBAL const uint *counts, GLOBAL uint *large_finds, uint i)
+                             GLOBAL const uint *counts, GLOBAL uint *large_finds, GLOBAL uint *finds, uint i)
 {
-  uint finds = 0u;
-#define VISIT(body, b) ++finds;
+  uint found = 0u;
+#define VISIT(body, b) keep_find(finds, i, found++, b);
   LARGE_SEARCH(i, VISIT)
 #undef VISIT
-  large_finds[i] = finds;
+  large_finds[i] = found;
 }
 
 SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
                              GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
                              GLOBAL const uint *leaf_body,
-                             GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
+                             GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint to = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
+  uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i + 1u], end = share_start[2u * i + 2u], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
-  LARGE_SEARCH(i, VISIT)
+  if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, i < boundless ? i : leaf_body[i - boundless], pair_key, to, end, capacity);
+  else LARGE_SEARCH(i, VISIT)
 #undef VISIT
 }
 

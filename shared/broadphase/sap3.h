@@ -25,19 +25,6 @@ typedef struct {
   uint kept, kept_end, change, change_end;
 } merging;
 
-/* The first place among so many sorted keys whose pair belongs to `body` or to one after it. */
-SHARED uint first_key_of(GLOBAL const ulong *keys, uint length, uint body)
-{
-  uint first = 0u, count = length;
-  while (count > 0u) {
-    uint skipped = count / 2u;
-    int is_before = (uint)(keys[first + skipped] >> 32) < body;
-    first = is_before ? first + skipped + 1u : first;
-    count = is_before ? count - skipped - 1u : skipped;
-  }
-  return first;
-}
-
 SHARED merging begin_merge(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b, GLOBAL const uint *counts, uint body)
 {
   uint changes = counts[COUNT_CHANGES];

@@ -1,0 +1,97 @@
+/* fat_boxes.h - boxes with room to move in, filed in a moving and a standing tree: the dynamic AABB trees of CPU engines, in parallel.
+ *
+ * After Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
+ *
+ *        +------------------+       A body keeps its fat box, the pairs that it makes with others, and its place in the tree, for as long
+ *        | +----+           |       as its bounds stay inside. One that leaves gets a new one, with a margin on all sides and a piece of
+ *        | |  o - - - >     |       the way ahead, and looks for pairs again: most steps, few do.
+ *        | +----+           |
+ *        +------------------+
+ *
+ * Fixed bodies, and those that have not left their boxes for RESTING_STEPS, stand: their codes sort behind those of all others, so that
+ * the root's children are the two trees. Those who leave look into both, in one walk. Boxes above a leaf are made anew where a leaf of
+ * the same tile of the list changed: tiles of the standing tree hardly ever. Bodies change trees, and the order is made anew, as soon as
+ * one leaf in sixteen has lost touch with the box that it was filed under (hierarchy.h).
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
+#define TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
+
+#include "shared/broadphase/hierarchy.h"
+
+#define RESTING_STEPS 32u
+#define STANDING (1u << CURVE_BITS)
+
+/* Of a body's mean size: beyond its bounds on each side, and the most that is added ahead of it for so many steps of its velocity. */
+#define FAT_MARGIN R(0.03125)
+#define FAT_WAY R(0.25)
+#define FAT_STEPS R(16.0)
+
+SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
+{
+  return outer_box.lower.x <= inner_box.lower.x && inner_box.upper.x <= outer_box.upper.x && outer_box.lower.y <= inner_box.lower.y &&
+         inner_box.upper.y <= outer_box.upper.y && outer_box.lower.z <= inner_box.lower.z && inner_box.upper.z <= outer_box.upper.z;
+}
+
+/* way: of one step. */
+SHARED box_bounds fattened(box_bounds box, vec3 way)
+{
+  vec3 extent = subtract(box.upper, box.lower);
+  real size = (extent.x + extent.y + extent.z) * R(0.33333334), most = FAT_WAY * size, margin = FAT_MARGIN * size;
+  vec3 ahead = make_vec3(clamped(FAT_STEPS * way.x, -most, most), clamped(FAT_STEPS * way.y, -most, most), clamped(FAT_STEPS * way.z, -most, most));
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), room = make_vec3(margin, margin, margin);
+  box_bounds fat = {add(subtract(box.lower, room), lower_of(ahead, none)), add(add(box.upper, room), upper_of(ahead, none))};
+  return fat;
+}
+
+SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds, GLOBAL const row *body_velocity, GLOBAL row *fat_bounds,
+                                 GLOBAL uint *body_rest, GLOBAL uint *body_left, GLOBAL uint *counts, uint i)
+{
+  box_bounds box = load_bounds(bounds, i);
+  if (counts[COUNT_KEPT] != 0u && box_inside(box, load_bounds(fat_bounds, i))) {
+    uint rest = body_rest[i];
+    body_left[i] = 0u;
+    body_rest[i] = rest < RESTING_STEPS ? rest + 1u : rest;
+    return;
+  }
+  box_bounds fat = fattened(box, scale(xyz(load_row(body_velocity, 2u * i)), parameters->step));
+  store_row(fat_bounds, 2u * i, extend(fat.lower, R(0.0)));
+  store_row(fat_bounds, 2u * i + 1u, extend(fat.upper, R(0.0)));
+  body_left[i] = 1u;
+  body_rest[i] = 0u;
+  ATOMIC_OR(&counts[COUNT_LEFT], i < counts[COUNT_LARGE] ? 3u : 1u);
+}
+
+/* What there is to do where any body left its box; nothing where none did. */
+SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  uint left = counts[COUNT_LEFT];
+  counts[COUNT_CHANGED] = left != 0u ? counts[COUNT_BODIES] : 0u;
+  counts[COUNT_RAISED] = left != 0u ? counts[COUNT_BOUNDED] : 0u;
+  counts[COUNT_LARGE_LEFT] = left > 1u ? counts[COUNT_LARGE] : 0u;
+  counts[COUNT_LEFT] = 0u;
+}
+
+/* Leaf i, where the order of the last step may still hold: its box in the pyramid, and the tile that changed. */
+SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *body_left, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds,
+                              GLOBAL uint *tile_changed, GLOBAL row *box_pyramid, GLOBAL uint *counts, uint i)
+{
+  if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
+  uint body = leaf_body[i];
+  if (body_left[body] == 0u) return;
+  box_bounds fat = load_bounds(fat_bounds, body);
+  if (!bounds_overlap(fat, load_bounds(filed_bounds, i))) ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+  ATOMIC_OR(&tile_changed[i / TILE], 1u);
+  store_leaf(box_pyramid, counts[COUNT_LEAVES] + i, fat, body);
+}
+
+SHARED void tree_keys_item(GLOBAL const uint *body_traits, GLOBAL const row *fat_bounds, GLOBAL const uint *body_rest, GLOBAL const row *grid,
+                           GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+{
+  uint body = counts[COUNT_BOUNDLESS] + i;
+  mask stands = motion_of(body_traits[body]) == (uint)MOTION_FIXED || body_rest[body] == RESTING_STEPS;
+  sort_key[i] = curve_key(grid, load_bounds(fat_bounds, body)) | (stands ? STANDING : 0u);
+  sort_value[i] = body;
+}
+
+#endif
