@@ -14,7 +14,9 @@
 namespace tandem {
 namespace {
 
-constexpr uint32_t warm_frames = 2, timed_frames = 9;
+/* More than the least while they are short: what is kept from frame to frame makes some cost more than others. */
+constexpr uint32_t warm_frames = 2, timed_frames = 9, most_timed_frames = 60;
+constexpr double enough_milliseconds = 500;
 constexpr uint32_t most_by_brute_force = 16384;  /* its work is that of the square */
 constexpr double longest_milliseconds = 5000;    /* of a frame: 11 of them are a minute */
 constexpr const char *oracle = "brute-force";
@@ -43,12 +45,13 @@ std::string reason_to_skip(const std::vector<BroadphaseRun> &smaller, const std:
 
 void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::function<void()> &after_frame)
 {
-  for (uint32_t frame = 0; frame < warm_frames + timed_frames; ++frame) {
+  double spent = 0;
+  for (uint32_t frame = 0; frame < warm_frames + timed_frames || (spent < enough_milliseconds && frame < warm_frames + most_timed_frames); ++frame) {
     const double milliseconds = frames.run(frame);
     run.pairs.push_back(frames.pairs());
     run.hashes.push_back(frames.hash());
-    after_frame();
-    if (frame >= warm_frames) run.milliseconds.push_back(milliseconds);
+    if (frame < warm_frames + timed_frames) after_frame();
+    if (frame >= warm_frames) run.milliseconds.push_back(milliseconds), spent += milliseconds;
     else if (frame + 1 == warm_frames && milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
       run.skipped = "too slow: stopped";
       return;

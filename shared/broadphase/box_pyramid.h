@@ -27,13 +27,13 @@ SHARED numbered_box empty_box(void)
   numbered_box empty = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)}, BOUNDLESS};
   return empty;
 }
-SHARED numbered_box load_box(GLOBAL const row *boxes, uint i)
+SHARED numbered_box load_numbered_box(GLOBAL const row *boxes, uint i)
 {
   vec4 lower = load_row(boxes, 2u * i);
   numbered_box b = {{xyz(lower), xyz(load_row(boxes, 2u * i + 1u))}, lower.w};
   return b;
 }
-SHARED void store_box(GLOBAL row *boxes, uint i, numbered_box b)
+SHARED void store_numbered_box(GLOBAL row *boxes, uint i, numbered_box b)
 {
   store_row(boxes, 2u * i, extend(b.box.lower, b.lowest));
   store_row(boxes, 2u * i + 1u, extend(b.box.upper, R(0.0)));
@@ -49,7 +49,7 @@ SHARED void store_leaf(GLOBAL row *pyramid, uint node, box_bounds box, uint body
   numbered_box leaf = empty_box();
   if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
   leaf.lowest = lowest_as_real(body);
-  store_box(pyramid, node, leaf);
+  store_numbered_box(pyramid, node, leaf);
 }
 
 /* All leaves; tiles of them that have changed are told to those who build upon them. */
@@ -59,7 +59,7 @@ SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf
   uint node = counts[COUNT_LEAVES] + i;
   if (i % TILE == 0u) tile_changed[i / TILE] = 1u;
   if (i < counts[COUNT_HIERARCHY]) store_leaf(pyramid, node, load_bounds(boxes, leaf_body[i]), leaf_body[i]);
-  else store_box(pyramid, node, empty_box());
+  else store_numbered_box(pyramid, node, empty_box());
 }
 
 /* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if they changed. */
@@ -76,7 +76,7 @@ SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *t
     FOR_EACH_ITEM(item, width)
     {
       uint node = level + first + item;
-      store_box(pyramid, node, join_boxes(load_box(pyramid, 2u * node), load_box(pyramid, 2u * node + 1u)));
+      store_numbered_box(pyramid, node, join_boxes(load_numbered_box(pyramid, 2u * node), load_numbered_box(pyramid, 2u * node + 1u)));
     }
   }
 }
@@ -87,8 +87,8 @@ SHARED numbered_box box_of_stretch(GLOBAL const row *pyramid, uint leaves, uint 
   numbered_box all = empty_box();
   uint left = leaves + first, right = leaves + last + 1u;
   for (; left < right; left = left >> 1, right = right >> 1) {
-    if ((left & 1u) != 0u) all = join_boxes(all, load_box(pyramid, left++));
-    if ((right & 1u) != 0u) all = join_boxes(all, load_box(pyramid, --right));
+    if ((left & 1u) != 0u) all = join_boxes(all, load_numbered_box(pyramid, left++));
+    if ((right & 1u) != 0u) all = join_boxes(all, load_numbered_box(pyramid, --right));
   }
   return all;
 }

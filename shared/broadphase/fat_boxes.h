@@ -21,10 +21,13 @@
 #define RESTING_STEPS 32u
 #define STANDING (1u << CURVE_BITS)
 
-/* Of a body's mean size: beyond its bounds on each side, and the most that is added ahead of it for so many steps of its velocity. */
+/* Beyond the bounds on each side, of a body's mean size. */
 #define FAT_MARGIN R(0.03125)
+/* Ahead, the way of FAT_STEPS to twice as many, not the same for all lest they leave together; at most so much of the body's mean size,
+ * or of the cell that the hybrid's grid has: what is small beside others may go far before it meets more of them. */
+#define FAT_STEPS 8u
 #define FAT_WAY R(0.25)
-#define FAT_STEPS R(16.0)
+#define FAT_WAY_OF_CELL R(0.125)
 
 SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
 {
@@ -32,14 +35,15 @@ SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
          inner_box.upper.y <= outer_box.upper.y && outer_box.lower.z <= inner_box.lower.z && inner_box.upper.z <= outer_box.upper.z;
 }
 
-/* way: of one step. */
-SHARED box_bounds fattened(box_bounds box, vec3 way)
+SHARED real fat_steps(uint body) { return to_real(FAT_STEPS + (body * 2654435761u >> 16) % FAT_STEPS); }
+
+/* ahead: the way that there is to be room for. cell: of the hybrid's grid, m. */
+SHARED box_bounds fattened(box_bounds box, vec3 ahead, real cell)
 {
-  vec3 extent = subtract(box.upper, box.lower);
-  real size = (extent.x + extent.y + extent.z) * R(0.33333334), most = FAT_WAY * size, margin = FAT_MARGIN * size;
-  vec3 ahead = make_vec3(clamped(FAT_STEPS * way.x, -most, most), clamped(FAT_STEPS * way.y, -most, most), clamped(FAT_STEPS * way.z, -most, most));
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), room = make_vec3(margin, margin, margin);
-  box_bounds fat = {add(subtract(box.lower, room), lower_of(ahead, none)), add(add(box.upper, room), upper_of(ahead, none))};
+  vec3 extent = subtract(box.upper, box.lower), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  real size = (extent.x + extent.y + extent.z) * R(0.33333334), margin = FAT_MARGIN * size, most = maximum(FAT_WAY * size, FAT_WAY_OF_CELL * cell);
+  vec3 room = make_vec3(margin, margin, margin), way = make_vec3(clamped(ahead.x, -most, most), clamped(ahead.y, -most, most), clamped(ahead.z, -most, most));
+  box_bounds fat = {add(subtract(box.lower, room), lower_of(way, none)), add(add(box.upper, room), upper_of(way, none))};
   return fat;
 }
 
@@ -53,7 +57,8 @@ SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL con
     body_rest[i] = rest < RESTING_STEPS ? rest + 1u : rest;
     return;
   }
-  box_bounds fat = fattened(box, scale(xyz(load_row(body_velocity, 2u * i)), parameters->step));
+  vec3 ahead = scale(xyz(load_row(body_velocity, 2u * i)), parameters->step * fat_steps(i));
+  box_bounds fat = fattened(box, ahead, parameters->hybrid_cell);
   store_row(fat_bounds, 2u * i, extend(fat.lower, R(0.0)));
   store_row(fat_bounds, 2u * i + 1u, extend(fat.upper, R(0.0)));
   body_left[i] = 1u;
@@ -61,13 +66,14 @@ SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL con
   ATOMIC_OR(&counts[COUNT_LEFT], i < counts[COUNT_LARGE] ? 3u : 1u);
 }
 
-/* What there is to do where any body left its box; nothing where none did. */
+/* What there is to do where any body left its box; nothing where none did. A query between steps takes the order of the trees for itself:
+ * then they are raised anew. */
 SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
 {
   (void)i;
   uint left = counts[COUNT_LEFT];
   counts[COUNT_CHANGED] = left != 0u ? counts[COUNT_BODIES] : 0u;
-  counts[COUNT_RAISED] = left != 0u ? counts[COUNT_BOUNDED] : 0u;
+  counts[COUNT_RAISED] = left != 0u || counts[COUNT_HIERARCHY_KEPT] == 0u ? counts[COUNT_BOUNDED] : 0u;
   counts[COUNT_LARGE_LEFT] = left > 1u ? counts[COUNT_LARGE] : 0u;
   counts[COUNT_LEFT] = 0u;
 }

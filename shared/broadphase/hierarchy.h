@@ -155,11 +155,11 @@ SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hi
                             GLOBAL row *hierarchy, uint i)
 {
   uint leaves = counts[COUNT_LEAVES];
-  if (tile_changed[i / TILE] != 0u) store_box(hierarchy, leaf_slot(i), load_box(box_pyramid, leaves + i));
+  if (tile_changed[i / TILE] != 0u) store_numbered_box(hierarchy, leaf_slot(i), load_numbered_box(box_pyramid, leaves + i));
   if (i + 1u >= counts[COUNT_HIERARCHY]) return;
   uint first = hierarchy_stretch[2u * i], last = hierarchy_stretch[2u * i + 1u];
   if (first / TILE == last / TILE && tile_changed[first / TILE] == 0u) return;
-  store_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, first, last));
+  store_numbered_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, first, last));
 }
 
 #endif

@@ -26,7 +26,7 @@ SHARED uint link_of(const hierarchy_search *search, uint slot, uint link) { retu
 
 SHARED mask search_hits(const hierarchy_search *search, uint slot)
 {
-  numbered_box n = load_box(search->nodes, slot);
+  numbered_box n = load_numbered_box(search->nodes, slot);
   return n.lowest < search->before && bounds_overlap(search->box, n.box);
 }
 

@@ -55,7 +55,7 @@ SHARED real way_into_box(const ray_walk *walk, box_bounds box, real reach)
 /* Empty boxes, turned inside out, would seem endless. */
 SHARED real way_into_slot(const ray_walk *walk, uint slot, real reach)
 {
-  numbered_box n = load_box(walk->tree.nodes, slot);
+  numbered_box n = load_numbered_box(walk->tree.nodes, slot);
   return n.lowest < BOUNDLESS ? way_into_box(walk, n.box, reach) : ENDLESS;
 }
 

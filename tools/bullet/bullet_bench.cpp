@@ -29,7 +29,7 @@ constexpr uint32_t warm_frames = 2;
 
 struct Options {
   std::string on = "tbb:threads=2", bodies = "100000", frames = "60";
-  std::vector<std::string> broadphases = {"grid", "bvh"};
+  std::vector<std::string> broadphases = {"grid", "trees"};
 };
 
 /* Checked. */

@@ -124,7 +124,10 @@ constexpr Kind kinds[] = {{"one size", of_one_size, true},   {"all sizes", of_al
 constexpr uint32_t most_by_brute_force = 10000;
 
 /* Those that take n log n whatever the soup. */
-bool never_crowds(const Broadphase &broadphase) { return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping; }
+bool never_crowds(const Broadphase &broadphase)
+{
+  return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping || broadphase.launch == find_pairs_in_trees;
+}
 
 void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected, bool suits_all = true)
 {
@@ -194,7 +197,7 @@ TEST_CASE("a body that is not finite has no pairs, and spoils no others")
     if (pair.first != 100 && pair.second != 100) expected.push_back(pair);
   SoupRunner runner(make_backend("serial"));
   runner.take(soup);
-  for (const char *name : {"brute-force", "bvh", "bvh-stack", "bvh-history"}) {
+  for (const char *name : {"brute-force", "sap3", "bvh", "bvh-stack", "bvh-history", "trees"}) {
     CAPTURE(name);
     CHECK(runner.find(broadphase_named(name)) == expected);
   }
@@ -207,7 +210,7 @@ TEST_CASE("ten million pairs in one place grow the list, and all are there")
   for (uint32_t i = 0; i < 4600; ++i) soup.add({0, 0, 0}, {float(random.uniform(0.5, 1)), 1, 1});
   SoupRunner runner(make_backend("tbb"));
   runner.take(soup);
-  for (const char *name : {"grid", "sap", "bvh"}) {
+  for (const char *name : {"grid", "sap", "sap3", "bvh", "trees"}) {
     CAPTURE(name);
     const BodyPairs found = runner.find(broadphase_named(name));
     REQUIRE(found.size() == 4600u * 4599u / 2);

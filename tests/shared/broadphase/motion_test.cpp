@@ -1,0 +1,150 @@
+/* Broadphases that keep something from step to step find the oracle's pairs in every one of 200: boxes that drift, race, jump across the
+ * world, stand and start again, grow and shrink, leave the numbers; and what came and went is what the oracle says, step by step. */
+#include "tests/shared/broadphase/soup.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/opencl/device_backend.h"
+#include "tests/host/opencl_device.h"
+#include "tests/parity/parity.h"
+
+using namespace tandem;
+
+namespace {
+
+/* A soup that moves. Places are whole multiples of `grain` where it is not 0, so that many ends fall together. */
+class MovingSoup {
+public:
+  MovingSoup(uint32_t n, double speed, double grain, uint64_t seed) : random_(seed), speed_(speed), grain_(grain), side_(std::cbrt(2.0 * n))
+  {
+    soup.add_half_space();
+    for (uint32_t i = 0; i < n; ++i) {
+      center_.push_back({random_.uniform(0, side_), random_.uniform(0, side_), random_.uniform(0, side_)});
+      half_.push_back({i % 50 == 0 ? 0.0 : random_.uniform(0.3, 0.5), i % 40 == 0 ? 4.0 : 0.4, random_.uniform(0.3, 0.5)});
+      way_.push_back({0, 0, 0});
+      soup.add({0, 0, 0}, {0, 0, 0}, random_.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, 1u << random_.below(3), random_.below(8) == 0 ? 2u : 0xffffffffu);
+    }
+    soup.large = 1 + std::min(n, 3u);
+    place();
+  }
+
+  /* Most stand for a while, then start; a few jump; one leaves the numbers for some steps. */
+  void move(uint32_t step)
+  {
+    for (size_t i = 0; i < center_.size(); ++i) {
+      if (random_.below(10) == 0) way_[i] = random_.below(2) ? std::array<double, 3>{0, 0, 0} : any_way();
+      const bool everyone_rests = step % 100 > 50;
+      for (size_t axis = 0; axis < 3; ++axis) center_[i][axis] += everyone_rests && i % 16 != 0 ? 0 : way_[i][axis];
+      if (random_.below(400) == 0) center_[i] = {random_.uniform(-side_, 2 * side_), random_.uniform(0, side_), random_.uniform(0, side_)};
+      if (random_.below(400) == 0) half_[i][1] = random_.uniform(0, 3);
+    }
+    lost_ = step % 20 < 5 ? step / 20 % uint32_t(center_.size()) : uint32_t(center_.size());
+    place();
+  }
+
+  std::vector<row> velocities() const
+  {
+    std::vector<row> rows(2 * soup.size(), row{0, 0, 0, 0});
+    for (size_t i = 0; i < way_.size(); ++i) rows[2 * (i + 1)] = {float(way_[i][0]), float(way_[i][1]), float(way_[i][2]), 1};
+    return rows;
+  }
+
+  Soup soup;
+
+private:
+  std::array<double, 3> any_way() { return {random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_)}; }
+  double on_grain(double x) const { return grain_ > 0 ? grain_ * std::floor(x / grain_) : x; }
+
+  void place()
+  {
+    for (uint32_t i = 0; i < center_.size(); ++i) {
+      row &low = soup.bounds[2 * (i + 1)], &high = soup.bounds[2 * (i + 1) + 1];
+      const auto &c = center_[i], &h = half_[i];
+      low = {float(on_grain(c[0] - h[0])), float(on_grain(c[1] - h[1])), float(on_grain(c[2] - h[2])), 0};
+      high = {float(on_grain(c[0] + h[0])), float(on_grain(c[1] + h[1])), float(on_grain(c[2] + h[2])), 0};
+      if (i == lost_) low.y = std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+
+  Random random_;
+  double speed_, grain_, side_;
+  uint32_t lost_ = 0xffffffffu;
+  std::vector<std::array<double, 3>> center_, half_, way_;
+};
+
+/* NaN has no place in the oracle's order. */
+BodyPairs pairs_of(const Soup &soup)
+{
+  Soup finite = soup;
+  for (uint32_t i = 0; i < soup.size(); ++i)
+    if (std::isnan(soup.bounds[2 * i].y)) finite.bounds[2 * i] = finite.bounds[2 * i + 1] = {1e29f + 1e25f * float(i), 1e29f, 1e29f, 0};
+  BodyPairs pairs = expected_pairs(finite);
+  std::erase_if(pairs, [&](const auto &pair) { return std::isnan(soup.bounds[2 * pair.first].y) || std::isnan(soup.bounds[2 * pair.second].y); });
+  return pairs;
+}
+
+BodyPairs without(const BodyPairs &all, const BodyPairs &some)
+{
+  BodyPairs rest;
+  std::set_difference(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(rest));
+  return rest;
+}
+
+/* Steps of motion: the pairs of each, those that came and those that went. */
+void check_motion(SoupRunner &runner, const char *broadphase, uint32_t n, double speed, double grain, uint32_t steps)
+{
+  MovingSoup moving(n, speed, grain, 17);
+  runner.take(moving.soup);
+  BodyPairs before, expected_before;
+  size_t came = 0, went = 0;
+  for (uint32_t step = 0; step < steps; ++step) {
+    CAPTURE(broadphase, runner.name(), n, speed, grain, step);
+    runner.move_to(moving.soup, moving.velocities());
+    const BodyPairs found = runner.find(broadphase_named(broadphase)), expected = pairs_of(moving.soup);
+    REQUIRE(found == expected);
+    const BodyPairs added = without(found, before), removed = without(before, found);
+    REQUIRE(added == without(expected, expected_before));
+    REQUIRE(removed == without(expected_before, expected));
+    if (step > 0) came += added.size(), went += removed.size();
+    before = found;
+    expected_before = expected;
+    moving.move(step);
+  }
+  if (n < 100) return;
+  CHECK(came > 100);
+  CHECK(went > 100);
+}
+
+constexpr const char *keeping[] = {"sap3", "trees", "bvh", "bvh-history"};
+
+} // namespace
+
+TEST_CASE("broadphases that keep something are right in each of two hundred steps of motion", "[motion]")
+{
+  const char *backend = GENERATE("serial", "serial:order=backward", "tbb:threads=3");
+  SoupRunner runner(make_backend(backend));
+  for (const char *broadphase : keeping)
+    for (const double speed : {0.01, 0.4}) {
+      for (const uint32_t n : {1u, 2u, 40u}) check_motion(runner, broadphase, n, speed, 0, 60);
+      check_motion(runner, broadphase, 500, speed, 0, 200);
+      check_motion(runner, broadphase, 300, speed, 0.25, 200);
+    }
+}
+
+TEST_CASE("broadphases that keep something are right among many", "[motion]")
+{
+  SoupRunner runner(make_backend("tbb"));
+  for (const char *broadphase : keeping) check_motion(runner, broadphase, 20000, 0.02, 0, 40);
+}
+
+TEST_CASE("broadphases on OpenCL that keep something are right in each step of motion", "[motion]")
+{
+  if (!parity::has_pocl()) return;
+  SoupRunner runner(make_backend("cl:pocl"));
+  for (const char *broadphase : keeping) {
+    check_motion(runner, broadphase, 2, 0.1, 0, 20);
+    check_motion(runner, broadphase, 400, 0.1, 0, 200);
+  }
+}
