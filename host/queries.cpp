@@ -51,9 +51,10 @@ void make_room_for_hits(Memory &memory, size_t hits)
   memory.resize(Buffer::query_hit_body, hits * sizeof(uint32_t));
 }
 
-/* A kernel over all queries. */
-void launch(const QueryTarget &target, Kernel kernel, size_t queries, const std::vector<uint32_t> &values = {})
+/* A kernel over all queries; the structure is the last value of each. */
+void launch(const QueryTarget &target, Kernel kernel, size_t queries, std::vector<uint32_t> values = {})
 {
+  values.push_back(target.structure);
   target.launcher.launch({kernel, {}, values, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(queries)});
 }
 
@@ -185,10 +186,11 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
   }
 }
 
-void launch_query_hierarchy(StepLaunches &step)
+void launch_query_structure(StepLaunches &step, uint32_t structure)
 {
   step.run(Kernel::compute_query_bounds);
-  build_hierarchy(step, false);
+  if (structure == QUERY_HIERARCHY) build_hierarchy(step, false);
+  if (structure == QUERY_GRID) sort_into_cells(step);
 }
 
 std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)

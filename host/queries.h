@@ -1,7 +1,7 @@
 /* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays and those after it.
  *
- * A hierarchy of boxes around the bodies as they stand is built for the first query after a step (shared/broadphase/hierarchy.h), and
- * walked by every query. Of bodies hit at one place the one of the lower index counts as nearest. A query and a body must accept each
+ * Boxes around the bodies as they stand, and the structure of the broadphase over them, are made for the first query after a step; every
+ * query walks it (shared/queries/body_walk.h). Which structure it is changes no bit of an answer. Of bodies hit at one place the one of the lower index counts as nearest. A query and a body must accept each
  * other's groups, as two bodies must. Quarantined bodies are not found.
  */
 #pragma once
@@ -63,15 +63,16 @@ void check_boxes(std::span<const QueryBox> boxes);
 /* Also for half-spaces, which cannot be swept, for shapes that no scene could hold, and for lists of two lengths. */
 void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
 
-/* The launches that make the hierarchy. */
-void launch_query_hierarchy(StepLaunches &step);
+/* The launches that make a structure, QUERY_ of shared/body_codes.h. */
+void launch_query_structure(StepLaunches &step, uint32_t structure);
 
-/* Where the questions go. order: body order[i] of the scene stands at i in the body buffers. */
+/* Where the questions go. structure: the one that was made; order: body order[i] of the scene stands at i in the body buffers. */
 struct QueryTarget {
   Memory &memory;
   Launcher &launcher;
   const Scene &scene;
   const std::vector<uint32_t> &order;
+  uint32_t structure;
 };
 
 std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays);

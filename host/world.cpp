@@ -271,16 +271,17 @@ struct World::Implementation {
   /* Of the state as it is: once for all queries between two changes of it. */
   QueryTarget query_target()
   {
-    if (hierarchy_state != state) {
+    const uint32_t structure = broadphase_named(settings.broadphase).queries;
+    if (structure_state != state) {
       Recorder recorder;
       StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
-      launch_query_hierarchy(recorded);
+      launch_query_structure(recorded, structure);
       for (size_t i = 0; i < buffer_count; ++i)
         if (recorder.touched[i] && !queried[i]) make_room(buffer_at(i));
-      launch_query_hierarchy(launches);
-      hierarchy_state = state;
+      launch_query_structure(launches, structure);
+      structure_state = state;
     }
-    return {memory, launcher, scene, special.order};
+    return {memory, launcher, scene, special.order, structure};
   }
   void make_room(Buffer buffer)
   {
@@ -303,8 +304,8 @@ struct World::Implementation {
   StepPlan plan;
   std::vector<Kernel> kernels;
   std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
-  std::array<bool, buffer_count> queried{}; /* by the hierarchy of queries */
-  uint64_t state = 1, hierarchy_state = 0;  /* the state that is, and the one that the hierarchy is of */
+  std::array<bool, buffer_count> queried{}; /* by the structure that queries walk */
+  uint64_t state = 1, structure_state = 0;  /* the state that is, and the one that this structure is of */
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;

@@ -28,5 +28,7 @@ enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS 
 enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
 /* How the hierarchy of the broadphase is walked (broadphase/hierarchy_walks.h). */
 enum { WALK_BY_SKIPPING = 0, WALK_BY_STACK = 1, WALK_BY_HISTORY = 2 };
+/* Which structure a query looks for bodies in (queries/body_walk.h). */
+enum { QUERY_HIERARCHY = 0, QUERY_GRID = 1, QUERY_EVERY_BODY = 2 };
 
 #endif

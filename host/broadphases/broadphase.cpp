@@ -12,10 +12,10 @@ namespace tandem {
 std::span<const Broadphase> broadphases()
 {
   static constexpr std::array<Broadphase, 13> rows{{
-      {"grid", "uniform grid, 27 cells in nine rows of three", find_pairs_in_grid},
-      {"grid-bitonic", "the same, its bodies sorted by a bitonic network instead of by digits", find_pairs_in_bitonic_grid},
-      {"grid-14", "the grid by symmetry: 14 cells, and pairs to be sorted", find_pairs_in_half_the_cells},
-      {"brute-force", "every body against every one before it: the oracle", find_pairs_by_brute_force},
+      {"grid", "uniform grid, 27 cells in nine rows of three", find_pairs_in_grid, QUERY_GRID},
+      {"grid-bitonic", "the same, its bodies sorted by a bitonic network instead of by digits", find_pairs_in_bitonic_grid, QUERY_GRID},
+      {"grid-14", "the grid by symmetry: 14 cells, and pairs to be sorted", find_pairs_in_half_the_cells, QUERY_GRID},
+      {"brute-force", "every body against every one before it: the oracle", find_pairs_by_brute_force, QUERY_EVERY_BODY},
       {"sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory", find_pairs_by_sweep},
       {"sap-pca", "the same along the principal direction", find_pairs_by_principal_sweep},
       {"sap-plain", "the sweep before it was optimised, one work-item a body", find_pairs_by_plain_sweep},

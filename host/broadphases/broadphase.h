@@ -10,6 +10,7 @@
 #include <string>
 
 #include "host/step_launches.h"
+#include "shared/body_codes.h"
 
 namespace tandem {
 
@@ -17,6 +18,7 @@ struct Broadphase {
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
+  uint32_t queries = QUERY_HIERARCHY; /* the structure that queries between its steps walk: its own where it has one, QUERY_ of body_codes.h */
 };
 
 std::span<const Broadphase> broadphases(); /* default first */
@@ -42,6 +44,8 @@ void find_pairs_in_trees(StepLaunches &step);
 
 /* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
 void find_extent(StepLaunches &step, bool hybrid = false);
+/* The small bodies, sorted by cells of their own extent: for the grid, and for queries. */
+void sort_into_cells(StepLaunches &step);
 /* Sorts as many keys of pairs as the entry of counts says. */
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity);
 /* The list from pair_key, in any order. */

@@ -13,13 +13,6 @@ void begin_cells(StepLaunches &step)
   step.run(Kernel::grid_keys);
 }
 
-void sort_into_cells(StepLaunches &step)
-{
-  begin_cells(step);
-  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
-  step.run(Kernel::grid_cells, {COUNT_SMALL});
-}
-
 void search_cells(StepLaunches &step)
 {
   step.run(Kernel::grid_count);
@@ -28,6 +21,13 @@ void search_cells(StepLaunches &step)
 }
 
 } // namespace
+
+void sort_into_cells(StepLaunches &step)
+{
+  begin_cells(step);
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
+  step.run(Kernel::grid_cells, {COUNT_SMALL});
+}
 
 void find_pairs_in_grid(StepLaunches &step)
 {

@@ -9,8 +9,8 @@
 
 #include "shared/midphase/tree.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/queries/body_walk.h"
 #include "shared/queries/nearest.h"
-#include "shared/queries/ray_walk.h"
 
 /* What queries know of the scene, and of one another. */
 typedef struct {
@@ -19,7 +19,7 @@ typedef struct {
   GLOBAL const row *shapes, *poses, *positions, *orientations;
   hull_tables tables;
   tree_tables trees;
-  body_hierarchy hierarchy; /* of compute_query_bounds */
+  body_structure bodies;
   GLOBAL const uint *query_body, *query_filter;
   GLOBAL const row *query_start, *query_way;
 } query_scene;

@@ -1,60 +1,55 @@
 /* box_queries.h - the bodies whose boxes a box overlaps, where it stands or on a straight way.
  *
- *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own half extents
- *       |  |- - - ->  [   ]     (Minkowski). One that stands still goes a way of length 0.
- *       +--+
- *
  * Boxes of bodies are those of compute_query_bounds: around the shape where it stands. How many are found is counted, scanned, and
  * then they are written, each with how much of the way is left behind as the boxes touch.
  */
 #ifndef TANDEM_SHARED_QUERIES_BOX_QUERIES_H
 #define TANDEM_SHARED_QUERIES_BOX_QUERIES_H
 
+#include "shared/queries/body_walk.h"
 #include "shared/queries/nearest.h"
-#include "shared/queries/ray_walk.h"
 
 typedef struct {
   GLOBAL const uint *traits, *query_body, *query_filter;
-  body_hierarchy hierarchy;
+  body_structure bodies;
   GLOBAL const row *query_start, *query_way, *query_extent;
 } box_scene;
 
-/* Box i and the bodies it may meet: half-spaces, then the others. */
+/* Box i and the bodies it may meet. */
 typedef struct {
-  uint query, next_boundless;
-  ray_walk walk;
+  uint query;
+  body_walk walk;
 } box_walk;
 
 SHARED void start_box_walk(const box_scene *scene, uint i, box_walk *b)
 {
   b->query = i;
-  b->next_boundless = 0u;
-  start_ray_walk(&b->walk, scene->hierarchy, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
+  start_body_walk(&b->walk, &scene->bodies, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
 }
 
 /* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds: it is always met. */
 SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction)
 {
   *fraction = R(0.0);
-  while (b->next_boundless < scene->hierarchy.counts[COUNT_BOUNDLESS]) {
-    uint body = b->next_boundless++;
-    if (may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) return body;
-  }
-  for (uint leaf = next_on_ray(&b->walk, R(1.0)); leaf != INDEX_NONE; leaf = next_on_ray(&b->walk, R(1.0))) {
-    uint body = body_of_leaf(&b->walk, leaf);
+  for (uint body = next_body_on_way(&b->walk, &scene->bodies, R(1.0)); body != INDEX_NONE; body = next_body_on_way(&b->walk, &scene->bodies, R(1.0))) {
     if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) continue;
-    *fraction = way_into_slot(&b->walk, leaf, R(1.0));
+    *fraction = way_into_body(&b->walk, &scene->bodies, body, R(1.0));
     if (*fraction < ENDLESS) return body;
   }
   return INDEX_NONE;
 }
 
-SHARED void count_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                                GLOBAL const uint *leaf_body,
-                                GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
-                                GLOBAL const row *query_extent, GLOBAL uint *query_found, uint i)
+#define BOX_SCENE                                                                                                                           \
+  {traits, query_body, query_filter, {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
+   query_start, query_way, query_extent}
+#define BOX_SCENE_PARAMETERS                                                                                                                \
+  GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, \
+      GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *query_body, \
+      GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way, GLOBAL const row *query_extent
+
+SHARED void count_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL uint *query_found, uint structure, uint i)
 {
-  box_scene scene = {traits, query_body, query_filter, {hierarchy, hierarchy_link, leaf_body, counts}, query_start, query_way, query_extent};
+  box_scene scene = BOX_SCENE;
   box_walk b;
   start_box_walk(&scene, i, &b);
   real fraction;
@@ -63,12 +58,10 @@ SHARED void count_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *tr
   query_found[i] = found;
 }
 
-SHARED void write_box_hits_item(GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                                GLOBAL const uint *leaf_body,
-                                GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way,
-                                GLOBAL const row *query_extent, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint i)
+SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint structure,
+                                uint i)
 {
-  box_scene scene = {traits, query_body, query_filter, {hierarchy, hierarchy_link, leaf_body, counts}, query_start, query_way, query_extent};
+  box_scene scene = BOX_SCENE;
   box_walk b;
   start_box_walk(&scene, i, &b);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));

@@ -1,6 +1,6 @@
 /* nearest.h - what every query asks of every body: may it be hit, can it be, and is it nearer than the nearest so far.
  *
- * Which bodies are asked is the hierarchy's choice (ray_walk.h); in which order makes no difference to the nearest.
+ * Which bodies are asked is the broadphase's choice (body_walk.h); in which order makes no difference to the nearest.
  */
 #ifndef TANDEM_SHARED_QUERIES_NEAREST_H
 #define TANDEM_SHARED_QUERIES_NEAREST_H

@@ -5,14 +5,12 @@
  *
  * A waiting node is not asked again whether something nearer has been hit since: to remember where the ray enters it costs more than the
  * two boxes that such a node is good for (docs/departures.md).
- *
- * Boxes are in the world's coordinates, of which the ray has a float and what that float lost: boxes are widened by as much.
  */
 #ifndef TANDEM_SHARED_QUERIES_RAY_WALK_H
 #define TANDEM_SHARED_QUERIES_RAY_WALK_H
 
 #include "shared/broadphase/hierarchy_walks.h"
-#include "shared/queries/ray_shape.h"
+#include "shared/queries/straight_way.h"
 
 /* The tree as kernels are given it. */
 typedef struct {
@@ -20,43 +18,26 @@ typedef struct {
   GLOBAL const uint *links, *leaf_body, *counts;
 } body_hierarchy;
 
-/* The ray is start + s way, s from 0 to `reach`. Boxes are wider than they are by start_low - start, and start - start_high. */
 typedef struct {
   body_hierarchy tree;
-  vec3 start_low, start_high, inverse;
+  straight_way way;
   uint slot, height;
   uint waiting[HIERARCHY_LEVELS];
 } ray_walk;
-
-/* As good as infinite where the ray runs along a face; 0 times it is still 0. */
-SHARED real inverse_of_way(real way) { return magnitude(way) > R(1e-30) ? R(1.0) / way : way < R(0.0) ? -ENDLESS : ENDLESS; }
-
-/* extent: half of a box that goes along the ray, 0 for the ray itself. */
-SHARED void start_ray_walk(ray_walk *walk, body_hierarchy tree, place start, vec3 way, vec3 extent)
-{
-  walk->tree = tree;
-  vec3 widening = add(extent, scale(absolute(start.high), R(2.4e-7)));
-  walk->start_low = add(start.high, widening);
-  walk->start_high = subtract(start.high, widening);
-  walk->inverse = make_vec3(inverse_of_way(way.x), inverse_of_way(way.y), inverse_of_way(way.z));
-  walk->slot = root_slot(tree.counts);
-  walk->height = 0u;
-}
-
-/* Where along the way the ray enters the box; ENDLESS where it misses it, or enters behind `reach`. */
-SHARED real way_into_box(const ray_walk *walk, box_bounds box, real reach)
-{
-  vec3 low = multiply(subtract(box.lower, walk->start_low), walk->inverse), high = multiply(subtract(box.upper, walk->start_high), walk->inverse);
-  real enter = maximum(maximum(minimum(low.x, high.x), minimum(low.y, high.y)), maximum(minimum(low.z, high.z), R(0.0)));
-  real leave = minimum(minimum(maximum(low.x, high.x), maximum(low.y, high.y)), minimum(maximum(low.z, high.z), reach));
-  return enter <= leave + R(1e-6) * magnitude(leave) ? enter : ENDLESS;
-}
 
 /* Empty boxes, turned inside out, would seem endless. */
 SHARED real way_into_slot(const ray_walk *walk, uint slot, real reach)
 {
   numbered_box n = load_numbered_box(walk->tree.nodes, slot);
-  return n.lowest < BOUNDLESS ? way_into_box(walk, n.box, reach) : ENDLESS;
+  return n.lowest < BOUNDLESS ? way_into_box(&walk->way, n.box, reach) : ENDLESS;
+}
+
+/* A tree of a single leaf has no node above it that tests its box. */
+SHARED void start_ray_walk(ray_walk *walk)
+{
+  walk->slot = root_slot(walk->tree.counts);
+  walk->height = 0u;
+  if (is_leaf_slot(walk->slot) && !(way_into_slot(walk, walk->slot, ENDLESS) < ENDLESS)) walk->slot = INDEX_NONE;
 }
 
 /* To the last that waits. */

@@ -7,7 +7,6 @@
 #define TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
 
 #include "shared/queries/body_parts.h"
-#include "shared/queries/ray_walk.h"
 
 /* Of the least size: a query is not served by the broad margin of a contact. */
 #define SWEEP_TOUCHING R(1e-5)
@@ -77,14 +76,15 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
                              GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
                              GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                             GLOBAL const uint *leaf_body, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
+                             GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                             GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
                              GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
                              GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit, GLOBAL row *query_point,
-                             GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint i)
+                             GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint structure, uint i)
 {
   query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,
                        {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves},
-                       {hierarchy, hierarchy_link, leaf_body, counts}, query_body, query_filter, query_start, query_way};
+                       {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, query_body, query_filter, query_start, query_way};
   hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   place start = load_place(query_start, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
@@ -95,12 +95,11 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
   swept.hull.vertices = vertices_of_shape;
   moving_convex moving = moving_convex_of(&swept, none, way, none, R(0.0));
   first_hit nearest = nothing_hit();
-  for (uint body = 0u; body < counts[COUNT_BOUNDLESS]; ++body) nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
   real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
-  ray_walk walk;
-  start_ray_walk(&walk, scene.hierarchy, start, way, make_vec3(slack, slack, slack));
-  for (uint leaf = next_on_ray(&walk, reach); leaf != INDEX_NONE; leaf = next_on_ray(&walk, reach)) {
-    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body_of_leaf(&walk, leaf), i));
+  body_walk walk;
+  start_body_walk(&walk, &scene.bodies, start, way, make_vec3(slack, slack, slack));
+  for (uint body = next_body_on_way(&walk, &scene.bodies, reach); body != INDEX_NONE; body = next_body_on_way(&walk, &scene.bodies, reach)) {
+    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
   store_hit(nearest, query_hit, query_point, query_hit_body, i);

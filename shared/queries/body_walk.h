@@ -1,0 +1,67 @@
+/* body_walk.h - the bodies that a straight way comes near, from the structure that the broadphase is of.
+ *
+ *        half-spaces, which have no bounds    all of them, first
+ *        QUERY_HIERARCHY                      ray_walk.h: near boxes first
+ *        QUERY_GRID                           the large bodies one by one, then grid_walk.h: near layers first
+ *        QUERY_EVERY_BODY                     one by one: the oracle
+ *
+ * Each yields the same bodies, those whose own box the way enters, and each of them once; in which order must make no difference to an
+ * answer. The structure is one for a whole launch, so that all its items take the same branch.
+ */
+#ifndef TANDEM_SHARED_QUERIES_BODY_WALK_H
+#define TANDEM_SHARED_QUERIES_BODY_WALK_H
+
+#include "shared/queries/grid_walk.h"
+#include "shared/queries/ray_walk.h"
+
+/* The structures as kernels are given them; what the chosen one lacks is not looked at. */
+typedef struct {
+  uint structure; /* QUERY_ */
+  body_hierarchy hierarchy;
+  body_cells cells;
+} body_structure;
+
+/* Bodies up to `listed` come one by one. The grid keeps its place where the hierarchy keeps the nodes that wait. */
+typedef struct {
+  uint next, listed;
+  ray_walk rays;
+} body_walk;
+
+/* extent: half of a box that goes along the way, 0 for a ray. */
+SHARED void start_body_walk(body_walk *walk, const body_structure *bodies, place start, vec3 way, vec3 extent)
+{
+  GLOBAL const uint *counts = bodies->cells.counts;
+  walk->next = 0u;
+  walk->listed = counts[COUNT_BOUNDLESS];
+  walk->rays.tree = bodies->hierarchy;
+  walk->rays.way = straight_way_of(start, way, extent);
+  if (bodies->structure == (uint)QUERY_HIERARCHY) start_ray_walk(&walk->rays);
+  else if (bodies->structure == (uint)QUERY_EVERY_BODY) walk->listed = counts[COUNT_BODIES];
+  else {
+    walk->listed = counts[COUNT_LARGE];
+    start_grid_walk(&bodies->cells, &walk->rays.way, walk->rays.waiting);
+  }
+}
+
+/* Where the way enters a body's box: at once for a half-space, ENDLESS where it misses it or enters behind `reach`. */
+SHARED real way_into_body(const body_walk *walk, const body_structure *bodies, uint body, real reach)
+{
+  if (body < bodies->cells.counts[COUNT_BOUNDLESS]) return R(0.0);
+  return way_into_box(&walk->rays.way, load_bounds(bodies->cells.bounds, body), reach);
+}
+
+/* The next body that the way may meet before `reach`; INDEX_NONE behind the last. */
+SHARED uint next_body_on_way(body_walk *walk, const body_structure *bodies, real reach)
+{
+  while (walk->next < walk->listed) {
+    uint body = walk->next;
+    walk->next = body + 1u;
+    if (way_into_body(walk, bodies, body, reach) < ENDLESS) return body;
+  }
+  if (bodies->structure == (uint)QUERY_GRID) return next_in_grid(&bodies->cells, &walk->rays.way, walk->rays.waiting, reach);
+  if (bodies->structure != (uint)QUERY_HIERARCHY) return INDEX_NONE;
+  uint leaf = next_on_ray(&walk->rays, reach);
+  return leaf == INDEX_NONE ? INDEX_NONE : body_of_leaf(&walk->rays, leaf);
+}
+
+#endif
