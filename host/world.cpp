@@ -31,9 +31,9 @@ namespace {
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
 constexpr int most_repetitions = 64;
 
-Settings resolved(Settings settings, const Scene &scene)
+Settings resolved(Settings settings, const Scene &scene, const Placement &placement)
 {
-  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene).name;
+  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene, placement.on).name;
   return settings;
 }
 
@@ -41,7 +41,7 @@ Settings resolved(Settings settings, const Scene &scene)
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(resolved(chosen, given)), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
+      : scene(given), settings(resolved(chosen, given, placement)), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return backend_of(kernel); })
   {
     scene_features = special.features;

@@ -121,11 +121,17 @@ std::string cell_text(const BroadphaseRun &run)
 
 std::string slope_text(const std::optional<double> &slope) { return slope ? fmt::format("{:.2f}", *slope) : ""; }
 
-/* Of the last frame; the same of all, or the table says so. */
+/* Of the last frame that all run. */
+std::optional<uint32_t> last_pairs(const BroadphaseRun &run)
+{
+  if (run.pairs.empty()) return {};
+  return run.pairs[std::min<size_t>(run.pairs.size(), warm_frames + timed_frames) - 1];
+}
+
 std::string pairs_text(const BroadphaseScene &scene, uint32_t bodies)
 {
   for (const BroadphaseRun &run : scene.runs)
-    if (run.bodies == bodies && !run.pairs.empty()) return fmt::format("{}", run.pairs.back());
+    if (run.bodies == bodies && last_pairs(run)) return fmt::format("{}", *last_pairs(run));
   return "";
 }
 
@@ -137,7 +143,7 @@ Json run_json(const BroadphaseRun &run)
   const bool ran = run.skipped.empty();
   return {{"broadphase", run.broadphase},
           {"n", run.bodies},
-          {"pairs", run.pairs.empty() ? Json(nullptr) : Json(run.pairs.back())},
+          {"pairs", last_pairs(run) ? Json(*last_pairs(run)) : Json(nullptr)},
           {"ms", ran ? Json{{"median", time.median}, {"mean", mean_of(run.milliseconds)}, {"min", time.minimum}, {"max", time.maximum}} : Json(nullptr)},
           {"frames_ms", run.milliseconds},
           {"skipped", ran ? Json(nullptr) : Json(run.skipped)},
@@ -150,7 +156,7 @@ Chart chart_of(const BroadphaseScene &scene, const std::string &backend)
   for (const std::string &name : distinct(scene, &BroadphaseRun::broadphase)) {
     ChartSeries series{name};
     for (const TimeAt &time : times_of(scene.runs, name))
-      series.points.push_back({time.bodies, time.milliseconds, fmt::format("{} pairs", run_of(scene, name, uint32_t(time.bodies)).pairs.back())});
+      series.points.push_back({time.bodies, time.milliseconds, fmt::format("{} pairs", last_pairs(run_of(scene, name, uint32_t(time.bodies))).value_or(0))});
     chart.series.push_back(series);
   }
   return chart;

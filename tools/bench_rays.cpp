@@ -46,7 +46,7 @@ std::vector<Ray> rays_through_a_cube(uint32_t count, double side)
   return rays;
 }
 
-/* Kernels since the last call: those of the query, and all others, which make the hierarchy. */
+/* Kernels since the last call: those of the query, and all others, which make the structure. */
 std::pair<double, double> spent(World &world, Kernel query)
 {
   double own = 0, others = 0;
@@ -54,23 +54,17 @@ std::pair<double, double> spent(World &world, Kernel query)
   return {own, others};
 }
 
-/* Setting a body to where it is makes the hierarchy anew. */
+/* Setting a body to where it is makes the structure anew. */
 void touch(World &world)
 {
   world.set_body(0, world.bodies().front());
   world.take_kernel_times();
 }
 
-} // namespace
-
-std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint32_t rays, bool allow_inexact)
+/* Of the structure of a broadphase. */
+std::vector<RayTime> time_rays(World &world, const std::string &structure, const std::vector<Ray> &asked)
 {
-  const double side = std::cbrt(10.0 * boxes);
-  Settings settings;
-  settings.broadphase = "bvh"; /* whose hierarchy is timed */
-  World world(boxes_in_a_cube(boxes, side), settings, {backend, {}, allow_inexact});
-  const std::vector<Ray> asked = rays_through_a_cube(rays, side);
-  RayTime nearest{"nearest", {}, 0}, blocked{"blocked", {}, 0}, hierarchy{"hierarchy", {}, 0};
+  RayTime nearest{structure, "nearest"}, blocked{structure, "blocked"}, making{structure, "making"};
   std::vector<double> near, block, make;
   world.cast_rays(asked); /* builds the kernels */
   world.find_blocked_rays(asked);
@@ -88,16 +82,33 @@ std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint
   }
   nearest.milliseconds = spread_of(near);
   blocked.milliseconds = spread_of(block);
-  hierarchy.milliseconds = spread_of(make);
-  return {hierarchy, nearest, blocked};
+  making.milliseconds = spread_of(make);
+  return {making, nearest, blocked};
+}
+
+} // namespace
+
+std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint32_t rays, bool allow_inexact)
+{
+  const double side = std::cbrt(10.0 * boxes);
+  const std::vector<Ray> asked = rays_through_a_cube(rays, side);
+  std::vector<RayTime> times;
+  for (const auto &[structure, broadphase] : {std::pair{"hierarchy", "bvh"}, {"grid", "grid"}}) {
+    Settings settings;
+    settings.broadphase = broadphase;
+    World world(boxes_in_a_cube(boxes, side), settings, {backend, {}, allow_inexact});
+    const std::vector<RayTime> own = time_rays(world, structure, asked);
+    times.insert(times.end(), own.begin(), own.end());
+  }
+  return times;
 }
 
 std::string rays_text(const std::vector<RayTime> &times, uint32_t rays)
 {
-  Table table({"what", "ms", "least", "most", "million rays/s", "hits"});
+  Table table({"structure", "what", "ms", "least", "most", "million rays/s", "hits"});
   for (const RayTime &time : times) {
-    const bool query = time.what != "hierarchy";
-    table.add({time.what, fmt::format("{:.3f}", time.milliseconds.median), fmt::format("{:.3f}", time.milliseconds.minimum), fmt::format("{:.3f}", time.milliseconds.maximum),
+    const bool query = time.what != "making";
+    table.add({time.structure, time.what, fmt::format("{:.3f}", time.milliseconds.median), fmt::format("{:.3f}", time.milliseconds.minimum), fmt::format("{:.3f}", time.milliseconds.maximum),
                query ? fmt::format("{:.4g}", rays / time.milliseconds.median * 1e-3) : "", query ? fmt::format("{}", time.hits) : ""});
   }
   return table.text("  ");
@@ -107,8 +118,9 @@ Json rays_json(const std::vector<RayTime> &times, uint32_t rays)
 {
   Json list = Json::array();
   for (const RayTime &time : times)
-    list.push_back({{"what", time.what},
-                    {"rays", time.what == "hierarchy" ? 0 : rays},
+    list.push_back({{"structure", time.structure},
+                    {"what", time.what},
+                    {"rays", time.what == "making" ? 0 : rays},
                     {"hits", time.hits},
                     {"ms", {{"median", time.milliseconds.median}, {"min", time.milliseconds.minimum}, {"max", time.milliseconds.maximum}}}});
   return list;

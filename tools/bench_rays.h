@@ -1,4 +1,4 @@
-/* bench_rays.h - `tandem bench rays`: rays against 100,000 boxes, and the hierarchy that they walk. */
+/* bench_rays.h - `tandem bench rays`: rays against 100,000 boxes, and the structures that they walk: the hierarchy and the grid. */
 #pragma once
 
 #include <string>
@@ -10,8 +10,9 @@
 namespace tandem {
 
 struct RayTime {
-  std::string what; /* nearest, blocked, or hierarchy: its making */
-  Spread milliseconds; /* of the kernels alone: rays and hits stay where they are */
+  std::string structure; /* hierarchy, grid */
+  std::string what;      /* nearest, blocked, or making */
+  Spread milliseconds{}; /* of the kernels alone: rays and hits stay where they are */
   uint64_t hits = 0;   /* of all rays */
 };
 

@@ -44,10 +44,10 @@ struct Plan {
   bool has(size_t feature) const { return (chosen.features() >> feature & 1) != 0; }
   std::string flags() const { return fmt::format("-D FEATURES={}u", chosen.features()); }
   /* The broadphase, and why it was chosen where that was left to us. */
-  std::string broadphase_text(const std::string &wanted) const
+  std::string broadphase_text(const std::string &wanted, const std::string &on) const
   {
     const std::string &name = chosen.settings().broadphase;
-    const std::string why = wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene()).why) : "";
+    const std::string why = wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why) : "";
     return fmt::format("{} ({}){}", name, broadphase_named(name).what, why);
   }
   std::string backend_of(Kernel kernel) const { return built[index_of(kernel)] ? chosen.backend_of(kernel).name() : ""; }
@@ -94,7 +94,7 @@ Json plan_json(const Plan &plan, const std::string &scene, const std::string &br
           {"features", features_json(plan)},
           {"flags", plan.flags()},
           {"broadphase", plan.chosen.settings().broadphase},
-          {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene()).why : "as asked"},
+          {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
           {"kernels", kernels_json(plan)},
           {"kernels_built", plan.chosen.kernels().size()},
           {"buffers", buffers_json(plan)},
@@ -148,11 +148,11 @@ void print_buffers(const Plan &plan)
   fmt::print("\n{}\n{}\n", kept.text("  "), out.text("  "));
 }
 
-void print_plan(const Plan &plan, const std::string &scene, const std::string &broadphase)
+void print_plan(const Plan &plan, const std::string &scene, const std::string &broadphase, const std::string &on)
 {
   fmt::print("{}: {} bodies\n\n", scene, plan.chosen.scene().bodies.size());
   print_features(plan);
-  fmt::print("broadphase: {}\n\n", plan.broadphase_text(broadphase));
+  fmt::print("broadphase: {}\n\n", plan.broadphase_text(broadphase, on));
   fmt::print("kernels: {} of {} built in {:.0f} ms\n", plan.chosen.kernels().size(), kernel_count,
              plan.chosen.build_milliseconds());
   print_kernels(plan);
@@ -169,9 +169,10 @@ int execute(const PlanOptions &options)
   const Scene scene = options.scene.scene();
   World chosen(scene, settings, placement);
   settings.specialise = false;
+  settings.broadphase = chosen.settings().broadphase;
   World everything(scene, settings, Placement{"serial", {}, false});
   const Plan plan(chosen, everything);
-  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text(), broadphase);
+  if (!options.json.takes_standard_output()) print_plan(plan, options.scene.scene_text(), broadphase, placement.on);
   options.json.write(plan_json(plan, options.scene.scene_text(), broadphase, placement));
   return 0;
 }

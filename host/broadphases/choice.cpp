@@ -1,4 +1,4 @@
-/* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross on a CPU. */
+/* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross (docs/results/). */
 #include "host/broadphases/choice.h"
 
 #include <algorithm>
@@ -11,20 +11,27 @@
 namespace tandem {
 namespace {
 
-constexpr size_t few_bodies = 64;
+constexpr size_t few_bodies = 128, few_bodies_on_a_device = 256;
+
+size_t large_bodies_of(const Scene &scene)
+{
+  const float ordinary = large_ratio * median_radius(scene);
+  const auto is_large = [&](const Body &body) { return bounding_radius(scene, body) > ordinary; };
+  return static_cast<size_t>(std::count_if(scene.bodies.begin(), scene.bodies.end(), is_large));
+}
 
 } // namespace
 
-BroadphaseChoice choose_broadphase(const Scene &scene)
+BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend)
 {
-  const size_t bodies = scene.bodies.size();
-  if (bodies <= few_bodies) return {"brute-force", fmt::format("{} bodies; up to {} the fewest launches win", bodies, few_bodies)};
-  const float ordinary = large_ratio * median_radius(scene);
-  const auto is_large = [&](const Body &body) { return bounding_radius(scene, body) > ordinary; };
-  const auto large = static_cast<size_t>(std::count_if(scene.bodies.begin(), scene.bodies.end(), is_large));
-  if (large > most_large_bodies)
-    return {"hybrid", fmt::format("{} of {} bodies are more than {} times as large as the median; a grid alone takes {}", large, bodies, large_ratio, most_large_bodies)};
-  return {"grid", fmt::format("{} bodies, of which {} are more than {} times as large as the median", bodies, large, large_ratio)};
+  const bool on_device = backend.starts_with("cl");
+  const size_t bodies = scene.bodies.size(), few = on_device ? few_bodies_on_a_device : few_bodies;
+  if (bodies <= few) return {"brute-force", fmt::format("{} bodies; up to {} the fewest launches win", bodies, few)};
+  if (!on_device) return {"trees", fmt::format("{} bodies on a CPU, where to look again only for those that left their boxes saves most", bodies)};
+  const size_t large = large_bodies_of(scene);
+  const std::string sizes = fmt::format("{} bodies, of which {} are more than {} times as large as the median", bodies, large, large_ratio);
+  if (large > most_large_bodies) return {"trees", fmt::format("{}; a grid takes {} of them", sizes, most_large_bodies)};
+  return {"grid", sizes};
 }
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* choice.h - which broadphase suits a scene: what `--broadphase auto` means, and why. The bits are those of every other choice. */
+/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what `--broadphase auto` means, and why. The bits are those of every other choice. */
 #pragma once
 
 #include <string>
@@ -12,6 +12,7 @@ struct BroadphaseChoice {
   std::string why;  /* the statistics of the scene that led there, in one line */
 };
 
-BroadphaseChoice choose_broadphase(const Scene &scene);
+/* backend: as in --on. */
+BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend);
 
 } // namespace tandem

@@ -147,19 +147,23 @@ TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
 
 TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and changes no bit")
 {
-  const auto choice = [](const std::string &scene) { return choose_broadphase(scene_of(scene)); };
-  CHECK(choice("scattered").name == "brute-force");
-  CHECK(choice("box-grid:nx=5,ny=5,nz=5").name == "grid");
-  CHECK(choice("box-grid:nx=5,ny=5,nz=5").why.find("126 bodies, of which 1 are") != std::string::npos);
+  const auto choice = [](const std::string &scene, const char *backend) { return choose_broadphase(scene_of(scene), backend); };
+  CHECK(choice("scattered", "serial").name == "brute-force");
+  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "tbb").name == "trees");
+  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "cl").name == "brute-force");
+  CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").name == "grid");
+  CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").why.find("1729 bodies, of which 1 are") != std::string::npos);
   Scene sizes = empty_scene();
   for (int i = 0; i < 300; ++i) add_body(sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
-  CHECK(choose_broadphase(sizes).name == "hybrid");
-  CHECK(choose_broadphase(sizes).why.find("100 of 300") != std::string::npos);
+  Scene many_sizes = empty_scene();
+  for (int i = 0; i < 2000; ++i) add_body(many_sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
+  CHECK(choose_broadphase(many_sizes, "cl").name == "trees");
+  CHECK(choose_broadphase(many_sizes, "cl").why.find("667 are more than") != std::string::npos);
   for (const std::string name : {"scattered", "falling-boxes:n=150", "many sizes"}) {
     CAPTURE(name);
     CHECK(hashes_with("auto", scene_of(name)) == hashes_with("brute-force", scene_of(name)));
   }
   Settings settings;
   settings.broadphase = "auto";
-  CHECK(World(sizes, settings).settings().broadphase == "hybrid");
+  CHECK(World(sizes, settings).settings().broadphase == "trees");
 }
