@@ -104,48 +104,46 @@ __kernel void grid_cells(__global const uint *sort_key, __global const uint *cou
 }
 
 __kernel void grid_count(__global const Parameters *parameters, __global const uint *body_traits,
-                         __global const uint *body_filter, __global const row *bounds, __global const row *sorted_bounds, __global const row *grid,
+                         __global const uint *body_filter, __global const row *bounds, __global const row *grid,
                          __global const uint *sort_value, __global const uint *cell_start,
                          __global const uint *counts, __global uint *pair_start, __global uint *finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  grid_count_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, counts,
+  grid_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
                   pair_start, finds, i);
 }
 
 __kernel void grid_write(__global const Parameters *parameters, __global const uint *body_traits,
-                         __global const uint *body_filter, __global const row *bounds, __global const row *sorted_bounds, __global const row *grid,
+                         __global const uint *body_filter, __global const row *bounds, __global const row *grid,
                          __global const uint *sort_value, __global const uint *cell_start,
                          __global const uint *finds, __global const uint *counts,
                          __global const uint *pair_start, __global uint *pair_a, __global uint *pair_b, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  grid_write_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, finds, counts,
+  grid_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, finds, counts,
                   pair_start, pair_a, pair_b, i);
 }
 
 __kernel void symmetric_count(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *sorted_bounds,
                               __global const row *grid, __global const uint *sort_value,
                               __global const uint *cell_start, __global const uint *counts,
                               __global uint *sweep_start, __global uint *finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  symmetric_count_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, counts,
+  symmetric_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
                        sweep_start, finds, i);
 }
 
 __kernel void symmetric_write(__global const Parameters *parameters, __global const uint *body_traits,
                               __global const uint *body_filter, __global const row *bounds,
-                              __global const row *sorted_bounds,
                               __global const row *grid, __global const uint *sort_value,
                               __global const uint *cell_start, __global const uint *finds,
                               __global const uint *counts, __global const uint *sweep_start,
                               __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  symmetric_write_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, finds,
+  symmetric_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, finds,
                        counts, sweep_start, pair_key, i);
 }
 
@@ -156,42 +154,42 @@ __kernel void sweep_keys(__global const row *bounds, __global const row *grid, _
   sweep_keys_item(bounds, grid, counts, sort_key, sort_value, principal, i);
 }
 
-__kernel void gather_bounds(__global const row *bounds, __global const uint *sort_value,
-                           __global row *sorted_bounds, RANGE)
+__kernel void sweep_gather(__global const row *bounds, __global const uint *sort_value,
+                           __global row *sweep_bounds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  gather_bounds_item(bounds, sort_value, sorted_bounds, i);
+  sweep_gather_item(bounds, sort_value, sweep_bounds, i);
 }
 
 __kernel void sweep_count(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *sorted_bounds,
+                          __global const row *grid, __global const row *sweep_bounds,
                           __global const uint *sort_key, __global const uint *sort_value,
                           __global const uint *counts, __global uint *sweep_start, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_count_item(parameters, body_traits, body_filter, bounds, grid, sorted_bounds, sort_key, sort_value,
+  sweep_count_item(parameters, body_traits, body_filter, bounds, grid, sweep_bounds, sort_key, sort_value,
                    counts, sweep_start, i);
 }
 
 __kernel void sweep_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *grid, __global const row *sorted_bounds,
+                          __global const row *grid, __global const row *sweep_bounds,
                           __global const uint *sort_key, __global const uint *sort_value,
                           __global const uint *counts, __global const uint *sweep_start,
                           __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_write_item(parameters, body_traits, body_filter, bounds, grid, sorted_bounds, sort_key, sort_value,
+  sweep_write_item(parameters, body_traits, body_filter, bounds, grid, sweep_bounds, sort_key, sort_value,
                    counts, sweep_start, pair_key, i);
 }
 
-__kernel void sweep_ends(__global const row *grid, __global const row *sorted_bounds,
+__kernel void sweep_ends(__global const row *grid, __global const row *sweep_bounds,
                          __global const uint *sort_key, __global const uint *counts, __global uint *sweep_end,
                          uint principal, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  sweep_ends_item(grid, sorted_bounds, sort_key, counts, sweep_end, principal, i);
+  sweep_ends_item(grid, sweep_bounds, sort_key, counts, sweep_end, principal, i);
 }
 
 __kernel void sweep_blocks(__global const uint *sweep_end, __global const uint *counts,
@@ -203,25 +201,25 @@ __kernel void sweep_blocks(__global const uint *sweep_end, __global const uint *
 
 __kernel void window_count(__global const Parameters *parameters, __global const uint *body_traits,
                            __global const uint *body_filter, __global const row *bounds,
-                           __global const row *sorted_bounds, __global const uint *sort_value,
+                           __global const row *sweep_bounds, __global const uint *sort_value,
                            __global const uint *sweep_end, __global const uint *sweep_block,
                            __global const uint *counts, __global uint *share_start, RANGE)
 {
   __local uint local_memory[SWEEP_LOCAL_WORDS];
-  window_count_group(parameters, body_traits, body_filter, bounds, sorted_bounds, sort_value, sweep_end,
+  window_count_group(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end,
                      sweep_block, counts, share_start, local_memory, GROUP_NUMBER);
   END_GROUP;
 }
 
 __kernel void window_write(__global const Parameters *parameters, __global const uint *body_traits,
                            __global const uint *body_filter, __global const row *bounds,
-                           __global const row *sorted_bounds, __global const uint *sort_value,
+                           __global const row *sweep_bounds, __global const uint *sort_value,
                            __global const uint *sweep_end, __global const uint *sweep_block,
                            __global const uint *counts, __global const uint *share_start,
                            __global ulong *pair_key, RANGE)
 {
   __local uint local_memory[SWEEP_LOCAL_WORDS];
-  window_write_group(parameters, body_traits, body_filter, bounds, sorted_bounds, sort_value, sweep_end,
+  window_write_group(parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end,
                      sweep_block, counts, share_start, pair_key, local_memory, GROUP_NUMBER);
   END_GROUP;
 }
@@ -516,13 +514,12 @@ __kernel void small_keys(__global const row *bounds, __global const row *grid, _
 
 __kernel void small_count(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *sorted_bounds,
                           __global const row *grid, __global const uint *sort_value,
                           __global const uint *cell_start, __global const uint *counts,
                           __global uint *small_finds, __global uint *grid_finds, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  small_count_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, counts,
+  small_count_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, counts,
                    small_finds, grid_finds, i);
 }
 
@@ -547,14 +544,13 @@ __kernel void large_write(__global const Parameters *parameters, __global const 
 
 __kernel void small_write(__global const Parameters *parameters, __global const uint *body_traits,
                           __global const uint *body_filter, __global const row *bounds,
-                          __global const row *sorted_bounds,
                           __global const row *grid, __global const uint *sort_value,
                           __global const uint *cell_start, __global const uint *grid_finds,
                           __global const uint *counts, __global const uint *share_start,
                           __global ulong *pair_key, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  small_write_item(parameters, body_traits, body_filter, bounds, sorted_bounds, grid, sort_value, cell_start, grid_finds,
+  small_write_item(parameters, body_traits, body_filter, bounds, grid, sort_value, cell_start, grid_finds,
                    counts, share_start, pair_key, i);
 }
 

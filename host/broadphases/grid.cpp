@@ -15,7 +15,6 @@ void begin_cells(StepLaunches &step)
 
 void search_cells(StepLaunches &step)
 {
-  step.run_range(Kernel::gather_bounds, COUNT_ZERO, COUNT_SMALL);
   step.run(Kernel::grid_count);
   step.scan_pairs(Buffer::pair_start);
   step.run(Kernel::grid_write);
@@ -47,7 +46,6 @@ void find_pairs_in_bitonic_grid(StepLaunches &step)
 void find_pairs_in_half_the_cells(StepLaunches &step)
 {
   sort_into_cells(step);
-  step.run_range(Kernel::gather_bounds, COUNT_ZERO, COUNT_SMALL);
   step.run(Kernel::symmetric_count);
   step.scan_pairs(Buffer::sweep_start);
   step.run(Kernel::symmetric_write);

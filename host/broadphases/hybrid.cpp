@@ -20,7 +20,6 @@ void find_pairs_in_hybrid(StepLaunches &step)
   step.run(Kernel::small_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, std::bit_width(step.plan().capacity_cells));
   step.run(Kernel::grid_cells, {COUNT_BOUNDED});
-  step.run_range(Kernel::gather_bounds, COUNT_ZERO, COUNT_BOUNDED);
   step.run(Kernel::small_count);
   step.run(Kernel::join_finds);
   step.scan_pairs(Buffer::share_start, COUNT_HALVES);

@@ -10,7 +10,7 @@ void sort_along_axis(StepLaunches &step, uint32_t principal)
   if (principal) step.run(Kernel::find_principal_direction);
   step.run(Kernel::sweep_keys, {principal});
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, 32);
-  step.run_range(Kernel::gather_bounds, COUNT_ZERO, COUNT_SMALL);
+  step.run(Kernel::sweep_gather);
 }
 
 void sweep_in_windows(StepLaunches &step, uint32_t principal)

@@ -15,7 +15,6 @@
 
 #include "shared/broadphase/extent.h"
 #include "shared/broadphase/finds.h"
-#include "shared/broadphase/sorted_bounds.h"
 #include "shared/parallel/search.h"
 
 typedef struct { int x, y, z; } grid_cell;
@@ -71,8 +70,7 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
   return stretch;
 }
 
-/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; large ones first. sorted_bounds: those of
- * the sorted list, so that a row of cells is read as it lies in memory. */
+/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; large ones first. */
 #define GRID_SEARCH(a, VISIT)                                                                                       \
   {                                                                                                                 \
     box_bounds own = load_bounds(bounds, a);                                                                        \
@@ -84,9 +82,8 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
       for (int neighbour = 0; neighbour < 9; ++neighbour) {                                                         \
         grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1);  \
         for (; cells.at < cells.end; ++cells.at) {                                                                  \
-          if (!bounds_overlap(own, load_bounds(sorted_bounds, cells.at))) continue;                                  \
           uint b = sort_value[cells.at];                                                                            \
-          if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b)                           \
+          if (b < a && bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
         }                                                                                                           \
       }                                                                                                             \
     }                                                                                                               \
@@ -99,8 +96,8 @@ SHARED uint grid_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, 
 }
 
 SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                            GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                            GLOBAL const uint *cell_start, GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
+                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                            GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
 {
   uint a = grid_body(sort_value, counts, i), found = 0u;
 #define VISIT(b) keep_find(finds, i, found++, b);
@@ -110,8 +107,8 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 }
 
 SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                            GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                            GLOBAL const uint *cell_start, GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
+                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                            GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
                             GLOBAL uint *pair_b, uint i)
 {
   uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];

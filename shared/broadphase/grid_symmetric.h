@@ -34,16 +34,15 @@ SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *co
     for (uint k = 0u; k < (i < large ? 0u : 5u); ++k) {                                                             \
       grid_row cells = forward_row(cell_start, counts, c, i - large, k);                                            \
       for (; cells.at < cells.end; ++cells.at) {                                                                    \
-        if (!bounds_overlap(own, load_bounds(sorted_bounds, cells.at))) continue;                                    \
         uint b = sort_value[cells.at];                                                                              \
-        if (pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b)                             \
+        if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
       }                                                                                                             \
     }                                                                                                               \
   }
 
 SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                                 GLOBAL const uint *cell_start, GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
+                                 GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                                 GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
 {
   uint found = 0u;
 #define VISIT(body, b) keep_find(finds, i, found++, b);
@@ -53,8 +52,8 @@ SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL con
 }
 
 SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                                 GLOBAL const uint *cell_start, GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
+                                 GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], end = sweep_start[i + 1u], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }

@@ -58,16 +58,15 @@ SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
     for (int neighbour = 0; neighbour < (i >= boundless && is_small(grid, own) ? 9 : 0); ++neighbour) {             \
       grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1);   \
       for (; cells.at < cells.end; ++cells.at) {                                                                    \
-        if (!bounds_overlap(own, load_bounds(sorted_bounds, cells.at))) continue;                                    \
         uint b = sort_value[cells.at];                                                                              \
-        if (b < body && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b)                 \
+        if (b < body && bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
       }                                                                                                             \
     }                                                                                                               \
   }
 
 SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *cell_start, GLOBAL const uint *counts, GLOBAL uint *small_finds, GLOBAL uint *grid_finds, uint i)
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                             GLOBAL const uint *counts, GLOBAL uint *small_finds, GLOBAL uint *grid_finds, uint i)
 {
   uint found = 0u;
 #define VISIT(body, b) keep_find(grid_finds, i, found++, b);
@@ -77,8 +76,8 @@ SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *cell_start, GLOBAL const uint *grid_finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                             GLOBAL const uint *grid_finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i], end = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
 #define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }

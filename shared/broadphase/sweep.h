@@ -16,7 +16,6 @@
 
 #include "shared/broadphase/overlap.h"
 #include "shared/broadphase/pair_keys.h"
-#include "shared/broadphase/sorted_bounds.h"
 #include "shared/conversion.h"
 
 typedef struct { real start, end; } interval;
@@ -56,6 +55,13 @@ SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
+/* Bounds in sweep order, so that the sweep reads memory in order. */
+SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL row *sweep_bounds, uint i)
+{
+  store_row(sweep_bounds, 2u * i, load_row(bounds, 2u * sort_value[i]));
+  store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
+}
+
 /* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the sorted list. */
 #define SWEEP_SEARCH(i, VISIT)                                                                                       \
   {                                                                                                                  \
@@ -66,14 +72,14 @@ SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
       if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
     uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                 \
     for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                    \
-      if (!bounds_overlap(own, load_bounds(sorted_bounds, at))) continue;                                             \
+      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                             \
       uint found = sort_value[at];                                                                                   \
       if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                        \
     }                                                                                                                \
   }
 
 SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sorted_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
   uint finds = 0;
@@ -84,7 +90,7 @@ SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sorted_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];

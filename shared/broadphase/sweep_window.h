@@ -17,10 +17,10 @@
 #define SWEEP_LOCAL_WORDS (SWEEP_BLOCK * SWEEP_SHARES + 6u * SWEEP_WINDOW)
 
 /* Where the interval of the body at place i ends: the first place that starts behind it. */
-SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sorted_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *counts,
+SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *counts,
                             GLOBAL uint *sweep_end, uint principal, uint i)
 {
-  uint end = sweep_key(sweep_interval(load_bounds(sorted_bounds, i), grid, counts, principal).end);
+  uint end = sweep_key(sweep_interval(load_bounds(sweep_bounds, i), grid, counts, principal).end);
   sweep_end[i] = upper_bound_of(sort_key, counts[COUNT_SMALL], end);
 }
 
@@ -37,7 +37,7 @@ SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *c
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *traits, *filters;
-  GLOBAL const row *bounds, *sorted_bounds;
+  GLOBAL const row *bounds, *sweep_bounds;
   GLOBAL const uint *sort_value, *sweep_end, *counts;
   GLOBAL ulong *pair_key;
   LOCAL uint *tally;   /* of each share: pairs found so far, or where its next pair goes */
@@ -54,7 +54,7 @@ SHARED void found_pair(const window_sweep *sweep, uint share, uint first, uint s
 
 SHARED void load_window(const window_sweep *sweep, uint place, uint item)
 {
-  box_bounds box = load_bounds(sweep->sorted_bounds, place);
+  box_bounds box = load_bounds(sweep->sweep_bounds, place);
   sweep->window[item] = box.lower.x;
   sweep->window[SWEEP_WINDOW + item] = box.lower.y;
   sweep->window[2u * SWEEP_WINDOW + item] = box.lower.z;
@@ -85,7 +85,7 @@ SHARED void sweep_in_window(const window_sweep *sweep, uint share, uint place, u
   uint end = sweep->sweep_end[place] < start + SWEEP_WINDOW ? sweep->sweep_end[place] : start + SWEEP_WINDOW;
   uint at = start + share % SWEEP_SHARES;
   if (end <= at || place + 1u >= end) return;
-  box_bounds own = load_bounds(sweep->sorted_bounds, place);
+  box_bounds own = load_bounds(sweep->sweep_bounds, place);
   for (; at < end; at += SWEEP_SHARES)
     if (at > place && bounds_overlap(own, box_in_window(sweep, at - start))) found_pair(sweep, share, sweep->sort_value[place], sweep->sort_value[at]);
 }
@@ -112,10 +112,10 @@ SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uin
 }
 
 SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
+                               GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
                                GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL uint *share_start, LOCAL uint *local_memory, uint group)
 {
-  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sorted_bounds, sort_value, sweep_end, counts, 0, local_memory,
+  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end, counts, 0, local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
   uint first = group * SWEEP_BLOCK, bodies = counts[COUNT_BODIES];
   uint shares = first >= bodies ? 0u : (bodies - first < SWEEP_BLOCK ? bodies - first : SWEEP_BLOCK) * SWEEP_SHARES;
@@ -124,11 +124,11 @@ SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const
 }
 
 SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const row *sorted_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
+                               GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
                                GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key,
                                LOCAL uint *local_memory, uint group)
 {
-  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sorted_bounds, sort_value, sweep_end, counts, pair_key, local_memory,
+  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end, counts, pair_key, local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
   sweep_group(&sweep, share_start, group * SWEEP_BLOCK < counts[COUNT_BODIES] ? sweep_block[group] : 0u, group);
 }
