@@ -99,8 +99,9 @@ __kernel void grid_keys(__global const row *bounds, __global const row *grid, __
 __kernel void grid_cells(__global const uint *sort_key, __global const uint *counts, __global uint *cell_start,
                          uint length, RANGE)
 {
-  FOR_EACH_IN_RANGE(i)
-  grid_cells_item(sort_key, counts, cell_start, length, i);
+  __local uint local_memory[TILE / CELLS_PER_SAMPLE + 1];
+  grid_cells_group(sort_key, counts, cell_start, length, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void grid_count(__global const Parameters *parameters, __global const uint *body_traits,

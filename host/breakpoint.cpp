@@ -20,7 +20,11 @@ std::string_view name_of_buffer(Buffer buffer) { return row_of(buffer).name; }
 bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with("constraint_"); }
 
 /* Numbered as the kernel's own iterations are, whatever those stand for. */
-bool is_by_item(Buffer buffer) { return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds; }
+bool is_by_item(Buffer buffer)
+{
+  return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds || buffer == Buffer::finds ||
+         buffer == Buffer::grid_finds;
+}
 
 bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
 {

@@ -180,13 +180,22 @@ struct World::Implementation {
     current_step = statistics.steps;
     ++state;
     for (int repetition = 0; repetition < most_repetitions; ++repetition) {
+      begin_launches();
       launch_step(launcher, plan, settings);
       memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
+      launches_ended = true;
       if (plan.known[COUNT_STATUS] == 0) return accept();
       prepare_repetition(plan.known[COUNT_STATUS]);
     }
     throw std::runtime_error(fmt::format("step {} did not complete in {} repetitions (status {})", statistics.steps, most_repetitions,
                                          plan.known[COUNT_STATUS]));
+  }
+
+  /* Where launches broke off, by an exception that the caller survived, what is kept may be of no launch. */
+  void begin_launches()
+  {
+    if (!launches_ended) forget_kept(memory);
+    launches_ended = false;
   }
 
   /* Some rounds and a colour of slack keep a growing scene from repeating every step. */
@@ -218,6 +227,7 @@ struct World::Implementation {
     const uint32_t before = plan.capacity_pairs;
     plan.capacity_pairs = needed + needed / 4;
     record_kernels(); /* longer scans and sorts take other kernels */
+    forget_kept(memory);
     try {
       allocate();
     } catch (const std::bad_alloc &) {
@@ -227,7 +237,6 @@ struct World::Implementation {
       throw std::runtime_error(fmt::format("out of memory: {} contact pairs need more than there is; the state is that before the step", needed));
     }
     memory.upload(Buffer::counts, &plan.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
-    forget_kept(memory);
     place(wanted);
     guess_counts();
   }
@@ -278,7 +287,9 @@ struct World::Implementation {
       launch_query_structure(recorded, structure);
       for (size_t i = 0; i < buffer_count; ++i)
         if (recorder.touched[i] && !queried[i]) make_room(buffer_at(i));
+      begin_launches();
       launch_query_structure(launches, structure);
+      launches_ended = true;
       structure_state = state;
     }
     return {memory, launcher, scene, special.order, structure};
@@ -306,6 +317,7 @@ struct World::Implementation {
   std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
   std::array<bool, buffer_count> queried{}; /* by the structure that queries walk */
   uint64_t state = 1, structure_state = 0;  /* the state that is, and the one that this structure is of */
+  bool launches_ended = true;
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;

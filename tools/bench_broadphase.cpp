@@ -15,8 +15,8 @@ namespace tandem {
 namespace {
 
 /* More than the least while they are short: what is kept from frame to frame makes some cost more than others. */
-constexpr uint32_t warm_frames = 2, timed_frames = 9, most_timed_frames = 60;
-constexpr double enough_milliseconds = 500;
+constexpr uint32_t warm_frames = 2, timed_frames = 9, most_timed_frames = 30;
+constexpr double enough_milliseconds = 3000;
 constexpr uint32_t most_by_brute_force = 16384;  /* its work is that of the square */
 constexpr double longest_milliseconds = 5000;    /* of a frame: 11 of them are a minute */
 constexpr const char *oracle = "brute-force";

@@ -79,8 +79,6 @@ void BroadphaseFrames::guess_counts()
 {
   plan_.known.fill(plan_.capacity_pairs);
   for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large})) plan_.known[entry] = value;
-  plan_.known[COUNT_COMMIT_BODIES] = plan_.bodies;
-  plan_.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan_.bodies + 1;
   plan_.known[COUNT_CELLS_PLUS_ONE] = plan_.capacity_cells + 1;
 }
 

@@ -26,7 +26,7 @@ void sort_into_cells(StepLaunches &step)
 {
   begin_cells(step);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
-  step.run(Kernel::grid_cells, {COUNT_SMALL});
+  step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_SMALL});
 }
 
 void find_pairs_in_grid(StepLaunches &step)
@@ -39,7 +39,7 @@ void find_pairs_in_bitonic_grid(StepLaunches &step)
 {
   begin_cells(step);
   bitonic_sort(step.launcher(), Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies);
-  step.run(Kernel::grid_cells, {COUNT_SMALL});
+  step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_SMALL});
   search_cells(step);
 }
 

@@ -19,7 +19,7 @@ void find_pairs_in_hybrid(StepLaunches &step)
   step.run(Kernel::large_count);
   step.run(Kernel::small_keys);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, std::bit_width(step.plan().capacity_cells));
-  step.run(Kernel::grid_cells, {COUNT_BOUNDED});
+  step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_BOUNDED});
   step.run(Kernel::small_count);
   step.run(Kernel::join_finds);
   step.scan_pairs(Buffer::share_start, COUNT_HALVES);

@@ -1,7 +1,7 @@
 /* trees.cpp - a moving and a standing tree of fat boxes, and the pairs of those that are kept (shared/broadphase/fat_boxes.h, near_pairs.h).
  *
- * Where no body left its box, the kernels between find_changes and the filter have nothing to run over: the device knows, the host need
- * not ask.
+ * Where no body left its box, the kernels between plan_trees and the filter have next to nothing to run over: the device knows, the host
+ * need not ask.
  */
 #include <bit>
 
@@ -19,7 +19,7 @@ void file_in_trees(StepLaunches &step)
   const uint32_t bodies = step.plan().bodies;
   step.run_at_most(Kernel::refit_leaves, bodies);
   step.run(Kernel::plan_hierarchy, {1});
-  find_extent(step);
+  find_extent(step, false, COUNT_FILED_SMALL);
   step.run_at_most(Kernel::tree_keys, bodies);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS + 1);
   link_leaves(step, Buffer::fat_bounds);

@@ -3,7 +3,6 @@
 #ifndef TANDEM_SHARED_BROADPHASE_CURVE_H
 #define TANDEM_SHARED_BROADPHASE_CURVE_H
 
-#include "shared/broadphase/curve_limits.h"
 #include "shared/broadphase/extent.h"
 
 /* Spreads ten bits to every third. */

@@ -6,5 +6,7 @@
 
 /* Bits of a code: ten an axis. */
 #define CURVE_BITS 30u
+/* Of the curve along an axis. */
+#define CURVE_CELLS (1 << CURVE_BITS / 3u)
 
 #endif

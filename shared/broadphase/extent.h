@@ -8,13 +8,13 @@
 #ifndef TANDEM_SHARED_BROADPHASE_EXTENT_H
 #define TANDEM_SHARED_BROADPHASE_EXTENT_H
 
+#include "shared/broadphase/curve_limits.h"
 #include "shared/broadphase/overlap.h"
 #include "shared/conversion.h"
 
 #define EXTENT_VALUES 16u /* lower xyz, upper xyz, sum xyz, sum of squares xyz, sum of products yz zx xy, size */
 #define EXTENT_WIDTH 256u /* virtual items of a group; each keeps EXTENT_VALUES words of local memory */
 #define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
-#define CURVE_CELLS 1024  /* of the space-filling curve of hierarchy.h, along an axis: ten bits */
 
 /* Of the centres; products: y z, z x, x y. size: the longest side of any box. */
 typedef struct { vec3 lower, upper, sum, squares, products; real size; } extent;

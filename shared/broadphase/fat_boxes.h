@@ -84,9 +84,9 @@ SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *b
 {
   if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
   uint body = leaf_body[i];
-  if (body_left[body] == 0u) return;
   box_bounds fat = load_bounds(fat_bounds, body);
   if (!bounds_overlap(fat, load_bounds(filed_bounds, i))) ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+  if (body_left[body] == 0u) return;
   ATOMIC_OR(&tile_changed[i / TILE], 1u);
   store_leaf(box_pyramid, counts[COUNT_LEAVES] + i, fat, body);
 }

@@ -51,10 +51,21 @@ SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLO
   sort_value[i] = body;
 }
 
-/* cell_start[cell] = the first sorted body of that cell or a later one. */
-SHARED void grid_cells_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint length, uint cell)
+/* cell_start[cell] = the first sorted body of that cell or a later one. There are more cells than bodies: a group looks through the whole
+ * list for every CELLS_PER_SAMPLE-th of its TILE cells, and for the others between the places of two of these. */
+#define CELLS_PER_SAMPLE 16u
+SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint length, LOCAL uint *local_memory,
+                             uint group)
 {
-  cell_start[cell] = lower_bound_of(sort_key, counts[length], cell);
+  uint cells = counts[COUNT_CELLS_PLUS_ONE], first = group * TILE;
+  uint width = first >= cells ? 0u : cells - first < TILE ? cells - first : TILE;
+  uint samples = width > 0u ? TILE / CELLS_PER_SAMPLE + 1u : 0u;
+  FOR_EACH_ITEM(sample, samples) local_memory[sample] = lower_bound_of(sort_key, counts[length], first + sample * CELLS_PER_SAMPLE);
+  FOR_EACH_ITEM(item, width)
+  {
+    uint from = local_memory[item / CELLS_PER_SAMPLE], to = local_memory[item / CELLS_PER_SAMPLE + 1u];
+    cell_start[first + item] = from + lower_bound_of(sort_key + from, to - from, first + item);
+  }
 }
 
 /* A stretch of the sorted list: cells left .. right of the row (y, z). */

@@ -12,7 +12,7 @@
 #include "shared/broadphase/finds.h"
 #include "shared/broadphase/hierarchy.h"
 
-/* The bits of a code tell CURVE_BITS levels apart, those of the places of equal codes up to 31 more. */
+/* The bits of a code tell CURVE_BITS levels apart, and one more in trees.cpp; those of the places of equal codes up to 31 more. */
 #define HIERARCHY_LEVELS 64u
 
 typedef struct {

@@ -60,6 +60,7 @@ SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
                             GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *near_key, uint i)
 {
   uint to = sweep_start[i], capacity = near_capacity(counts);
+  if (to == sweep_start[i + 1u]) return; /* most: they need not look again */
 #define VISIT(a, b) { if (to < capacity) near_key[to] = key_of_pair(a, b); ++to; }
   NEAR_SEARCH(i, VISIT)
 #undef VISIT

@@ -25,11 +25,9 @@ typedef struct {
   uint waiting[HIERARCHY_LEVELS];
 } ray_walk;
 
-/* Empty boxes, turned inside out, would seem endless. */
 SHARED real way_into_slot(const ray_walk *walk, uint slot, real reach)
 {
-  numbered_box n = load_numbered_box(walk->tree.nodes, slot);
-  return n.lowest < BOUNDLESS ? way_into_box(&walk->way, n.box, reach) : ENDLESS;
+  return way_into_box(&walk->way, load_bounds(walk->tree.nodes, slot), reach);
 }
 
 /* A tree of a single leaf has no node above it that tests its box. */

@@ -44,8 +44,10 @@ SHARED mask is_part(way_part part) { return part.enter <= part.leave + R(1e-6) *
 /* Where along the way it enters the box; ENDLESS where it misses it, or enters behind `reach`. */
 SHARED real way_into_box(const straight_way *way, box_bounds box, real reach)
 {
+  /* What is no box, or is turned inside out as that of an empty node, would seem endless. */
+  mask is_box = box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
   way_part part = part_in_box(way, box, reach);
-  return is_part(part) ? part.enter : ENDLESS;
+  return is_box && is_part(part) ? part.enter : ENDLESS;
 }
 
 #endif

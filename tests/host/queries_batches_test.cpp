@@ -167,7 +167,7 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
 
 TEST_CASE("queries between steps see the new places, under every broadphase, and change nothing")
 {
-  for (const std::string broadphase : {"grid", "brute-force", "bvh"}) {
+  for (const std::string &broadphase : broadphase_names()) {
     Settings settings;
     settings.broadphase = broadphase;
     Random random(24);

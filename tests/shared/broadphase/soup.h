@@ -105,6 +105,9 @@ public:
     if (!velocities.empty()) memory_.upload(Buffer::body_velocity, velocities.data(), velocities.size() * sizeof(row));
   }
 
+  /* As a query between two steps does. */
+  void make_query_hierarchy() { build_hierarchy(step_, false); }
+
   /* One after another they share what is kept, which a world's only broadphase has to itself. */
   BodyPairs find(const Broadphase &broadphase)
   {
