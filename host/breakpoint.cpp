@@ -144,9 +144,14 @@ const char *iteration_name(Kernel kernel)
   case Kernel::count_events:
   case Kernel::write_events:
   case Kernel::count_pair_events:
+  case Kernel::merge_near_count:
+  case Kernel::merge_near_write:
+  case Kernel::filter_near:
+  case Kernel::take_near:
   case Kernel::write_pair_events: return "a";
+  case Kernel::merge_count:
+  case Kernel::merge_write:
   case Kernel::start_pairs: return "body";
-  case Kernel::grid_cells: return "cell";
   case Kernel::color_starts: return "color";
   default: return row_of(kernel).items == COUNT_ONE ? "" : "i";
   }

@@ -26,7 +26,6 @@ enum {
   COUNT_LEAVES,        /* leaves of the pyramid under it: a power of two, at least as many */
   COUNT_LEAF_TILES,    /* nodes of that with TILE leaves each, at least 1 */
   COUNT_FILED,         /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
-  COUNT_FILED_SMALL,   /* bodies of COUNT_SMALL whose extent is looked at for that */
   COUNT_FILED_LEAVES,  /* leaves of the pyramid in a step that does so */
   COUNT_RAISED,        /* leaves above which boxes are made anew: all, or none */
   COUNT_STRAYS,        /* leaves that have left the boxes they were filed under */

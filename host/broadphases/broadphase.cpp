@@ -42,9 +42,9 @@ void forget_kept(Memory &memory)
   for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT}) memory.upload(Buffer::counts, &none, sizeof none, entry * sizeof none);
 }
 
-void find_extent(StepLaunches &step, bool hybrid, uint32_t bodies)
+void find_extent(StepLaunches &step, bool hybrid)
 {
-  step.launcher().launch({Kernel::extent_tiles, {}, {}, COUNT_ZERO, bodies, step.plan().bodies});
+  step.run(Kernel::extent_tiles);
   step.run(Kernel::extent_whole);
   step.run(Kernel::lay_out, {hybrid ? 1u : 0u});
 }

@@ -42,9 +42,8 @@ void find_pairs_by_stack(StepLaunches &step);
 void find_pairs_by_history(StepLaunches &step);
 void find_pairs_in_trees(StepLaunches &step);
 
-/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. bodies: an
- * entry of counts, COUNT_SMALL or one that is 0 where the layout of a step before will do. */
-void find_extent(StepLaunches &step, bool hybrid = false, uint32_t bodies = COUNT_SMALL);
+/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
+void find_extent(StepLaunches &step, bool hybrid = false);
 /* The small bodies, sorted by cells of their own extent: for the grid, and for queries. */
 void sort_into_cells(StepLaunches &step);
 /* Sorts as many keys of pairs as the entry of counts says. */

@@ -43,7 +43,7 @@ void build_hierarchy(StepLaunches &step, bool keep)
 {
   const uint32_t bodies = step.plan().bodies;
   step.run(Kernel::plan_hierarchy, {keep ? 1u : 0u});
-  find_extent(step, false, COUNT_FILED_SMALL);
+  find_extent(step);
   step.run_at_most(Kernel::curve_keys, bodies);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS);
   link_leaves(step, Buffer::bounds);

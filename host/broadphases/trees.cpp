@@ -19,7 +19,7 @@ void file_in_trees(StepLaunches &step)
   const uint32_t bodies = step.plan().bodies;
   step.run_at_most(Kernel::refit_leaves, bodies);
   step.run(Kernel::plan_hierarchy, {1});
-  find_extent(step, false, COUNT_FILED_SMALL);
+  find_extent(step);
   step.run_at_most(Kernel::tree_keys, bodies);
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS + 1);
   link_leaves(step, Buffer::fat_bounds);

@@ -67,7 +67,6 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
   counts[COUNT_FILED] = stands != 0u ? 0u : leaves;
   counts[COUNT_HIERARCHY_KEPT] = keep;
   set_leaves(counts, leaves);
-  counts[COUNT_FILED_SMALL] = stands != 0u ? 0u : counts[COUNT_SMALL];
   counts[COUNT_FILED_LEAVES] = stands != 0u ? 0u : counts[COUNT_LEAVES];
 }
 
