@@ -51,8 +51,10 @@ void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::functio
     run.pairs.push_back(frames.pairs());
     run.hashes.push_back(frames.hash());
     if (frame < warm_frames + timed_frames) after_frame();
-    if (frame >= warm_frames) run.milliseconds.push_back(milliseconds), spent += milliseconds;
-    else if (frame + 1 == warm_frames && milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
+    if (frame >= warm_frames) {
+      run.milliseconds.push_back(milliseconds);
+      spent += milliseconds;
+    } else if (frame + 1 == warm_frames && milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
       run.skipped = "too slow: stopped";
       return;
     }

@@ -45,7 +45,7 @@ void find_pairs_in_trees(StepLaunches &step);
 /* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
 void find_extent(StepLaunches &step, bool hybrid = false);
 /* The small bodies, sorted by cells of their own extent: for the grid, and for queries. */
-void sort_into_cells(StepLaunches &step);
+void sort_into_cells(StepLaunches &step, bool bitonic = false);
 /* Sorts as many keys of pairs as the entry of counts says. */
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity);
 /* The list from pair_key, in any order. */

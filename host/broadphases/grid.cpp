@@ -7,12 +7,6 @@
 namespace tandem {
 namespace {
 
-void begin_cells(StepLaunches &step)
-{
-  find_extent(step);
-  step.run(Kernel::grid_keys);
-}
-
 void search_cells(StepLaunches &step)
 {
   step.run(Kernel::grid_count);
@@ -22,11 +16,14 @@ void search_cells(StepLaunches &step)
 
 } // namespace
 
-void sort_into_cells(StepLaunches &step)
+void sort_into_cells(StepLaunches &step, bool bitonic)
 {
-  begin_cells(step);
-  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies, 0, std::bit_width(step.plan().capacity_cells));
-  step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_SMALL});
+  const StepPlan &plan = step.plan();
+  find_extent(step);
+  step.run(Kernel::grid_keys);
+  if (bitonic) bitonic_sort(step.launcher(), Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies);
+  else step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies, 0, std::bit_width(plan.capacity_cells));
+  step.run_at_most(Kernel::grid_cells, plan.capacity_cells + 1, {COUNT_SMALL});
 }
 
 void find_pairs_in_grid(StepLaunches &step)
@@ -37,9 +34,7 @@ void find_pairs_in_grid(StepLaunches &step)
 
 void find_pairs_in_bitonic_grid(StepLaunches &step)
 {
-  begin_cells(step);
-  bitonic_sort(step.launcher(), Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, step.plan().bodies);
-  step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_SMALL});
+  sort_into_cells(step, true);
   search_cells(step);
 }
 
