@@ -1,8 +1,9 @@
 /* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays and those after it.
  *
  * Boxes around the bodies as they stand, and the structure of the broadphase over them, are made for the first query after a step; every
- * query walks it (shared/queries/body_walk.h). Which structure it is changes no bit of an answer. Of bodies hit at one place the one of the lower index counts as nearest. A query and a body must accept each
- * other's groups, as two bodies must. Quarantined bodies are not found.
+ * query walks it (shared/queries/body_walk.h). Which structure it is changes no bit of an answer. Of bodies hit at one place the one of
+ * the lower index counts as nearest. A query and a body must accept each other's groups, as two bodies must. Quarantined bodies are not
+ * found.
  */
 #pragma once
 
