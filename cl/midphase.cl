@@ -79,12 +79,13 @@ __kernel void start_leaf_pairs(__global const uint *leaf_start, __global const u
     start_leaf_pairs_item(leaf_start, counts, pair_start, i);
 }
 
-__kernel void group_manifolds(__global const uint *pair_a, __global const uint *pair_b,
-    __global const uint *pair_leaf, __global const uint *body_traits, __global const row *manifold_normal,
-    __global const uint *manifold_count, __global const uint *counts, __global uint *manifold_group, RANGE)
+__kernel void group_manifolds(__global const Parameters *parameters, __global const uint *pair_a, __global const uint *pair_b,
+    __global const uint *pair_leaf, __global const uint *body_traits, __global const row *body_velocity,
+    __global const row *manifold_normal, __global const uint *manifold_count, __global const uint *counts,
+    __global uint *manifold_group, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    group_manifolds_item(pair_a, pair_b, pair_leaf, body_traits, manifold_normal, manifold_count, counts,
+    group_manifolds_item(parameters, pair_a, pair_b, pair_leaf, body_traits, body_velocity, manifold_normal, manifold_count, counts,
         manifold_group, i);
 }
 

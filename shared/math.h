@@ -27,6 +27,7 @@ SHARED vec3 make_vec3(real x, real y, real z)
   vec3 v = {x, y, z};
   return v;
 }
+SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
 /* Of the three components neither the least nor the largest. */
 SHARED real middle_of(vec3 v) { return maximum(minimum(v.x, v.y), minimum(maximum(v.x, v.y), v.z)); }
 SHARED vec4 make_vec4(real x, real y, real z, real w)
@@ -121,6 +122,14 @@ SHARED vec3 rotate_back(mat3 m, vec3 v)
 SHARED vec3 axis_x(mat3 m) { return make_vec3(m.x.x, m.y.x, m.z.x); }
 SHARED vec3 axis_y(mat3 m) { return make_vec3(m.x.y, m.y.y, m.z.y); }
 SHARED vec3 axis_z(mat3 m) { return make_vec3(m.x.z, m.y.z, m.z.z); }
+
+/* The axes of a rotation, turned. */
+SHARED mat3 turned_axes(mat3 turn, mat3 axes)
+{
+  vec3 x = rotate(turn, axis_x(axes)), y = rotate(turn, axis_y(axes)), z = rotate(turn, axis_z(axes));
+  mat3 m = {{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+  return m;
+}
 
 /* The rotation from the axes of `from` into those of `to`. */
 SHARED mat3 relative_rotation(mat3 to, mat3 from)

@@ -21,6 +21,13 @@
 #define R(literal) literal##f
 #endif
 
+/* Largest relative error of one rounding. */
+#ifdef TANDEM_REFERENCE
+#define ROUNDING 1.2e-16
+#else
+#define ROUNDING 6.0e-8f
+#endif
+
 #ifndef TANDEM_LANES
 
 #if defined(__OPENCL_C_VERSION__) || defined(__OPENCL_VERSION__)

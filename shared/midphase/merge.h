@@ -16,10 +16,22 @@
 
 /* Cosine of 8 degrees. */
 #define SAME_DIRECTION R(0.99)
+/* Of the step: impacts no farther apart than this are one. Arms of a joined manifold are those of one moment. */
+#define SAME_MOMENT R(0.004)
+/* Of the slop: by this much a point may come nearer in the step for being seen along the normal of its group. */
+#define SAME_APPROACH R(0.1)
 /* Feature code of a joined manifold: its points are known by the part they play in the reduction. */
 #define JOINED_CODE 0xffffffu
 
 SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint i, uint j) { return pair_a[i] == pair_a[j] && pair_b[i] == pair_b[j]; }
+
+/* Two normals with the moments of their impacts. approach: velocity of a against b. */
+SHARED mask press_alike(GLOBAL const Parameters *parameters, vec4 first, vec4 second, vec3 approach)
+{
+  real nearer = magnitude(inner(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
+  return inner(xyz(first), xyz(second)) >= SAME_DIRECTION && nearer <= maximum(SAME_APPROACH * parameters->slop, R(1e-5)) &&
+         magnitude(first.w - second.w) <= SAME_MOMENT * parameters->step;
+}
 
 SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_leaf, uint i, uint j)
 {
@@ -28,18 +40,20 @@ SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_lea
 }
 
 /* The first leaf of a pair of bodies goes through all of them. */
-SHARED void group_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
-                                 GLOBAL const row *normals, GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *group, uint i)
+SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
+                                 GLOBAL const row *velocities, GLOBAL const row *normals, GLOBAL const uint *counts_of_points, GLOBAL const uint *counts,
+                                 GLOBAL uint *group, uint i)
 {
   if (i > 0u && same_bodies(pair_a, pair_b, i, i - 1u)) return;
+  vec3 approach = subtract(load_motion(velocities, pair_a[i]).linear, load_motion(velocities, pair_b[i]).linear);
   uint end = counts[COUNT_PAIRS];
   for (uint j = i; j < end && same_bodies(pair_a, pair_b, i, j); ++j) {
     group[j] = j;
     if (counts_of_points[j] == 0u) continue;
-    vec3 normal = xyz(load_row(normals, j));
+    vec4 normal = load_row(normals, j);
     for (uint k = i; k < j; ++k) {
       if (group[k] != k || counts_of_points[k] == 0u) continue;
-      if (inner(xyz(load_row(normals, k)), normal) < SAME_DIRECTION || !same_material(traits, pair_leaf, j, k)) continue;
+      if (!press_alike(parameters, load_row(normals, k), normal, approach) || !same_material(traits, pair_leaf, j, k)) continue;
       group[j] = k;
       break;
     }
@@ -69,8 +83,10 @@ SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axe
   return found;
 }
 
-SHARED manifold joined_manifold(const manifold_group *group, vec3 normal, real size)
+/* first: unit normal, and the moment of the impact. */
+SHARED manifold joined_manifold(const manifold_group *group, vec4 first, real size)
 {
+  vec3 normal = xyz(first);
   tangents axes = tangents_of(normal);
   clip_point four[4];
   reduction r;
@@ -81,6 +97,7 @@ SHARED manifold joined_manifold(const manifold_group *group, vec3 normal, real s
   manifold m;
   m.normal = normal;
   m.code = JOINED_CODE;
+  m.impact_time = first.w;
   for (int slot = 0; slot < 4; ++slot) {
     m.kept[slot] = four[slot].valid;
     m.point[slot] = extend(stream_group(&r, group, axes, &four[slot]), four[slot].separation);
@@ -98,13 +115,11 @@ SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   manifold_group all = {group, counts_of_points, points, stride, i, end};
   real radius_a = load_row(shapes, pair_a[i]).w, radius_b = load_row(shapes, pair_b[i]).w;
   real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
-  vec4 normal = load_row(normals, i);
-  manifold m = joined_manifold(&all, xyz(normal), size);
+  manifold m = joined_manifold(&all, load_row(normals, i), size);
   manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
   for (uint j = i + 1u; j < end; ++j)
     if (group[j] == i) store_manifold_if(1, nothing, stride, normals, points, counts_of_points, features, j);
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
-  store_row(normals, i, normal); /* with the moment of its impact */
 }
 
 #endif

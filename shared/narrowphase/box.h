@@ -2,7 +2,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_H
 
-#include "shared/narrowphase/manifold.h"
+#include "shared/narrowphase/time_of_impact.h"
 
 typedef struct {
   vec3 x, y, z; /* unit axes, in world axes */
@@ -17,6 +17,15 @@ SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)
   box.y = axis_y(rotation);
   box.z = axis_z(rotation);
   box.extent = extent;
+  return box;
+}
+/* The same after turning evenly for a time. */
+SHARED oriented_box turned_box(oriented_box box, vec3 angular, real time)
+{
+  mat3 turn = turn_within(angular, time);
+  box.x = rotate(turn, box.x);
+  box.y = rotate(turn, box.y);
+  box.z = rotate(turn, box.z);
   return box;
 }
 SHARED oriented_box choose_box(mask m, oriented_box a, oriented_box b)

@@ -70,7 +70,6 @@ SHARED vec3 in_axes_of(oriented_box box, vec3 v)
   return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v));
 }
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
-SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
 
 /* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
 SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }

@@ -123,6 +123,7 @@ SHARED manifold face_contacts(box_pair pair)
   real base_n = choose(a_is_reference, reference.extent, to_face.z - center.z);
   manifold m;
   m.normal = pair.normal;
+  m.impact_time = R(0.0);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 point = add_scaled(scale(reference.u, base_u + four[slot].u), reference.v, base_v + four[slot].v);
     point = add_scaled(point, outward, base_n + four[slot].separation * R(0.5));
@@ -132,17 +133,6 @@ SHARED manifold face_contacts(box_pair pair)
   m.code = bit_if(!a_is_reference, 1u) | (k << 2u) | bit_if(inner(reference.axis, outward) < zero, 4u) | (j << 5u) |
            bit_if(facing < zero, 7u);
   return m;
-}
-
-SHARED manifold choose_manifold(mask m, manifold a, manifold b)
-{
-  for (int slot = 0; slot < 4; ++slot) {
-    b.point[slot] = choose4(m, a.point[slot], b.point[slot]);
-    b.kept[slot] = choose(m, a.kept[slot], b.kept[slot]);
-  }
-  b.normal = choose3(m, a.normal, b.normal);
-  b.code = choose(m, a.code, b.code);
-  return b;
 }
 
 /* Each kind of contact is computed only if some item of the group has it. */
@@ -166,6 +156,42 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
   return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
 }
 
+/* The manifold of two boxes as they stand. toward: their offset, or one by which they shall part. least: the smallest half extent. */
+SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, vec3 toward, real least, pair_motion moves)
+{
+  separating_axis axis = separating_axis_of(pair.a, pair.b, toward, parameters->slop,
+                                            ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * least));
+  pair.code = axis.code;
+  pair.normal = normal_of_axis(pair.a, pair.b, toward, axis.code);
+  real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, pair.normal);
+  mask near = wanted & (axis.separation < reach), on_edges = axis.code >= 6u;
+  manifold m = single_contact(pair.normal, pair.offset, reach, near & (!near));
+  m = with_face_contacts(m, near & (!on_edges), pair);
+  m = with_edge_contact(m, near & on_edges, pair);
+  return kept_within(m, reach);
+}
+
+SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
+{
+  pair.a = turned_box(pair.a, moves.a.angular, time);
+  pair.b = turned_box(pair.b, moves.b.angular, time);
+  pair.offset = offset_after(pair.offset, moves, time);
+  return pair;
+}
+
+/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. */
+SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
+{
+  advancement at = start_advancement(reached);
+  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
+    box_pair now = boxes_after(start, moves, at.time);
+    separating_axis axis = separating_axis_of(now.a, now.b, now.offset, slop, R(0.0));
+    at = advanced(at, axis.separation, closing_speed(moves, normal_of_axis(now.a, now.b, now.offset, axis.code)), way);
+    if (!any_of(at.active)) break;
+  }
+  return at;
+}
+
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                  GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
                                  GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
@@ -178,25 +204,30 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   if (!any_of(mine)) return;
 
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
+  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), shape_a.w, shape_b.w};
   box_pair pair;
   pair.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
   pair.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
-  pair.offset = offset_between(positions, a, b);
+  pair.offset = pair.normal = offset_between(positions, a, b);
+  pair.code = 0u;
   real least = minimum(least_of(pair.a.extent), least_of(pair.b.extent));
   vec3 toward = parting_offset(pair.offset, parameters->slop, least, a, b);
-  separating_axis axis = separating_axis_of(pair.a, pair.b, toward, parameters->slop,
-                                            ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * least));
-  pair.code = axis.code;
-  pair.normal = normal_of_axis(pair.a, pair.b, toward, axis.code);
+  manifold m = boxes_contact(parameters, mine, pair, toward, least, moves);
 
-  real reach = reach_of(parameters, load_motion(velocities, a), shape_a.w, load_motion(velocities, b), shape_b.w,
-                        pair.normal);
-  mask near = mine & (axis.separation < reach), on_edges = axis.code >= 6u;
-  manifold m = single_contact(pair.normal, pair.offset, reach, near & (!near));
-  m = with_face_contacts(m, near & (!on_edges), pair);
-  m = with_edge_contact(m, near & on_edges, pair);
-  store_manifold_if(mine, kept_within(m, reach), counts[CAPACITY_PAIRS], normals, points, counts_of_points, features,
-                    i);
+  journey way = journey_of_step(parameters, moves, least, shape_a.w + shape_b.w);
+  doubt d = doubt_of(parameters, m, moves, way, least);
+  if (any_of(mine & d.asked)) {
+    encounter met = encounter_of(d, impact_of_boxes(mine & d.reached, pair, parameters->slop, moves, way));
+    met.at_impact = met.at_impact & mine;
+    if (any_of(met.at_impact)) {
+      pair = boxes_after(pair, moves, choose(met.at_impact, met.time, (real)R(0.0)));
+      manifold then = boxes_contact(parameters, met.at_impact, pair, pair.offset, least, moves);
+      met.at_impact = met.at_impact & has_points(then); /* rounded edges may meet without a contact */
+      m = choose_manifold(met.at_impact, then, m);
+    }
+    m = as_seen_from_start(parameters, m, met, pair.offset, moves);
+  }
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 
 #endif

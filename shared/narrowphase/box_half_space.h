@@ -24,6 +24,7 @@ SHARED manifold box_on_plane(oriented_box box, vec3 center, vec3 outward, vec3 o
   vec3 u = scale(face.u, face.extent_u), v = scale(face.v, face.extent_v);
   manifold m;
   m.normal = outward;
+  m.impact_time = R(0.0);
   m.code = (k << 1u) | choose(side > R(0.0), (natural)1u, (natural)0u);
   m.point[0] = corner_contact(subtract(subtract(middle, u), v), center, outward, origin);
   m.point[1] = corner_contact(subtract(add(middle, u), v), center, outward, origin);
@@ -31,6 +32,47 @@ SHARED manifold box_on_plane(oriented_box box, vec3 center, vec3 outward, vec3 o
   m.point[3] = corner_contact(add(add(middle, u), v), center, outward, origin);
   for (int slot = 0; slot < 4; ++slot) m.kept[slot] = m.point[slot].w < reach;
   return m;
+}
+
+/* A box and a plane through the origin that it is seen from, with unit normal `outward`; seen from the plane's body, or as the
+ * pair's first body is the box (box_first), from there. */
+typedef struct {
+  oriented_box box;
+  vec3 center, outward;
+  mask box_first;
+} box_and_plane;
+
+SHARED manifold box_plane_contact(box_and_plane pair, real reach)
+{
+  vec3 here = make_vec3(R(0.0), R(0.0), R(0.0));
+  manifold m = box_on_plane(pair.box, pair.center, pair.outward, choose3(pair.box_first, here, negate(pair.center)), reach);
+  m.normal = choose3(pair.box_first, negate(pair.outward), pair.outward);
+  return m;
+}
+
+SHARED real gap_to_plane(box_and_plane pair)
+{
+  vec3 along = make_vec3(inner(pair.box.x, pair.outward), inner(pair.box.y, pair.outward), inner(pair.box.z, pair.outward));
+  return inner(pair.center, pair.outward) - inner(absolute(along), pair.box.extent);
+}
+
+SHARED box_and_plane box_and_plane_after(box_and_plane pair, pair_motion moves, real time)
+{
+  vec3 velocity = subtract(moves.b.linear, moves.a.linear);
+  pair.center = add_scaled(pair.center, choose3(pair.box_first, negate(velocity), velocity), time);
+  pair.box = turned_box(pair.box, choose3(pair.box_first, moves.a.angular, moves.b.angular), time);
+  return pair;
+}
+
+SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3 normal, pair_motion moves, journey way)
+{
+  real closing = closing_speed(moves, normal);
+  advancement at = start_advancement(reached);
+  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
+    at = advanced(at, gap_to_plane(box_and_plane_after(pair, moves, at.time)), closing, way);
+    if (!any_of(at.active)) break;
+  }
+  return at;
 }
 
 SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -48,16 +90,24 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
 
   natural body = choose(box_first, a, b), plane = choose(box_first, b, a);
   vec4 shape = load_row(shapes, body);
-  oriented_box box = oriented_box_of(load_row(orientations, body), xyz(shape));
-  vec3 outward = axis_y(rotation_of(quat_from(load_row(orientations, plane))));
-  vec3 center = offset_between(positions, plane, body);
-  vec3 here = make_vec3(R(0.0), R(0.0), R(0.0));
-  vec3 normal = choose3(box_first, negate(outward), outward);
-  real zero = R(0.0);
-  real reach = reach_of(parameters, load_motion(velocities, a), choose(box_first, shape.w, zero),
-                        load_motion(velocities, b), choose(box_first, zero, shape.w), normal);
-  manifold m = box_on_plane(box, center, outward, choose3(box_first, here, negate(center)), reach);
-  m.normal = normal;
+  real zero = R(0.0), least = least_of(xyz(shape));
+  box_and_plane pair = {oriented_box_of(load_row(orientations, body), xyz(shape)), offset_between(positions, plane, body),
+                        axis_y(rotation_of(quat_from(load_row(orientations, plane)))), box_first};
+  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), choose(box_first, shape.w, zero), choose(box_first, zero, shape.w)};
+  vec3 normal = choose3(box_first, negate(pair.outward), pair.outward);
+  real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, normal);
+  manifold m = box_plane_contact(pair, reach);
+
+  /* A plane has no end that a body could pass; only what turns may swing by it. */
+  journey way = journey_of_step(parameters, moves, least, shape.w);
+  doubt d = doubt_of(parameters, m, moves, way, least);
+  d.asked = d.asked & (fastest_turning(moves) > zero);
+  if (any_of(mine & d.asked)) {
+    encounter met = encounter_of(d, impact_of_box_on_plane(mine & d.reached, pair, normal, moves, way));
+    box_and_plane then = box_and_plane_after(pair, moves, choose(met.at_impact, met.time, zero));
+    m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
+    m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);
+  }
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 

@@ -44,11 +44,11 @@ SHARED convex load_convex(GLOBAL const row *shapes, GLOBAL const uint *convexes,
 SHARED int takes_part(uint shape) { return shape == SHAPE_SPHERE || shape == SHAPE_BOX || shape == SHAPE_OTHER; }
 
 /* Whatever the normal will be, no gap is closed faster than the bodies approach. */
-SHARED real widest_reach(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b)
+SHARED real widest_reach(GLOBAL const Parameters *parameters, pair_motion moves)
 {
-  vec3 approach = subtract(a.linear, b.linear);
+  vec3 approach = subtract(moves.a.linear, moves.b.linear);
   real speed = length_of(approach);
-  return reach_of(parameters, a, radius_a, b, radius_b, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
+  return reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
 }
 
 SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, real thickness, uint method)
@@ -61,12 +61,10 @@ SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const conv
 /* A pair of convex shapes, seen from the centre of the first one's body in world axes. */
 typedef struct {
   convex first, second;
-  motion motion_a, motion_b;
-  real radius_a, radius_b; /* what turning can swing round: 0 of a sphere */
+  pair_motion moves;
   vec3 offset;             /* centre of the second one's body */
   real reach;              /* whatever the normal */
   real thickness;          /* of the thinner body */
-  mask continuous;
 } convex_query;
 
 enum { QUERY_OF_OTHERS = 0, QUERY_APART = 1, QUERY_NEAR = 2 };
@@ -82,17 +80,16 @@ SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLO
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return QUERY_OF_OTHERS;
-  query->motion_a = load_motion(velocities, a);
-  query->motion_b = load_motion(velocities, b);
+  query->moves.a = load_motion(velocities, a);
+  query->moves.b = load_motion(velocities, b);
   real around_a = load_row(shapes, a).w, around_b = load_row(shapes, b).w;
-  query->radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), around_a);
-  query->radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), around_b);
-  query->reach = widest_reach(parameters, query->motion_a, query->radius_a, query->motion_b, query->radius_b);
+  query->moves.radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), around_a);
+  query->moves.radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), around_b);
+  query->reach = widest_reach(parameters, query->moves);
   query->offset = offset_between(positions, a, b);
   real farthest = around_a + around_b + query->reach;
   if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return QUERY_APART;
   query->thickness = size_between(shapes, a, b);
-  query->continuous = HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[a] | traits[b]);
   hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, method >> 8u};
   query->first = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pair_leaf, a, i, 0u));
   query->second = load_convex(shapes, convexes, poses, orientations, tables, query->offset, part_of_pair(parameters, pair_leaf, b, i, 1u));
@@ -101,24 +98,45 @@ SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLO
 
 SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  return kept_within(m, reach_of(parameters, query->motion_a, query->radius_a, query->motion_b, query->radius_b, m.normal));
+  return kept_within(m, reach_of(parameters, query->moves.a, query->moves.radius_a, query->moves.b, query->moves.radius_b, m.normal));
 }
 
-/* The manifold of a pair, at the moment of its impact where that is asked for. */
-SHARED void store_contact(GLOBAL const Parameters *parameters, convex_query *query, uint method, uint stride, GLOBAL row *normals, GLOBAL row *points,
-                          GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+/* The manifold of the shapes as the query has them. */
+SHARED manifold contact_of_query(GLOBAL const Parameters *parameters, const convex_query *query, uint method)
 {
-  encounter met = {CONTACT_AT_START, R(0.0)};
-  if (query->continuous)
-    met = meet(parameters, &query->first, &query->second, query->offset, query->motion_a, query->radius_a, query->motion_b, query->radius_b);
-  real reach = met.kind == CONTACT_MISSED ? parameters->speculative_distance : query->reach;
-  manifold m = within_reach(parameters, query, contact_of_parts(parameters, &query->first, &query->second, reach, query->thickness, method));
-  if (met.kind != CONTACT_AT_START) {
-    vec3 offset = add_scaled(query->offset, subtract(query->motion_b.linear, query->motion_a.linear), met.time);
-    m = as_seen_from_start(m, met, offset, query->motion_a, query->motion_b, parameters->step);
+  return within_reach(parameters, query, contact_of_parts(parameters, &query->first, &query->second, query->reach, query->thickness, method));
+}
+
+/* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is approached. */
+SHARED mask may_meet_triangle(const convex_query *query, manifold m, journey way)
+{
+  mask of_a = is_triangle(&query->first);
+  if (has_points(m) || (!of_a && !is_triangle(&query->second))) return 0;
+  const convex *triangle = of_a ? &query->first : &query->second;
+  vec3 normal = from_shape_axes(triangle, normal_of_triangle(triangle));
+  return closing_speed(query->moves, of_a ? normal : negate(normal)) * way.horizon > way.touching;
+}
+
+/* The manifold m of the start, or what the motion of the step makes of it. */
+SHARED manifold contact_of_motion(GLOBAL const Parameters *parameters, convex_query *query, manifold m, uint method)
+{
+  real least = minimum(least_size(&query->first), least_size(&query->second));
+  journey way = journey_of_step(parameters, query->moves, least, bounding_radius_of(&query->first) + bounding_radius_of(&query->second));
+  doubt d = doubt_of(parameters, m, query->moves, way, least);
+  if (HAS_FEATURE(parameters, FEATURE_TREES) && may_meet_triangle(query, m, way)) d.asked = d.reached = d.far = 1;
+  if (!d.asked) return m;
+  encounter met = meet(&query->first, &query->second, query->offset, query->moves, way, d);
+  vec3 offset = query->offset;
+  if (met.at_impact) {
+    manifold then = contact_of_query(parameters, query, method);
+    met.at_impact = has_points(then);
+    met.missed = !met.at_impact; /* a triangle leaves it to its neighbour */
+    if (met.at_impact) {
+      m = then;
+      offset = offset_after(offset, query->moves, met.time);
+    }
   }
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
-  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
+  return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
@@ -135,7 +153,9 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
   int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
                                links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
   if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
-  if (near == QUERY_NEAR) store_contact(parameters, &query, method & 255u, stride, normals, points, counts_of_points, features, i);
+  if (near != QUERY_NEAR) return;
+  manifold m = contact_of_motion(parameters, &query, contact_of_query(parameters, &query, method & 255u), method & 255u);
+  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
 }
 
 SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -157,22 +177,25 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
                              part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
   vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
-  motion moves = load_motion(velocities, body), of_plane = load_motion(velocities, plane);
-  real radius = load_row(shapes, body).w, height = inner(up, to_plane), reach = reach_of(parameters, moves, radius, of_plane, R(0.0), negate(up));
-  encounter met = {CONTACT_AT_START, R(0.0)};
-  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS) && is_continuous(traits[body]))
-    met = meet_plane(parameters, &shape, up, &height, moves, radius, of_plane);
-  manifold m = convex_on_half_space(&shape, up, height, met.kind == CONTACT_MISSED ? parameters->speculative_distance : reach);
-  if (met.kind != CONTACT_AT_START) {
-    to_plane = add_scaled(to_plane, subtract(of_plane.linear, moves.linear), met.time);
-    m = as_seen_from_start(m, met, to_plane, moves, of_plane, parameters->step);
+  real radius = load_row(shapes, body).w, height = inner(up, to_plane), least = least_size(&shape);
+  pair_motion moves = {load_motion(velocities, body), load_motion(velocities, plane), radius, R(0.0)};
+  real reach = reach_of(parameters, moves.a, radius, moves.b, R(0.0), negate(up));
+  manifold m = convex_on_half_space(&shape, up, height, reach);
+
+  /* A plane has no end that a body could pass; only what turns may swing by it. */
+  journey way = journey_of_step(parameters, moves, least, bounding_radius_of(&shape));
+  doubt d = doubt_of(parameters, m, moves, way, least);
+  if (d.asked && fastest_turning(moves) > R(0.0)) {
+    encounter met = meet_plane(&shape, up, &height, moves.a, radius, moves.b, way, d);
+    if (met.at_impact) m = convex_on_half_space(&shape, up, height, reach);
+    to_plane = offset_after(to_plane, moves, met.at_impact ? met.time : R(0.0));
+    m = as_seen_from_start(parameters, m, met, to_plane, moves);
   }
   if (!body_first) {
     m.normal = up;
     for (int slot = 0; slot < 4; ++slot) m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
-  if (met.kind == CONTACT_AT_IMPACT) store_impact_time(normals, i, met.time);
 }
 
 #endif

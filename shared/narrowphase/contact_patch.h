@@ -100,6 +100,7 @@ SHARED manifold placed_manifold(const convex_pair *pair, const contact_patch *pa
   vec3 normal = rotate(pair->axes, axes->normal);
   m.normal = pair->swapped ? negate(normal) : normal;
   m.code = patch->code;
+  m.impact_time = R(0.0);
   for (int slot = 0; slot < 4; ++slot) {
     clip_point p = patch->point[slot];
     vec3 at = add_scaled(scale(axes->u, p.u), axes->v, p.v);

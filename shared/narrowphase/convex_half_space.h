@@ -41,6 +41,7 @@ SHARED manifold convex_on_half_space(const convex *shape, vec3 up, real height, 
   finish_reduction(four, &r);
   manifold m;
   m.normal = down;
+  m.impact_time = R(0.0);
   m.code = face.feature & 0xfffu;
   for (int slot = 0; slot < 4; ++slot) {
     vec3 flat = add_scaled(scale(axes.first, four[slot].u), axes.second, four[slot].v);

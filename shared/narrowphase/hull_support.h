@@ -19,13 +19,6 @@
 #include "shared/math.h"
 #include "shared/strip.h"
 
-/* Largest relative error of one rounding. */
-#ifdef TANDEM_REFERENCE
-#define ROUNDING 1.2e-16
-#else
-#define ROUNDING 6.0e-8f
-#endif
-
 /* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
  * edges, first corner, corners, first row of strips, first link, cells along a side of the cube map. */
 #define HULL_HEADER 11u

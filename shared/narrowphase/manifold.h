@@ -23,6 +23,7 @@ typedef struct {
   vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
   mask kept[4];
   natural code; /* of the feature pair, 24 bits */
+  real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start */
 } manifold;
 
 SHARED real sign_of(real x) { return choose(x < R(0.0), (real)R(-1.0), (real)R(1.0)); }
@@ -33,6 +34,7 @@ SHARED manifold single_contact(vec3 normal, vec3 offset, real separation, mask k
   manifold m;
   m.normal = normal;
   m.code = 0u;
+  m.impact_time = R(0.0);
   m.point[0] = extend(offset, separation);
   m.kept[0] = kept;
   for (int slot = 1; slot < 4; ++slot) {
@@ -40,6 +42,18 @@ SHARED manifold single_contact(vec3 normal, vec3 offset, real separation, mask k
     m.kept[slot] = kept & (!kept);
   }
   return m;
+}
+
+SHARED manifold choose_manifold(mask m, manifold a, manifold b)
+{
+  for (int slot = 0; slot < 4; ++slot) {
+    b.point[slot] = choose4(m, a.point[slot], b.point[slot]);
+    b.kept[slot] = choose(m, a.kept[slot], b.kept[slot]);
+  }
+  b.normal = choose3(m, a.normal, b.normal);
+  b.code = choose(m, a.code, b.code);
+  b.impact_time = choose(m, a.impact_time, b.impact_time);
+  return b;
 }
 
 /* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the others
@@ -89,7 +103,7 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *no
   }
   mask touching = count > 0u;
   vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row_if(mine, normals, i, extend(choose3(touching, m.normal, nothing), R(0.0)));
+  store_row_if(mine, normals, i, extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
   for (int k = 0; k < 4; ++k) store_row_if(mine, points, stride * (uint)k + i, packed[k]);
   store_natural_if(mine, counts_of_points, i, count);
   store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));

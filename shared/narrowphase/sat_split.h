@@ -29,7 +29,7 @@ SHARED void find_separating_axis_item(GLOBAL const uint *pair_a, GLOBAL const ui
                                strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
   states[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
   store_row(axes, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
-  if (near != QUERY_NEAR || query.continuous || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
+  if (near != QUERY_NEAR || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
   convex_pair pair = pair_of(&query.first, &query.second);
   core_contact contact = separating_hull_axis(&pair.a, &pair.b, lead_of_faces(&pair.a, &pair.b, parameters->slop), query.reach).contact;
   states[i] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
@@ -134,12 +134,10 @@ SHARED void reduce_contacts_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   convex_pair pair = pair_of(&query.first, &query.second);
   contact_patch patch;
   patch.code = code_of_features(faces[i * 2u], faces[i * 2u + 1u]);
-  if (clipped_counts[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i)) {
-    manifold m = kept_within(placed_manifold(&pair, &patch), query.reach);
-    store_manifold_if(1, within_reach(parameters, &query, m), stride, normals, points, counts_of_points, features, i);
-  } else {
-    store_contact(parameters, &query, method & 255u, stride, normals, points, counts_of_points, features, i);
-  }
+  mask reduced = clipped_counts[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i);
+  manifold m = reduced ? within_reach(parameters, &query, kept_within(placed_manifold(&pair, &patch), query.reach))
+                       : contact_of_query(parameters, &query, method & 255u);
+  store_manifold_if(1, contact_of_motion(parameters, &query, m, method & 255u), stride, normals, points, counts_of_points, features, i);
 }
 
 #endif

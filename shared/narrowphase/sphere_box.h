@@ -8,7 +8,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 
-#include "shared/narrowphase/manifold.h"
+#include "shared/narrowphase/time_of_impact.h"
 
 /* Outward from the surface of a box toward a point, both in the axes of the box. */
 typedef struct {
@@ -39,6 +39,43 @@ SHARED box_distance distance_to_box(vec3 point, vec3 extent)
   return result;
 }
 
+/* A sphere and a box, seen from the centre of the box in world axes. */
+typedef struct {
+  vec3 center, extent;
+  real radius;
+  mat3 rotation;
+  mask sphere_first; /* the sphere is body a */
+} sphere_and_box;
+
+SHARED manifold sphere_box_contact(sphere_and_box pair)
+{
+  box_distance nearest = distance_to_box(rotate_back(pair.rotation, pair.center), pair.extent);
+  vec3 outward = rotate(pair.rotation, nearest.normal);
+  real separation = nearest.distance - pair.radius;
+  vec3 from_sphere = scale(outward, -(pair.radius + separation * R(0.5)));
+  vec3 offset = choose3(pair.sphere_first, from_sphere, add(pair.center, from_sphere));
+  return single_contact(choose3(pair.sphere_first, negate(outward), outward), offset, separation, separation == separation);
+}
+
+SHARED sphere_and_box sphere_and_box_after(sphere_and_box pair, pair_motion moves, real time)
+{
+  vec3 velocity = subtract(moves.b.linear, moves.a.linear);
+  pair.center = add_scaled(pair.center, choose3(pair.sphere_first, negate(velocity), velocity), time);
+  pair.rotation = turned_axes(turn_within(choose3(pair.sphere_first, moves.b.angular, moves.a.angular), time), pair.rotation);
+  return pair;
+}
+
+SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, journey way)
+{
+  advancement at = start_advancement(reached);
+  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
+    manifold now = sphere_box_contact(sphere_and_box_after(pair, moves, at.time));
+    at = advanced(at, now.point[0].w, closing_speed(moves, now.normal), way);
+    if (!any_of(at.active)) break;
+  }
+  return at;
+}
+
 SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                     GLOBAL const row *shapes, GLOBAL const row *positions,
                                     GLOBAL const row *orientations, GLOBAL const row *velocities,
@@ -52,20 +89,21 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   if (!any_of(mine)) return;
 
   natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
-  real radius = load_row(shapes, sphere).x;
   vec4 shape = load_row(shapes, box);
-  mat3 rotation = rotation_of(quat_from(load_row(orientations, box)));
-  vec3 center = offset_between(positions, box, sphere);
-  box_distance nearest = distance_to_box(rotate_back(rotation, center), xyz(shape));
-  vec3 outward = rotate(rotation, nearest.normal);
-  vec3 normal = choose3(sphere_first, negate(outward), outward);
-  real separation = nearest.distance - radius;
+  real zero = R(0.0), radius = load_row(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
+  sphere_and_box pair = {offset_between(positions, box, sphere), xyz(shape), radius, rotation_of(quat_from(load_row(orientations, box))), sphere_first};
+  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), choose(sphere_first, zero, shape.w), choose(sphere_first, shape.w, zero)};
+  manifold m = sphere_box_contact(pair);
+  m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
 
-  vec3 from_sphere = scale(outward, -(radius + separation * R(0.5)));
-  vec3 offset = choose3(sphere_first, from_sphere, add(center, from_sphere));
-  real reach = reach_of(parameters, load_motion(velocities, a), choose(sphere_first, (real)R(0.0), shape.w),
-                        load_motion(velocities, b), choose(sphere_first, shape.w, (real)R(0.0)), normal);
-  manifold m = single_contact(normal, offset, separation, separation < reach);
+  journey way = journey_of_step(parameters, moves, least, radius + shape.w);
+  doubt d = doubt_of(parameters, m, moves, way, least);
+  if (any_of(mine & d.asked)) {
+    encounter met = encounter_of(d, impact_of_sphere_on_box(mine & d.reached, pair, moves, way));
+    sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));
+    m = choose_manifold(met.at_impact, sphere_box_contact(then), m);
+    m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
+  }
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 

@@ -1,8 +1,38 @@
-/* sphere_sphere.h - two spheres touch in one point on the line of their centres. */
+/* sphere_sphere.h - two spheres touch in one point on the line of their centres.
+ *
+ * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii.
+ */
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 
-#include "shared/narrowphase/manifold.h"
+#include "shared/narrowphase/time_of_impact.h"
+
+/* between: the centre of b from that of a. fallback: the normal where both are in one place. */
+SHARED manifold spheres_contact(vec3 between, real radius_a, real radius_b, vec3 fallback)
+{
+  real distance = length_of(between);
+  mask apart = distance > R(1e-12);
+  vec3 normal = choose3(apart, scale(between, R(1.0) / choose(apart, distance, (real)R(1.0))), fallback);
+  real separation = distance - radius_a - radius_b;
+  return single_contact(normal, scale(normal, radius_a + separation * R(0.5)), separation, separation == separation);
+}
+
+/* The distance at which the centres pass each other is taken from the vector itself: as a difference of squares it would lose
+ * to rounding what a fast pair misses by. */
+SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pair_motion moves, journey way)
+{
+  vec3 velocity = subtract(moves.b.linear, moves.a.linear);
+  real squared = length_squared(velocity);
+  mask moving = reached & (squared > R(0.0));
+  real inverse = R(1.0) / choose(moving, squared, (real)R(1.0)), nearest = -inner(between, velocity) * inverse;
+  real passing = length_of(add_scaled(between, velocity, nearest));
+  real half_chord = square_root(maximum((radii - passing) * (radii + passing), R(0.0)) * inverse);
+  advancement at = start_advancement(reached);
+  at.active = reached & (!reached);
+  at.time = maximum(nearest - half_chord, R(0.0));
+  at.hits = moving & (nearest > R(0.0)) & (passing <= radii) & (at.time < way.horizon);
+  return at;
+}
 
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                        GLOBAL const row *shapes, GLOBAL const row *positions,
@@ -15,15 +45,20 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   mask mine = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_SPHERE);
   if (!any_of(mine)) return;
 
-  real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x;
-  vec3 between = offset_between(positions, a, b);
-  real distance = length_of(between);
-  mask apart = distance > R(1e-12);
-  vec3 normal = choose3(apart, scale(between, R(1.0) / choose(apart, distance, (real)R(1.0))), parting_direction(a, b));
-  real separation = distance - radius_a - radius_b;
+  real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x, least = minimum(radius_a, radius_b);
+  vec3 between = offset_between(positions, a, b), aside = parting_direction(a, b);
+  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), R(0.0), R(0.0)};
+  manifold m = spheres_contact(between, radius_a, radius_b, aside);
+  m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
 
-  real reach = reach_of(parameters, load_motion(velocities, a), R(0.0), load_motion(velocities, b), R(0.0), normal);
-  manifold m = single_contact(normal, scale(normal, radius_a + separation * R(0.5)), separation, separation < reach);
+  journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
+  doubt d = doubt_of(parameters, m, moves, way, least);
+  if (any_of(mine & d.asked)) {
+    encounter met = encounter_of(d, impact_of_spheres(d.reached, between, radius_a + radius_b, moves, way));
+    vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
+    m = choose_manifold(met.at_impact, spheres_contact(offset, radius_a, radius_b, aside), m);
+    m = as_seen_from_start(parameters, m, met, offset, moves);
+  }
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 

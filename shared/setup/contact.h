@@ -191,10 +191,8 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   vec4 manifold = load_row(manifold_normal, pair);
   vec3 normal = xyz(manifold);
   mask at_impact = manifold.w > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
-    vec3 approached = add_scaled(bodies.offset, subtract(bodies.motion_b.linear, bodies.motion_a.linear), manifold.w);
-    bodies.offset = choose3(at_impact, approached, bodies.offset);
-  }
+  vec3 approached = add_scaled(bodies.offset, subtract(bodies.motion_b.linear, bodies.motion_a.linear), manifold.w);
+  bodies.offset = choose3(at_impact, approached, bodies.offset);
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
   natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a), shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
   surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)), material_of(load_natural(body_traits, shape_b)));

@@ -1,0 +1,179 @@
+/* What misses goes on: bodies that fly by something without touching it keep their kinetic energy, in every solver.
+ *
+ * Whatever stands below lies under the plane y = 0 and reaches up to it; whatever flies stays above y = clearance, for it only
+ * turns about the vertical. So none touches, however fast it is and wherever it stands when a step starts.
+ */
+#include "tests/catch.h"
+
+#include "tests/physics/solids.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+/* How far a shape that stands as `turn` says reaches along a direction, from its body's centre. */
+double support(const Shape &shape, const Matrix &axes, const Vector &direction)
+{
+  const Vector own = axes.transpose() * direction;
+  const double x = shape.size[0], y = shape.size[1], z = shape.size[2];
+  switch (shape.type) {
+  case ShapeType::sphere: return x;
+  case ShapeType::capsule: return std::max(own.y() * y + z, -own.y() * y + x);
+  case ShapeType::hull: break;
+  default: return std::abs(own.x()) * x + std::abs(own.y()) * y + std::abs(own.z()) * z;
+  }
+  double farthest = -1e9;
+  for (const Vec3 &vertex : shape.hull->vertices) farthest = std::max(farthest, own.dot(vector_of(vertex)));
+  return farthest;
+}
+
+Vector direction(Random &random)
+{
+  for (;;) {
+    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+  }
+}
+Quat any_turn(Random &random) { return turn_about(direction(random), random.uniform(0, 2 * pi)); }
+
+Shape roof(float half_length, float half_width, float height)
+{
+  const float x = half_width, z = half_length, y = height;
+  const std::vector<Vec3> corners = {{-x, -y, -z}, {x, -y, -z}, {x, -y, z}, {-x, -y, z}, {0, 0, -z}, {0, 0, z}};
+  const std::vector<uint32_t> triangles = {0, 1, 2, 0, 2, 3, 0, 5, 4, 0, 3, 5, 1, 4, 5, 1, 5, 2, 0, 4, 1, 3, 2, 5};
+  return mesh_shape(corners, triangles, "roof");
+}
+
+enum class Obstacle { face, edge, corner, thin, mesh_edge, mesh_box, compound, flat_rotor, upright_rotor };
+constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,     Obstacle::corner,     Obstacle::thin,         Obstacle::mesh_edge,
+                                  Obstacle::mesh_box, Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
+
+Shape mesh_of_box(float x, float y, float z)
+{
+  std::vector<Vec3> corners;
+  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
+  return mesh_shape(corners, std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "box");
+}
+
+Child child(const Shape &shape, const Vec3 &position)
+{
+  Child c;
+  c.shape = shape;
+  c.position = position;
+  return c;
+}
+
+/* Its highest point is at y = 0; yaw: about the vertical. */
+void add_obstacle(Scene &scene, Obstacle kind, double z, double yaw)
+{
+  const Eigen::Quaterniond about(Eigen::AngleAxisd(yaw, Vector::UnitY()));
+  const auto stand = [&](const Shape &shape, double height, const Vector &axis = Vector::UnitX(), double angle = 0) -> Body & {
+    const Eigen::Quaterniond turn = about * Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
+    Body &body = add_body(scene, Motion::fixed, shape, {0, height, z});
+    body.orientation = {float(turn.x()), float(turn.y()), float(turn.z()), float(turn.w())};
+    if (shape.type == ShapeType::box) body.position[1] = -support(shape, axes_of(body.orientation), Vector::UnitY());
+    return body;
+  };
+  const auto rotate = [&](const Shape &shape, double height, const Vector &spin) {
+    Body &body = stand(shape, height);
+    body.position[1] = height;
+    body.motion = Motion::kinematic;
+    body.angular_velocity = vec3_of(about * spin);
+  };
+  switch (kind) {
+  case Obstacle::face: stand(box_shape(0.3f, 0.2f, 0.25f), 0); break;
+  case Obstacle::edge: stand(box_shape(0.3f, 0.2f, 0.5f), 0, Vector::UnitZ(), 0.6); break;
+  case Obstacle::corner: stand(box_shape(0.3f, 0.2f, 0.25f), 0, Vector(1, 0.3, -0.4), 0.8); break;
+  case Obstacle::thin: stand(box_shape(0.002f, 0.5f, 0.5f), 0); break;
+  case Obstacle::mesh_edge: stand(roof(0.5f, 0.2f, 0.4f), 0); break;
+  case Obstacle::mesh_box: stand(mesh_of_box(0.3f, 0.2f, 0.25f), -0.2f); break;
+  case Obstacle::compound:
+    stand(compound_shape({child(box_shape(0.2f, 0.2f, 0.3f), {0.21f, -0.2f, 0}), child(sphere_shape(0.2f), {-0.2f, -0.2f, 0}),
+                          child(cylinder_shape(0.1f, 0.3f), {0, -0.31f, 0})}),
+          0);
+    break;
+  case Obstacle::flat_rotor: rotate(box_shape(0.5f, 0.01f, 0.05f), -0.01, {0, 100, 0}); break;
+  case Obstacle::upright_rotor: rotate(box_shape(0.5f, 0.03f, 0.05f), -std::hypot(0.5f, 0.03f), {0, 0, 60}); break;
+  }
+}
+
+Shape mover(Random &random, int kind)
+{
+  const float size = float(random.uniform(0.03, 0.15));
+  switch (kind) {
+  case 0: return sphere_shape(size);
+  case 1: return box_shape(size, 0.6f * size, 0.4f * size);
+  case 2: return capsule_shape(0.4f * size, size);
+  default: return stone(random, 12, size);
+  }
+}
+
+constexpr double apart = 4; /* m, between the lanes in which they fly */
+
+/* One lane for every kind of mover and phase: each flies by an obstacle of its own. */
+Scene flights(Obstacle obstacle, double clearance, double speed, uint64_t seed, bool continuous = false)
+{
+  Random random(seed);
+  Scene scene = empty_scene({0, 0, 0});
+  scene.materials[0].restitution = 0.3f;
+  for (int lane = 0; lane < 24; ++lane) {
+    const double z = apart * lane;
+    add_obstacle(scene, obstacle, z, random.uniform(-0.7, 0.7));
+    const Shape shape = mover(random, lane % 4);
+    Body &body = add_solid(scene, shape, {0, 0, 0}, any_turn(random));
+    const Vector down = -Vector::UnitY(), middle = axes_of(body.orientation) * vector_of(body.shape_position);
+    const Matrix shape_axes = axes_of(body.orientation) * axes_of(body.shape_orientation);
+    const double below = support(shape, shape_axes, down) + middle.dot(down);
+    body.position = {-random.uniform(0.8, 0.8 + speed / 60), below + clearance, z + random.uniform(-0.2, 0.2)};
+    body.linear_velocity = {float(speed), 0, 0};
+    body.angular_velocity = {0, float(random.below(2) ? random.uniform(-100, 100) : 0), 0};
+    if (shape.type != ShapeType::sphere) body.inertia = {0.001f, 0.001f, 0.001f}; /* so that it keeps turning about the vertical */
+    body.continuous = continuous;
+  }
+  return scene;
+}
+
+/* The largest share of its kinetic energy that a moving body has lost or won. */
+double largest_change(const Scene &scene, const Settings &settings, double speed)
+{
+  World world(scene, settings, {"tbb", {}});
+  const int steps = int(std::ceil(60 * 2.0 / speed)) + 3;
+  const std::vector<BodyState> before = world.bodies();
+  run(world, steps);
+  const std::vector<BodyState> after = world.bodies();
+  double largest = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    if (scene.bodies[i].motion != Motion::dynamic) continue;
+    const auto energy = [&](const BodyState &s) {
+      return 0.5 * double(scene.bodies[i].mass) * vector_of(s.linear_velocity).squaredNorm() +
+             0.5 * vector_of(s.angular_velocity).dot(spin_momentum(scene, scene.bodies[i], s));
+    };
+    REQUIRE(after[i].position[0] > before[i].position[0] + 0.5 * speed * steps / 60);
+    largest = std::max(largest, std::abs(energy(after[i]) / energy(before[i]) - 1));
+  }
+  return largest;
+}
+
+} // namespace
+
+TEST_CASE("what misses goes on: energy is kept beside faces, edges, corners, meshes, compounds and rotors", "[physics]")
+{
+  for (Obstacle obstacle : obstacles)
+    for (double clearance : {0.001, 0.01, 0.02})
+      for (double speed : {1.0, 5.0, 30.0, 100.0, 300.0}) {
+        CAPTURE(int(obstacle), clearance, speed);
+        CHECK(largest_change(flights(obstacle, clearance, speed, 7), {}, speed) < 1e-3);
+      }
+}
+
+TEST_CASE("what misses goes on in every solver, and with continuous collision", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (Obstacle obstacle : obstacles)
+    for (double speed : {5.0, 100.0}) {
+      CAPTURE(solver, int(obstacle), speed);
+      CHECK(largest_change(flights(obstacle, 0.001, speed, 3), settings_for(solver), speed) < 1e-3);
+      CHECK(largest_change(flights(obstacle, 0.001, speed, 4, true), settings_for(solver), speed) < 1e-3);
+    }
+}
