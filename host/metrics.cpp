@@ -110,8 +110,8 @@ private:
   static Vector at(const std::vector<double> &rows, size_t i) { return {rows[4 * i], rows[4 * i + 1], rows[4 * i + 2]}; }
   Vector normal(size_t i) const { return at(normal_, i); }
   /* packed_friction of shared/setup/contact.h. */
-  bool at_impact(size_t i) const { return normal_[4 * i + 3] < 0; }
-  double coefficient(size_t i) const { return at_impact(i) ? -1 - normal_[4 * i + 3] : normal_[4 * i + 3]; }
+  bool arms_stay(size_t i) const { return normal_[4 * i + 3] < 0; }
+  double coefficient(size_t i) const { return arms_stay(i) ? -1 - normal_[4 * i + 3] : normal_[4 * i + 3]; }
 
   SolverBody body(size_t i) const
   {
@@ -119,11 +119,11 @@ private:
     return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {d[0], d[1], d[2]}, v[3]};
   }
 
-  /* Arms moved along with the bodies, as shift_of_arms of shared/solve/contact.h does it. */
+  /* Arms moved along with the bodies, as shift_of_arms of shared/setup/contact.h does it. */
   Vector relative_velocity(size_t i, Vector arm_a, Vector arm_b) const
   {
     const SolverBody a = body(a_[i]), b = body(b_[i]);
-    const Vector slid = at_impact(i) ? Vector(0, 0, 0) : Vector(b.moved - a.moved);
+    const Vector slid = arms_stay(i) ? Vector(0, 0, 0) : Vector(b.moved - a.moved);
     const double share = a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
     arm_a += share * slid;
     arm_b += (share - 1) * slid;

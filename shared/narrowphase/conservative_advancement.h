@@ -104,12 +104,12 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
 
 SHARED encounter encounter_at(doubt d, impact met)
 {
-  encounter e = {met.hits && d.far && met.time > R(0.0), !met.hits, d.far, met.time};
+  encounter e = {met.hits && d.far && met.time > R(0.0), !met.hits, d.swings, met.time};
   return e;
 }
 SHARED encounter encounter_missed(doubt d)
 {
-  encounter e = {0, 1, d.far, R(0.0)};
+  encounter e = {0, 1, d.swings, R(0.0)};
   return e;
 }
 

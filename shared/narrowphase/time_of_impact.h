@@ -102,8 +102,8 @@ SHARED real least_separation(manifold m)
 }
 
 /* Which contacts of the start are in question: those of pairs with all points ahead of touching, where the step may close the gap
- * (`reached`), or where the pair moves far, so that a plane through what it does not reach could only be in its way. */
-typedef struct { mask asked, reached, far; } doubt;
+ * (`reached`), or where some body swings far: what turns moves on no line, so that it would meet the plane of a point beside it. */
+typedef struct { mask asked, reached, far, swings; } doubt;
 
 SHARED doubt doubt_of(GLOBAL const Parameters *parameters, manifold m, pair_motion moves, journey way, real least)
 {
@@ -111,8 +111,9 @@ SHARED doubt doubt_of(GLOBAL const Parameters *parameters, manifold m, pair_moti
   mask ahead = has_points(m) & (gap > way.touching);
   doubt d;
   d.far = way.fastest * parameters->step > FAR_SHARE * least;
+  d.swings = fastest_turning(moves) * parameters->step > FAR_SHARE * least;
   d.reached = ahead & (closing_speed(moves, m.normal) * way.horizon > gap);
-  d.asked = d.reached | (ahead & d.far);
+  d.asked = d.reached | (ahead & d.swings);
   return d;
 }
 
@@ -120,7 +121,7 @@ SHARED doubt doubt_of(GLOBAL const Parameters *parameters, manifold m, pair_moti
 typedef struct {
   mask at_impact; /* they are replaced by those of `time` */
   mask missed;
-  mask far;
+  mask swings;
   real time; /* s */
 } encounter;
 
@@ -128,20 +129,20 @@ typedef struct {
 SHARED encounter encounter_of(doubt d, advancement at)
 {
   mask hits = at.hits | at.active;
-  encounter met = {d.asked & hits & d.far & (at.time > R(0.0)), d.asked & (!hits), d.far, at.time};
+  encounter met = {d.asked & hits & d.far & (at.time > R(0.0)), d.asked & (!hits), d.swings, at.time};
   return met;
 }
 
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
- * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other and
- * hardly move keep, of the contacts at the start, those that their own motion does not reach: others may push them. offset: centre of
- * b from that of a, at the moment of the contacts. */
+ * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
+ * the contacts at the start, those that their own motion does not reach, if they do not swing: gravity or others may push them.
+ * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold m, encounter met, vec3 offset, pair_motion moves)
 {
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
     real closing = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    mask idle = (!met.far) & (closing * parameters->step < m.point[slot].w);
+    mask idle = (!met.swings) & (closing * parameters->step < m.point[slot].w);
     m.kept[slot] = m.kept[slot] & (idle | (!met.missed));
     m.point[slot].w = choose(met.at_impact, m.point[slot].w + closing * met.time, m.point[slot].w);
   }

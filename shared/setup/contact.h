@@ -124,10 +124,24 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
   return (b - a) * inner(make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), normal);
 }
 
-/* What constraint_normal keeps beside the normal. Of bodies that meet within the step the arms are those of that moment, and
- * stay so: the number is then below 0. */
-SHARED real packed_friction(real friction, mask at_impact) { return choose(at_impact, R(-1.0) - friction, friction); }
+/* What constraint_normal keeps beside the normal: below 0 where arms do not follow the bodies. */
+SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
+
+/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact. In the substep of the
+ * impact the others would be off by that much. */
+#define FOLLOWED_SHARE R(0.5)
+
+/* What two bodies have slid past each other moves their arms. Arms must end in one point of the world, or an impulse through them
+ * adds angular momentum: a body that cannot move takes the whole difference, two that can share it. */
+typedef struct { vec3 a, b; } arm_shift;
+
+SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
+{
+  real share = choose(motion_a.inverse_mass == R(0.0), (real)R(1.0), choose(motion_b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
+  arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
+  return s;
+}
 
 /* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist. Of a fast
  * spinning box the manifold also holds corners that are far ahead; they take part only where no point is near. */
@@ -190,9 +204,14 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
   vec4 manifold = load_row(manifold_normal, pair);
   vec3 normal = xyz(manifold);
-  mask at_impact = manifold.w > R(0.0);
-  vec3 approached = add_scaled(bodies.offset, subtract(bodies.motion_b.linear, bodies.motion_a.linear), manifold.w);
-  bodies.offset = choose3(at_impact, approached, bodies.offset);
+  /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the solver's shift of
+   * arms brings them there by then, or those themselves where arms do not follow. */
+  vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, manifold.w);
+  real size = size_between(body_shape, bodies.a, bodies.b);
+  mask arms_stay = (manifold.w > R(0.0)) & (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
+  bodies.offset = add(bodies.offset, slid);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
   natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a), shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
   surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)), material_of(load_natural(body_traits, shape_b)));
@@ -210,9 +229,9 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
     mask used = points > (natural)k;
     vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
     real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
-    store_row(constraint_points, stride * k + i, extend(arm_a, choose(used, point.w, (real)R(0.0))));
+    store_row(constraint_points, stride * k + i, extend(add(arm_a, back.a), choose(used, point.w, (real)R(0.0))));
     deepest = choose(used, minimum(deepest, point.w), deepest);
-    store_row(constraint_points, stride * (k + 4u) + i, extend(arm_b, mass));
+    store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
     wished[k] = choose(used, wished_speed(parameters, between.restitution, inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
                        (real)R(-1.0));
@@ -228,16 +247,16 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_natural(constraint_pair, i, pair);
   store_natural(constraint_a, i, bodies.a);
   store_natural(constraint_b, i, bodies.b);
-  store_row(constraint_normal, i, extend(normal, packed_friction(friction, at_impact)));
-  store_row(constraint_center, i, extend(center, friction_mass(bodies, center, center_b, normal)));
-  store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, normal)));
+  store_row(constraint_normal, i, extend(normal, packed_friction(friction, arms_stay)));
+  store_row(constraint_center, i, extend(add(center, back.a), friction_mass(bodies, center, center_b, normal)));
+  store_row(constraint_center, stride + i, extend(add(center_b, back.b), twist_mass(bodies, normal)));
   store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
   tangents t = tangents_of(normal);
   real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
   store_row(constraint_friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
                       patch.radius));
-  store_real(constraint_slop, i, slop_or_deep(parameters, size_between(body_shape, bodies.a, bodies.b), deepest));
+  store_real(constraint_slop, i, slop_or_deep(parameters, size, deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));

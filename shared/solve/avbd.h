@@ -82,7 +82,7 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL cons
   contact_forces f;
   vec4 old = load_row(constraint_normal_impulse, i), penalty = load_row(constraint_penalty, i * 2u);
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = inner(c.normal, moved.translation);
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_a = load_row(constraint_points, stride * k + i);

@@ -88,21 +88,11 @@ SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
   return d;
 }
 
-/* What the bodies have slid past each other since their arms were measured. Arms must end in one point of the world, or an
- * impulse through them adds angular momentum: a body that cannot move takes the whole difference, two that can share it. Arms of
- * an impact within the step are those of its moment, whatever the bodies have moved or will. */
-typedef struct { vec3 a, b; } arm_shift;
-
-SHARED arm_shift shift_of_arms(contact c, vec3 slid)
-{
-  real share = choose(c.motion_a.inverse_mass == R(0.0), (real)R(1.0), choose(c.motion_b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
-  arm_shift s = {scale(slid, share * c.follows), scale(slid, (share - R(1.0)) * c.follows)};
-  return s;
-}
+SHARED arm_shift shift_of_contact(contact c, vec3 slid) { return shift_of_arms(c.motion_a, c.motion_b, scale(slid, c.follows)); }
 
 SHARED arm_shift load_arm_shift(GLOBAL const row *solver_delta, contact c)
 {
-  return shift_of_arms(c, subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))));
+  return shift_of_contact(c, subtract(xyz(load_row(solver_delta, c.b * 2u)), xyz(load_row(solver_delta, c.a * 2u))));
 }
 
 /* The four points of a manifold as one: their turns, masses and impulses. */
@@ -265,7 +255,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);

@@ -173,7 +173,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   contact c = split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i), other.z, other.w);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = c.friction > R(0.0);

@@ -48,7 +48,7 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   vec4 old = load_row(constraint_normal_impulse, i);
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = inner(c.normal, moved.translation);
   real slop = load_real(constraint_slop, i);
   real impulse[4];

@@ -97,7 +97,7 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     store_row(constraint_friction_impulse, i, friction);
   }
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
   real closed = inner(c.normal, moved.translation);
   real wished[4];
@@ -144,7 +144,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
   if (!any_of(pressing)) return;
   contact before = c;
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
@@ -177,7 +177,7 @@ SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uin
 {
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   drift moved = load_drift(solver_delta, c);
-  arm_shift shift = shift_of_arms(c, moved.translation);
+  arm_shift shift = shift_of_contact(c, moved.translation);
   slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(load_row(constraint_center, i)), shift.a),
                             add(xyz(load_row(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));
   vec4 pressed = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
