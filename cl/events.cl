@@ -38,13 +38,14 @@ __kernel void write_events(__global const uint *pair_start, __global const uint 
                            __global const row *manifold_normal, __global const row *manifold_points,
                            __global const uint *manifold_count, __global const uint *cached_start,
                            __global const uint *cached_b, __global const uint *cached_touching,
-                           __global const row *body_position, __global const uint *event_start,
-                           __global const uint *counts, __global uint *event_bodies, __global row *event_contact, RANGE)
+                           __global const row *body_position, __global const row *body_velocity,
+                           __global const uint *event_start, __global const uint *counts, __global uint *event_bodies,
+                           __global row *event_contact, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   write_events_item(pair_start, pair_b, pair_color, pair_touching, pair_impulse, manifold_normal, manifold_points,
-                    manifold_count, cached_start, cached_b, cached_touching, body_position, event_start, counts,
-                    event_bodies, event_contact, i);
+                    manifold_count, cached_start, cached_b, cached_touching, body_position, body_velocity, event_start,
+                    counts, event_bodies, event_contact, i);
 }
 
 __kernel void count_pair_events(__global const uint *pair_start, __global const uint *pair_b, __global const uint *cached_start,

@@ -88,7 +88,7 @@ struct ContactEvent {
   uint32_t points;  /* points that touch; 0 for an end, as all that follows is */
   float impulse;    /* N s, along the normal, over the whole step with its bounce; 0 for triggers. Of `avbd`, see docs/pipeline.md */
   float separation; /* m, of the deepest point as the step started: negative where the two overlap */
-  Point point;      /* of the world, as the step started: where the impulse acts, or the middle of the points where there is none */
+  Point point;      /* of the world, as the step started or as the two met within it: where the impulse acts, or the middle of the points where there is none */
   Vec3 normal;      /* unit, from a to b; of several parts, that of the one that pressed hardest */
 };
 const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */

@@ -64,22 +64,25 @@ typedef struct {
   uint points;
 } contact_sum;
 
-SHARED void add_manifold(contact_sum *sum, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count,
-                         uint stride, uint pair, vec4 impulses)
+/* velocity: of body a, which has come nearer by the moment of an impact. */
+SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
+                         GLOBAL const uint *manifold_count, uint stride, uint pair, vec4 impulses)
 {
   real impulse = R(0.0), depth = BOUNDLESS;
+  vec4 normal = load_row(manifold_normal, pair);
   for (uint k = 0; k < manifold_count[pair]; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     real carried = component(impulses, k);
     if (!point_touches(point, carried)) continue;
-    sum->pressed = add_scaled(sum->pressed, xyz(point), carried);
-    sum->overlapped = add(sum->overlapped, xyz(point));
+    vec3 where = add_scaled(xyz(point), velocity, normal.w);
+    sum->pressed = add_scaled(sum->pressed, where, carried);
+    sum->overlapped = add(sum->overlapped, where);
     ++sum->points;
     impulse = impulse + carried;
     depth = minimum(depth, point.w);
   }
   if (impulse > sum->hardest || (impulse == sum->hardest && depth < sum->deepest)) {
-    sum->normal = xyz(load_row(manifold_normal, pair));
+    sum->normal = xyz(normal);
     sum->hardest = impulse;
   }
   sum->deepest = minimum(sum->deepest, depth);
@@ -105,12 +108,12 @@ SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, ui
   store_row(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
 }
 
-/* Points are where they were found, at the start of the step: bodies have not moved yet when this runs. */
+/* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet when this runs. */
 SHARED void write_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *pair_touching,
                               GLOBAL const row *pair_impulse, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
                               GLOBAL const uint *manifold_count, GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
-                              GLOBAL const uint *cached_touching, GLOBAL const row *body_position, GLOBAL const uint *event_start,
-                              GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint a)
+                              GLOBAL const uint *cached_touching, GLOBAL const row *body_position, GLOBAL const row *body_velocity,
+                              GLOBAL const uint *event_start, GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
   uint at = event_start[a];
@@ -122,8 +125,8 @@ SHARED void write_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *
     place where = {none, none};
     if (change.kind != (uint)EVENT_END) {
       for (uint pair = change.first; pair < change.end; ++pair)
-        add_manifold(&sum, manifold_normal, manifold_points, manifold_count, counts[CAPACITY_PAIRS], pair,
-                     impulse_of_pair(pair_color, pair_impulse, pair));
+        add_manifold(&sum, load_motion(body_velocity, a).linear, manifold_normal, manifold_points, manifold_count,
+                     counts[CAPACITY_PAIRS], pair, impulse_of_pair(pair_color, pair_impulse, pair));
       where = moved_place(load_place(body_position, a), middle_of_contact(&sum));
     }
     store_event(event_bodies, event_contact, at++, a, change, &sum, where);

@@ -297,3 +297,22 @@ TEST_CASE("a contact 1000 km from the origin is told to the millimetre", "[physi
   CHECK(std::abs(event.point[0] - (1e6 + 0.123)) < 1e-3);
   CHECK(std::abs(event.point[2] - (2e5 + 0.456)) < 1e-3);
 }
+
+TEST_CASE("a ball that meets a wall within the step is told to have done so where they met", "[physics]")
+{
+  const float speed = GENERATE(5.0f, 30.0f, 300.0f);
+  for (int start = 1; start <= 9; ++start) {
+    Scene scene = empty_scene({0, 0, 0});
+    add_body(scene, Motion::fixed, box_shape(0.5f, 5, 5), {0.5, 0, 0});
+    Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.05f), {-0.05 - 0.1 * start * speed / 60, 0.3, -0.2});
+    ball.linear_velocity = {speed, 0, 0};
+    World world(scene, with_events(), {"serial", {}});
+    world.step();
+    const std::vector<ContactEvent> events = world.contact_events();
+    CAPTURE(speed, start);
+    REQUIRE(events.size() == 1);
+    CHECK(events[0].point[0] == Approx(0).margin(1e-3));
+    CHECK(events[0].point[1] == Approx(0.3).margin(1e-3));
+    CHECK(events[0].impulse == Approx(speed).epsilon(0.01));
+  }
+}

@@ -72,7 +72,7 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
       }
     }
     const size_t pairs = now.b.size();
-    std::vector<row> points(4 * pairs), positions(2 * bodies), contacts(3 * (pairs + before.b.size()));
+    std::vector<row> points(4 * pairs), positions(2 * bodies), velocities(2 * bodies), contacts(3 * (pairs + before.b.size()));
     std::copy(now.point.begin(), now.point.end(), points.begin());
     for (uint a = 0; a < bodies; ++a) positions[2 * a] = {100.0f * float(a), 0, 0, 0};
     std::vector<uint> counts(COUNT_TOTAL), starts(bodies), codes(4 * (pairs + before.b.size()));
@@ -87,8 +87,8 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
     REQUIRE(total == expected.size());
     for (uint a = bodies; a-- > 0;)
       write_events_item(now.start.data(), now.b.data(), now.color.data(), now.touching.data(), now.impulse.data(), now.normal.data(), points.data(),
-                        now.points.data(), before.start.data(), before.b.data(), before.touching.data(), positions.data(), starts.data(),
-                        counts.data(), codes.data(), contacts.data(), a);
+                        now.points.data(), before.start.data(), before.b.data(), before.touching.data(), positions.data(),
+                        velocities.data(), starts.data(), counts.data(), codes.data(), contacts.data(), a);
     uint at = 0;
     for (const auto &[pair, e] : expected) {
       const uint *code = &codes[4 * at];
