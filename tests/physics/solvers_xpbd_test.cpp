@@ -3,7 +3,7 @@
 
 #include "host/scene_catalog.h"
 #include "host/solvers/solvers.h"
-#include "tests/physics/physics.h"
+#include "tests/physics/laden.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -267,4 +267,45 @@ TEST_CASE("position solvers on the reference backend", "[physics]")
   INFO(name << ": " << apart << " m between float and double after 60 steps");
   CHECK(apart < 2e-5);
   CHECK(apart > 0);
+}
+
+namespace {
+
+/* Largest speed, as a root mean square over the mass, with which a slab of 20 kg under 400 boxes of 0.5 kg goes on at rest; in units of what
+ * gravity adds in a substep. */
+double tremble(uint32_t substeps, uint32_t iterations, float slab_mass = 20)
+{
+  Scene scene = laden_slab(20, 0, {0, float(-gravity), 0}, 0);
+  scene.bodies[0].mass = slab_mass;
+  add_ground(scene);
+  Settings settings = settings_for("xpbd");
+  settings.substeps = substeps;
+  settings.iterations = iterations;
+  World world(scene, settings);
+  run(world, 45);
+  double energy = 0;
+  for (int i = 0; i < 9; ++i) {
+    run(world, 5);
+    energy = std::max(energy, double(world.statistics().kinetic_energy));
+  }
+  REQUIRE(world.statistics().colors == COLOR_LIMIT + 1); /* a tail, too */
+  return std::sqrt(2 * energy / (slab_mass + 200)) / (gravity * double(settings.step) / substeps);
+}
+
+} // namespace
+
+/* Multipliers start at 0 in every substep, so that each has to find anew what holds g h. One pass over a load M on a mass m that stands on
+ * the ground leaves M / (M + m) of it, ten elevenths here: the slab trembles at some g h, and its energy falls with the square of the
+ * substep. It neither grows nor depends on the order of a tail: with enough passes, or a slab as heavy as its load, it is at rest.
+ * docs/stability.md has the figures. */
+TEST_CASE("xpbd: a loaded slab trembles at what a substep of gravity leaves, and is at rest where passes suffice", "[physics]")
+{
+  const double coarse = tremble(5, 1), fine = tremble(20, 1);
+  INFO("5 substeps: " << coarse << " g h, 20 substeps: " << fine << " g h");
+  CHECK(coarse < 5);
+  CHECK(fine < 5);
+  CHECK(fine < 2.5 * coarse);
+  CHECK(tremble(10, 8) < 0.5 * fine); /* (10 / 11)^7, of one pass */
+  CHECK(tremble(10, 64) < 1e-5);
+  CHECK(tremble(10, 1, 200) < 1e-3);
 }

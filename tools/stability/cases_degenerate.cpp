@@ -47,7 +47,7 @@ Trial overlap_weightless_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
   for (int i = 0; i < 8; ++i) add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0.1f * float(i % 2), 0.1f * float(i / 2 % 2), 0.1f * float(i / 4)});
-  trial.checks.push_back(check("fastest", "m/s", 3, speed()));
+  trial.checks.push_back(check("fastest", "m/s", 1, speed()));
   trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth_from_rounding(trial), penetration())));
   return trial;
 }
@@ -126,7 +126,7 @@ void add_degenerate_cases(std::vector<Case> &cases)
                    [](Length length) { return one_place_trial(sphere_shape(0.5f), 500, length); }, true});
   cases.push_back({"deep-overlap", group, "boxes and balls inside one another, in the ground and in a fixed block",
                    "nothing is faster than 6 m/s (twice the push speed), all are apart to 2 cm after 10 s", overlap_trial});
-  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity", "nothing is faster than 3 m/s (the push speed), all are apart after 10 s",
+  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity", "nothing is faster than 1 m/s (three axes, each parted at a tenth of the push speed and a half more), all are apart after 10 s",
                    overlap_weightless_trial});
   cases.push_back({"many-on-one", group, "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
                    "nothing leaves by 10 micrometres or turns by 0.2 mrad, contacts at most 0.8 mm deep, at rest after 2 s", many_on_one_trial, true});

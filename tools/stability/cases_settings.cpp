@@ -71,19 +71,23 @@ Case stiffness_case(const Stiffness &stiffness)
           [stiffness](Length length) {
             Trial trial = pressed_trial(stiffness.hertz, length == Length::brief ? std::min(stiffness.substeps, 60u) : stiffness.substeps, length);
             watch_ball_and_column(trial, stiffness.bounds);
+            if (stiffness.hertz > 100) { /* they part each pair at 2.7 m/s and more, and one pass takes that out again only in part */
+              trial.documented = trial.settings;
+              trial.documented->push_speed = 0.2f;
+            }
             return trial;
           }};
 }
 
-/* The same in a world of its own with other contacts: largest distance of a body from its like, and rest. */
-Figure difference_with(const Scene &scene, double hertz)
+/* The same in a world of its own with other contacts: largest distance of a body from its like. */
+Figure difference_with(const Scene &scene, float hertz)
 {
   auto twin = std::make_shared<std::unique_ptr<World>>();
   auto done = std::make_shared<uint64_t>(0);
   return [=](const Moment &moment) {
     if (!*twin) {
       Settings other = moment.world.settings();
-      other.contact_hertz = float(hertz);
+      other.contact_hertz = hertz;
       *twin = std::make_unique<World>(scene, other, Placement{});
     }
     for (; *done < moment.step; ++*done) (*twin)->step();
@@ -106,7 +110,8 @@ Case clamped_case(double hertz)
           [hertz](Length length) {
             Trial trial = pressed_trial(hertz, Settings{}.substeps, length);
             const double limit = stiffest(trial.settings);
-            trial.checks.push_back(check("difference from contacts at the limit", "m", 0, difference_with(trial.scene, limit)));
+            const float just_above = std::nextafter(float(limit), HUGE_VALF);
+            trial.checks.push_back(check("difference from contacts at the limit", "m", 0, difference_with(trial.scene, just_above)));
             watch_ball_and_column(trial, {depth_of_five(limit), 0.6, {}});
             return trial;
           }};

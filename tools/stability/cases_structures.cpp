@@ -27,7 +27,7 @@ Case pyramid_case(int rows, const Standing &bounds)
           fmt::format("no cube turns by {} rad or leaves by {} m, contacts at most {} m deep, slower than {} m/s at the end", *bounds.tilt, *bounds.sideways,
                       *bounds.depth, *bounds.speed),
           [rows, bounds](Length length) {
-            const int used = length == Length::brief ? 8 : rows;
+            const int used = length == Length::brief ? rows / 10 : rows;
             return standing_trial(fmt::format("pyramid:rows={}", used), steps_for(length, 2000, 300), bounds);
           },
           true};
@@ -38,7 +38,7 @@ Case column_case(int height, const Standing &bounds)
   return {fmt::format("column-{}", height), "stacks", fmt::format("a column of {} cubes of 1 m", height),
           fmt::format("stands 20 s: contacts at most {} m deep, turned, moved and, at the end, at rest but for rounding", *bounds.depth),
           [height, bounds](Length length) {
-            const int used = length == Length::brief ? 10 : height;
+            const int used = length == Length::brief ? 6 + height / 10 : height;
             return standing_trial(fmt::format("box-stack:n={},height={}", used, used), steps_for(length, 1200, 600), bounds);
           },
           true};

@@ -9,12 +9,6 @@
 namespace tandem::stability {
 namespace {
 
-const std::vector<double> &speeds()
-{
-  static const std::vector<double> values{1, 5, 30, 100, 300};
-  return values;
-}
-
 constexpr double step = 1.0 / 60, lane_width = 20;
 
 Shape octahedron_shape()
@@ -68,8 +62,9 @@ void add_obstacle(Scene &scene, Obstacle obstacle, double z, double passes)
 
 /* Two whole steps at least and 30 cm before the lane's origin, and a part of a step that differs from lane to lane: contacts are found
  * at every distance. */
-double time_to_pass(double speed, size_t lane)
+double time_to_pass(double speed, size_t row)
 {
+  const size_t lane = row * all_speeds().size() + size_t(std::find(all_speeds().begin(), all_speeds().end(), speed) - all_speeds().begin());
   const double part = std::fmod(0.13 + 0.29 * double(lane), 1.0);
   return step * (std::max(2.0, std::ceil(0.3 / (speed * step))) + part);
 }
@@ -83,6 +78,12 @@ void add_mover(Scene &scene, const Mover &mover, const Vector &lowest, double sp
 }
 
 } // namespace
+
+const std::vector<double> &all_speeds()
+{
+  static const std::vector<double> values{1, 5, 30, 100, 300};
+  return values;
+}
 
 const std::vector<Mover> &movers()
 {
@@ -108,12 +109,12 @@ Vector lowest_point(const Mover &mover)
   return lowest;
 }
 
-Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances)
+Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances, const std::vector<double> &speeds)
 {
   Passes passes{empty_scene({0, 0, 0}), {}};
-  for (double clearance : clearances)
-    for (double speed : speeds()) {
-      const double z = lane_width * (double(passes.lanes.size()) - 7), when = time_to_pass(speed, passes.lanes.size());
+  for (size_t row = 0; row < clearances.size(); ++row)
+    for (double speed : speeds) {
+      const double clearance = clearances[row], z = lane_width * (double(passes.lanes.size()) - 7), when = time_to_pass(speed, row);
       const size_t body = passes.scene.bodies.size();
       add_obstacle(passes.scene, obstacle, z, when);
       add_mover(passes.scene, mover, {-speed * when, clearance, z}, speed);
@@ -122,11 +123,11 @@ Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double
   return passes;
 }
 
-Passes hits_on_wall(const Mover &mover, bool mesh)
+Passes hits_on_wall(const Mover &mover, bool mesh, const std::vector<double> &speeds)
 {
   Passes passes{empty_scene({0, 0, 0}), {}};
-  for (double speed : speeds()) {
-    const double z = lane_width * (double(passes.lanes.size()) - 2), when = time_to_pass(speed, passes.lanes.size());
+  for (double speed : speeds) {
+    const double z = lane_width * (double(passes.lanes.size()) - 2), when = time_to_pass(speed, 0);
     const size_t body = passes.scene.bodies.size();
     add_body(passes.scene, Motion::fixed, mesh ? sheet_shape() : box_shape(0.005f, 2, 2), {0, 0, z});
     add_mover(passes.scene, mover, {-speed * when, 0, z}, speed);

@@ -39,10 +39,13 @@ struct Passes {
   std::vector<Lane> lanes;
 };
 
-/* Every clearance at 1, 5, 30, 100 and 300 m/s. */
-Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances);
+/* m/s: 1, 5, 30, 100, 300. */
+const std::vector<double> &all_speeds();
 
-/* Squarely against a fixed wall of 1 cm in the plane x = 0, at the same speeds; `mesh`: against a sheet without thickness. */
-Passes hits_on_wall(const Mover &mover, bool mesh);
+/* Every clearance at every speed. */
+Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances, const std::vector<double> &speeds = all_speeds());
+
+/* Squarely against a fixed wall of 1 cm in the plane x = 0; `mesh`: against a sheet without thickness. */
+Passes hits_on_wall(const Mover &mover, bool mesh, const std::vector<double> &speeds = all_speeds());
 
 } // namespace tandem::stability
