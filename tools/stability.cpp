@@ -175,7 +175,7 @@ void tell_end(const StabilityOptions &options, const stability::Results &results
   fmt::print("{}/index.html\n", options.out);
 }
 
-/* Read, and its marks looked for, before the first case runs. */
+/* Its marks are looked for before the first case runs, too; read again at the end, since a full run gives time to edit it. */
 std::string page_for_table(const std::string &path)
 {
   std::ifstream file(path);
@@ -196,7 +196,7 @@ int run_cases(const StabilityOptions &options)
   options.json.check();
   check_backend(placement);
   prepare_folder(options.out);
-  const std::string page = options.into.empty() ? "" : page_for_table(options.into);
+  if (!options.into.empty()) page_for_table(options.into);
   size_t told = 0;
   const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)}, [&](const stability::Results &so_far) {
     save(options, stability::results_json(so_far));
@@ -205,7 +205,7 @@ int run_cases(const StabilityOptions &options)
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
-  if (!options.into.empty()) write_file("--table-in", options.into, stability::with_table(page, stability::markdown_of(results, command_text(options)), options.into));
+  if (!options.into.empty()) write_file("--table-in", options.into, stability::with_table(page_for_table(options.into), stability::markdown_of(results, command_text(options)), options.into));
   if (!options.json.takes_standard_output()) tell_end(options, results);
   options.json.write(json);
   const int status = options.bounds ? conclude_bounds(results) : 0;
