@@ -106,8 +106,8 @@ stability::Outcome run_with_progress(const Case &which, const std::string &solve
   return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
 }
 
-/* As it would be typed again. */
-std::string command_text(const StabilityOptions &options)
+/* As it would be typed again; without the files that are written, for a table that goes into a page. */
+std::string command_text(const StabilityOptions &options, bool files = true)
 {
   std::string text = "tandem stability";
   const auto add = [&](const char *name, const std::string &value) {
@@ -118,8 +118,8 @@ std::string command_text(const StabilityOptions &options)
   add("--solvers", options.solvers);
   add("--on", options.on == "tbb" ? "" : options.on);
   if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
-  add("--out", options.out);
-  add("--table-in", options.into);
+  if (files) add("--out", options.out);
+  if (files) add("--table-in", options.into);
   return text + (options.quick ? " --quick" : "") + (options.bounds ? " --bounds" : "");
 }
 
@@ -205,7 +205,7 @@ int run_cases(const StabilityOptions &options)
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
-  if (!options.into.empty()) write_file("--table-in", options.into, stability::with_table(page_for_table(options.into), stability::markdown_of(results, command_text(options)), options.into));
+  if (!options.into.empty()) write_file("--table-in", options.into, stability::with_table(page_for_table(options.into), stability::markdown_of(results, command_text(options, false)), options.into));
   if (!options.json.takes_standard_output()) tell_end(options, results);
   options.json.write(json);
   const int status = options.bounds ? conclude_bounds(results) : 0;

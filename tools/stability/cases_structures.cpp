@@ -103,8 +103,8 @@ Trial wall_trial(Length length)
 
 void add_structure_cases(std::vector<Case> &cases)
 {
-  cases.push_back(pyramid_case(80, {0.035, 0.1, 0.5, 0.5}));
-  cases.push_back(pyramid_case(100, {0.03, 0.1, 0.5, 0.5}));
+  cases.push_back(pyramid_case(80, {0.035, 0.04, 0.5, 0.5}));
+  cases.push_back(pyramid_case(100, {0.03, 0.05, 0.5, 0.5}));
   cases.push_back(column_case(20, {0.02, {}, {}, {}}));
   cases.push_back(column_case(50, {0.02, {}, {}, {}}));
   cases.push_back(column_case(100, {0.015, {}, {}, {}}));
