@@ -28,7 +28,7 @@ Case pyramid_case(int rows, const Standing &bounds)
                       *bounds.depth, *bounds.speed),
           [rows, bounds](Length length) {
             const int used = length == Length::brief ? rows / 10 : rows;
-            return standing_trial(fmt::format("pyramid:rows={}", used), steps_for(length, 2000, 300), bounds);
+            return standing_trial(fmt::format("pyramid:rows={}", used), steps_for(length, 2000, 150), bounds);
           },
           true};
 }
