@@ -87,9 +87,9 @@ void prepare_folder(const std::string &folder)
 std::string verdict(const stability::Outcome &outcome)
 {
   const stability::CheckResult &headline = outcome.headline;
-  return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver, outcome.passed ? "pass" : "FAIL",
-                     1e-3 * outcome.milliseconds, headline.figure, headline.unit, headline.what, headline.bound.value,
-                     outcome.note.empty() ? "" : "; " + outcome.note);
+  return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver,
+                     outcome.passed ? "pass" : "FAIL", 1e-3 * outcome.milliseconds, headline.figure, headline.unit,
+                     headline.what, headline.bound.value, outcome.note.empty() ? "" : "; " + outcome.note);
 }
 
 /* A backend that does not exist, or solvers it cannot run, is bad use: found before the first case. */
@@ -128,7 +128,8 @@ int conclude_bounds(const stability::Results &results)
 {
   const size_t loose = stability::loose_bounds(results, results.solvers.front());
   if (!loose) return 0;
-  fmt::print(stderr, "tandem: {} bounds are more than ten times the figure of {} and state no derivation\n", loose, results.solvers.front());
+  fmt::print(stderr, "tandem: {} bounds are more than ten times the figure of {} and state no derivation\n", loose,
+             results.solvers.front());
   return 1;
 }
 
@@ -171,11 +172,13 @@ void tell(const stability::Results &so_far, size_t &told)
 void tell_end(const StabilityOptions &options, const stability::Results &results)
 {
   if (options.bounds) fmt::print("{}", stability::bounds_text(results));
-  for (const std::string &solver : results.solvers) fmt::print("{}: {}\n", solver, stability::text_of(stability::counts_of(results, solver)));
+  for (const std::string &solver : results.solvers)
+    fmt::print("{}: {}\n", solver, stability::text_of(stability::counts_of(results, solver)));
   fmt::print("{}/index.html\n", options.out);
 }
 
-/* Its marks are looked for before the first case runs, too; read again at the end, since a full run gives time to edit it. */
+/* Its marks are looked for before the first case runs, too; read again at the end, since a full run gives time to edit
+ * it. */
 std::string page_for_table(const std::string &path)
 {
   std::ifstream file(path);
@@ -205,7 +208,10 @@ int run_cases(const StabilityOptions &options)
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
-  if (!options.into.empty()) write_file("--table-in", options.into, stability::with_table(page_for_table(options.into), stability::markdown_of(results, command_text(options, false)), options.into));
+  if (!options.into.empty())
+    write_file("--table-in", options.into,
+               stability::with_table(page_for_table(options.into),
+                                     stability::markdown_of(results, command_text(options, false)), options.into));
   if (!options.json.takes_standard_output()) tell_end(options, results);
   options.json.write(json);
   const int status = options.bounds ? conclude_bounds(results) : 0;
@@ -277,8 +283,10 @@ Command stability_command(CLI::App &parser)
   command->add_option("--cases-in-parallel", options->at_once, "runs side by side (default: one for each processor; on devices one)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
-  command->add_option("--table-in", options->into, "write the table of the run between the marks of this Markdown page")->type_name("FILE");
-  command->add_flag("--bounds", options->bounds, "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
+  command->add_option("--table-in", options->into, "write the table of the run between the marks of this Markdown page")
+      ->type_name("FILE");
+  command->add_flag("--bounds", options->bounds,
+                    "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
   command->add_flag("--list", options->list, "name the cases");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not, 2 for bad use.");

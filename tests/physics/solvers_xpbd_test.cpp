@@ -192,8 +192,8 @@ TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
   }
 }
 
-/* Each body of avbd is moved by itself, so action equals reaction only as far as the iteration has converged; xpbd applies
- * every impulse to both bodies. */
+/* Each body of avbd is moved by itself, so action equals reaction only as far as the iteration has converged; xpbd
+ * applies every impulse to both bodies. */
 TEST_CASE("position solvers: momentum of a closed system", "[physics]")
 {
   const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
@@ -276,15 +276,16 @@ double mechanical_energy(World &world)
   const std::vector<BodyState> bodies = world.bodies();
   double energy = world.statistics().kinetic_energy;
   for (size_t i = 0; i < bodies.size(); ++i)
-    if (world.scene().bodies[i].motion == Motion::dynamic) energy += double(world.scene().bodies[i].mass) * gravity * bodies[i].position[1];
+    if (world.scene().bodies[i].motion == Motion::dynamic)
+      energy += double(world.scene().bodies[i].mass) * gravity * bodies[i].position[1];
   return energy;
 }
 
 } // namespace
 
-/* At rest in touch from the start: kinetic energy has to go, and all there ever is comes from sinking in. With one velocity pass the speeds
- * that push positions apart were left in the bodies: 400 boxes on a slab of a tenth of their mass trembled with 0.2 to 0.6 J for ever, and
- * had gained 0.3 J. docs/stability.md has the figures. */
+/* At rest in touch from the start: kinetic energy has to go, and all there ever is comes from sinking in. With one
+ * velocity pass the speeds that push positions apart were left in the bodies: 400 boxes on a slab of a tenth of their
+ * mass trembled with 0.2 to 0.6 J for ever, and had gained 0.3 J. docs/stability.md has the figures. */
 TEST_CASE("xpbd: a slab comes to rest under a load of many times its mass, and gains no energy", "[physics]")
 {
   const auto [side, substeps] = GENERATE(table<int, uint32_t>({{20, 5}, {20, 8}, {20, 20}, {30, 8}}));
@@ -299,7 +300,8 @@ TEST_CASE("xpbd: a slab comes to rest under a load of many times its mass, and g
     run(world, 5);
     gain = std::max(gain, mechanical_energy(world) - start);
   }
-  INFO(side * side << " boxes, " << substeps << " substeps: gain " << gain << " J, at rest " << world.statistics().kinetic_energy << " J");
+  INFO(side * side << " boxes, " << substeps << " substeps: gain " << gain << " J, at rest "
+                   << world.statistics().kinetic_energy << " J");
   CHECK(world.statistics().colors == COLOR_LIMIT + 1);
   CHECK(gain < 1e-3); /* of 3,000 J: what the floats of 400 heights leave open */
   CHECK(world.statistics().kinetic_energy < 1e-6);

@@ -1,7 +1,9 @@
-/* passes_test.cpp - movers of `tandem stability` miss by what they say, or overlap by it: shown without the code that placed them.
+/* passes_test.cpp - movers of `tandem stability` miss by what they say, or overlap by it: shown without the code that
+ * placed them.
  *
- * The gap between the mover's lowest point and the obstacle's highest bounds the distance from below at every moment, since neither leaves
- * its side of the plane between; the distance of two points of theirs at one moment bounds it from above. Where both are the clearance, it is.
+ * The gap between the mover's lowest point and the obstacle's highest bounds the distance from below at every moment,
+ * since neither leaves its side of the plane between; the distance of two points of theirs at one moment bounds it from
+ * above. Where both are the clearance, it is.
  */
 #ifdef TANDEM_COMMAND
 #include "tests/catch.h"
@@ -39,7 +41,8 @@ Outline outline_of(const Shape &shape)
 /* The body's points at time t, moved and turned as it flies; all turn about z or not at all. */
 std::vector<Vector> points_at(const Scene &scene, const Body &body, double t)
 {
-  const Matrix turned = Eigen::AngleAxisd(double(body.angular_velocity[2]) * t, Vector::UnitZ()).toRotationMatrix() * axes_of(body.orientation);
+  const Matrix turned = Eigen::AngleAxisd(double(body.angular_velocity[2]) * t, Vector::UnitZ()).toRotationMatrix() *
+                        axes_of(body.orientation);
   std::vector<Vector> points = outline_of(scene.shapes[body.shape]).points;
   for (Vector &point : points) point = vector_of(body.position) + t * vector_of(body.linear_velocity) + turned * point;
   return points;
@@ -120,7 +123,8 @@ TEST_CASE("movers fly on their path step by step, and turn not at all", "[stabil
         CHECK(state.orientation == start.orientation);
         CHECK(state.position[1] == Approx(start.position[1]).margin(1e-9));
         CHECK(state.position[0] == Approx(start.position[0] + lane.speed * step / 60.0).margin(1e-6 * lane.speed));
-        CHECK((vector_of(now[lane.obstacle].position) - vector_of(passes.scene.bodies[lane.obstacle].position)).norm() < 1e-9);
+        CHECK((vector_of(now[lane.obstacle].position) - vector_of(passes.scene.bodies[lane.obstacle].position)).norm() <
+              1e-9);
       }
     }
   }
@@ -131,7 +135,8 @@ TEST_CASE("lanes are farther apart than the fastest goes in three steps", "[stab
 {
   const Passes passes = passes_of(movers().front(), Obstacle::edge, {0.001, 0.01});
   for (size_t k = 1; k < passes.lanes.size(); ++k) {
-    const double gap = passes.scene.bodies[passes.lanes[k].mover].position[2] - passes.scene.bodies[passes.lanes[k - 1].mover].position[2];
+    const double gap = passes.scene.bodies[passes.lanes[k].mover].position[2] -
+                       passes.scene.bodies[passes.lanes[k - 1].mover].position[2];
     CHECK(gap - 1 > 3 * all_speeds().back() / 60);
   }
 }

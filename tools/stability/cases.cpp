@@ -12,8 +12,8 @@ const std::vector<Case> &all_cases()
 {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
-    for (auto *add : {add_mass_ratio_cases, add_structure_cases, add_setting_cases, add_spin_cases, add_motion_cases, add_scale_cases,
-                      add_degenerate_cases, add_misses_cases})
+    for (auto *add : {add_mass_ratio_cases, add_structure_cases, add_setting_cases, add_spin_cases, add_motion_cases,
+                      add_scale_cases, add_degenerate_cases, add_misses_cases})
       add(all);
     return all;
   }();
@@ -99,10 +99,13 @@ Check at_end(Check check)
 
 void add_standing(Trial &trial, const Standing &bounds)
 {
-  const auto bound = [&](const std::optional<double> &given, auto from_rounding) { return given ? Bound(*given) : from_rounding(trial); };
+  const auto bound = [&](const std::optional<double> &given, auto from_rounding) {
+    return given ? Bound(*given) : from_rounding(trial);
+  };
   trial.checks.push_back(check("deepest contact", "m", bound(bounds.depth, depth_from_rounding), penetration()));
   trial.checks.push_back(check("largest tilt", "rad", bound(bounds.tilt, turn_from_rounding), tilt(trial.scene)));
-  trial.checks.push_back(check("farthest sideways", "m", bound(bounds.sideways, way_from_rounding), sideways(trial.scene)));
+  trial.checks.push_back(
+      check("farthest sideways", "m", bound(bounds.sideways, way_from_rounding), sideways(trial.scene)));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bound(bounds.speed, speed_from_rounding), speed())));
 }
 
@@ -124,7 +127,8 @@ double reach_of(const Scene &scene)
 {
   double reach = 0;
   for (const Body &body : scene.bodies)
-    if (body.motion == Motion::dynamic) reach = std::max(reach, vector_of(body.position).lpNorm<Eigen::Infinity>() + half_extent(scene, body, true));
+    if (body.motion == Motion::dynamic)
+      reach = std::max(reach, vector_of(body.position).lpNorm<Eigen::Infinity>() + half_extent(scene, body, true));
   return reach;
 }
 
@@ -153,21 +157,26 @@ Bound depth_from_rounding(const Trial &trial)
 
 Bound turn_from_rounding(const Trial &trial)
 {
-  return Bound::from_rounding(std::min(stands, turn_by_rounding(trial)),
-                              fmt::format("{:.0f} substeps, in each the spacing of floats at {:.3g} m over half an edge of {:.3g} m; at most {} rad",
-                                          substeps_of(trial), reach_of(trial.scene), smallest_half_extent(trial.scene), stands));
+  return Bound::from_rounding(
+      std::min(stands, turn_by_rounding(trial)),
+      fmt::format(
+          "{:.0f} substeps, in each the spacing of floats at {:.3g} m over half an edge of {:.3g} m; at most {} rad",
+          substeps_of(trial), reach_of(trial.scene), smallest_half_extent(trial.scene), stands));
 }
 
 Bound way_from_rounding(const Trial &trial)
 {
   const double reach = reach_of(trial.scene);
-  return Bound::from_rounding(std::min(stands, turn_by_rounding(trial) * reach), fmt::format("the turn by rounding, at {:.3g} m; at most {} m", reach, stands));
+  return Bound::from_rounding(std::min(stands, turn_by_rounding(trial) * reach),
+                              fmt::format("the turn by rounding, at {:.3g} m; at most {} m", reach, stands));
 }
 
 Bound speed_from_rounding(const Trial &trial)
 {
   const double reach = reach_of(trial.scene);
-  return Bound::from_rounding(reach * float_spacing / substep_of(trial), fmt::format("spacing of floats at {:.3g} m in a substep of {:.3g} s", reach, substep_of(trial)));
+  return Bound::from_rounding(
+      reach * float_spacing / substep_of(trial),
+      fmt::format("spacing of floats at {:.3g} m in a substep of {:.3g} s", reach, substep_of(trial)));
 }
 
 Bound energy_from_rounding(const Trial &trial)
@@ -177,10 +186,12 @@ Bound energy_from_rounding(const Trial &trial)
     if (body.motion != Motion::dynamic) continue;
     const BodyState state{body.position, body.orientation, body.linear_velocity, body.angular_velocity};
     mass += double(body.mass);
-    energy += kinetic_energy(trial.scene, body, state) + double(body.mass) * std::abs(vector_of(trial.scene.gravity).dot(vector_of(body.position)));
+    energy += kinetic_energy(trial.scene, body, state) +
+              double(body.mass) * std::abs(vector_of(trial.scene.gravity).dot(vector_of(body.position)));
   }
-  return Bound::from_rounding(substeps_of(trial) * float_spacing * energy / mass,
-                              fmt::format("{:.0f} substeps, in each the spacing of floats of {:.3g} J/kg", substeps_of(trial), energy / mass));
+  return Bound::from_rounding(
+      substeps_of(trial) * float_spacing * energy / mass,
+      fmt::format("{:.0f} substeps, in each the spacing of floats of {:.3g} J/kg", substeps_of(trial), energy / mass));
 }
 
 double sink_under(double load, double hertz) { return load * 10 / ((2 * pi * hertz) * (2 * pi * hertz)); }

@@ -91,8 +91,11 @@ Trial seams_trial(Length length)
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 0;
   for (int i = 0; i < 24; ++i) add_body(trial.scene, Motion::fixed, box_shape(0.5f, 0.25f, 1), {float(i), -0.25f, 0});
   add_body(trial.scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0.25f, 0.3f, 0}).linear_velocity = {5, 0, 0};
-  trial.checks.push_back(check("loss of speed", "m/s", 2e-3, [](const Moment &moment) { return std::abs(5 - double(moment.bodies[24].linear_velocity[0])); }));
-  trial.checks.push_back(check("lifted by", "m", depth_from_rounding(trial), [](const Moment &moment) { return double(moment.bodies[24].position[1]) - 0.3; }));
+  trial.checks.push_back(check("loss of speed", "m/s", 2e-3, [](const Moment &moment) {
+    return std::abs(5 - double(moment.bodies[24].linear_velocity[0]));
+  }));
+  trial.checks.push_back(check("lifted by", "m", depth_from_rounding(trial),
+                               [](const Moment &moment) { return double(moment.bodies[24].position[1]) - 0.3; }));
   return trial;
 }
 
@@ -120,19 +123,27 @@ Trial poison_trial(Length length)
 void add_degenerate_cases(std::vector<Case> &cases)
 {
   const char *group = "degenerate";
-  cases.push_back({"boxes-in-one-place", group, "1,000 cubes of 1 m in the same place", "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
+  cases.push_back({"boxes-in-one-place", group, "1,000 cubes of 1 m in the same place",
+                   "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
                    [](Length length) { return one_place_trial(box_shape(0.5f, 0.5f, 0.5f), 1000, length); }, true});
-  cases.push_back({"balls-in-one-place", group, "500 balls of 1 m in the same place", "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
+  cases.push_back({"balls-in-one-place", group, "500 balls of 1 m in the same place",
+                   "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
                    [](Length length) { return one_place_trial(sphere_shape(0.5f), 500, length); }, true});
   cases.push_back({"deep-overlap", group, "boxes and balls inside one another, in the ground and in a fixed block",
                    "nothing is faster than 6 m/s (twice the push speed), all are apart to 2 cm after 10 s", overlap_trial});
-  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity", "nothing is faster than 1 m/s (three axes, each parted at a tenth of the push speed and a half more), all are apart after 10 s",
+  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity",
+                   "nothing is faster than 1 m/s (three axes, each parted at a tenth of the push speed and a half "
+                   "more), all are apart after 10 s",
                    overlap_weightless_trial});
-  cases.push_back({"many-on-one", group, "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
-                   "nothing leaves by 10 micrometres or turns by 0.2 mrad, contacts at most 0.8 mm deep, at rest after 2 s", many_on_one_trial, true});
-  cases.push_back({"coplanar", group, "72 slabs in two layers, face to face with all their neighbours", "contacts at most 1 mm deep, nothing leaves or turns in 10 s but for rounding", coplanar_trial});
-  cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles", "it loses less than 2 mm/s and is not lifted",
-                   seams_trial});
+  cases.push_back(
+      {"many-on-one", group,
+       "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
+       "nothing leaves by 10 micrometres or turns by 0.2 mrad, contacts at most 0.8 mm deep, at rest after 2 s",
+       many_on_one_trial, true});
+  cases.push_back({"coplanar", group, "72 slabs in two layers, face to face with all their neighbours",
+                   "contacts at most 1 mm deep, nothing leaves or turns in 10 s but for rounding", coplanar_trial});
+  cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles",
+                   "it loses less than 2 mm/s and is not lifted", seams_trial});
   cases.push_back({"poisoned", group, "a NaN put into one body of a pile of 64", "that body alone is quarantined; the others fall into its place, none through the ground",
                    poison_trial});
 }

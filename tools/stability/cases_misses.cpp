@@ -1,7 +1,8 @@
-/* cases_misses.cpp - what misses goes on, and what hits does not go through: movers past an edge, a corner, a mesh's edge and a rotor.
+/* cases_misses.cpp - what misses goes on, and what hits does not go through: movers past an edge, a corner, a mesh's
+ * edge and a rotor.
  *
- * Contacts are made ahead of touching, so that nothing is passed unseen within a step. A contact that is made where the step would never
- * touch acts as an endless plane: it stops what would have missed.
+ * Contacts are made ahead of touching, so that nothing is passed unseen within a step. A contact that is made where the
+ * step would never touch acts as an endless plane: it stops what would have missed.
  */
 #include <algorithm>
 #include <cmath>
@@ -71,7 +72,8 @@ double kinetic_energy_of(const Moment &moment, const Lane &lane, bool at_start)
   return sum;
 }
 
-/* Of one lane, both bodies together, as a share of what they had: a sum over all lanes would hide one gain behind the losses. */
+/* Of one lane, both bodies together, as a share of what they had: a sum over all lanes would hide one gain behind the
+ * losses. */
 Figure largest_gain(const std::vector<Lane> &lanes)
 {
   return [lanes](const Moment &moment) {
@@ -100,28 +102,33 @@ Figure farthest_beyond(const std::vector<Lane> &lanes)
 constexpr uint64_t steps = 40; /* the slowest are over the obstacle after 19 */
 
 /* Speeds do not change at all where there is no contact; what a user sees is a thousandth. */
-Bound a_thousandth() { return Bound::promised(0.001, "what misses keeps 99.9% of its energy; without a contact it is all of it"); }
+Bound a_thousandth()
+{
+  return Bound::promised(0.001, "what misses keeps 99.9% of its energy; without a contact it is all of it");
+}
 
 Case miss_case(const Mover &mover, const ObstacleName &past)
 {
   return {fmt::format("miss-{}-{}", mover.name, past.name), "what misses goes on",
           fmt::format("a {} passes {} by 1 mm, 1 cm and 2 cm, at 1, 5, 30, 100 and 300 m/s", mover.name, past.words),
-          "keeps 99.9% of its kinetic energy, and so does what it passes",
-          [mover, past](Length length) {
+          "keeps 99.9% of its kinetic energy, and so does what it passes", [mover, past](Length length) {
             Passes passes = passes_of(mover, past.obstacle, {0.001, 0.01, 0.02});
             Trial trial = trial_of(std::move(passes.scene), steps_for(length, steps, steps));
-            trial.checks.push_back(check("largest loss of kinetic energy", "", a_thousandth(), largest_loss(passes.lanes)));
+            trial.checks.push_back(
+                check("largest loss of kinetic energy", "", a_thousandth(), largest_loss(passes.lanes)));
             return trial;
           }};
 }
 
 Bound gain_from_rounding()
 {
-  return Bound::from_rounding(double(steps) * Settings{}.substeps * 0x1p-23, "40 steps of 4 substeps, in each the spacing of floats of the energy");
+  return Bound::from_rounding(double(steps) * Settings{}.substeps * 0x1p-23,
+                              "40 steps of 4 substeps, in each the spacing of floats of the energy");
 }
 
-/* Speeds at which something does not hold yet, and is not asserted: boxes at 300 m/s are carried past a wall, and past an edge that they
- * overlap by 1 cm; a box in the way of a rotor's tip is missed at 30 and 300 m/s; capsules and, from a rotor, hulls gain energy of spin. */
+/* Speeds at which something does not hold yet, and is not asserted: boxes at 300 m/s are carried past a wall, and past
+ * an edge that they overlap by 1 cm; a box in the way of a rotor's tip is missed at 30 and 300 m/s; capsules and, from
+ * a rotor, hulls gain energy of spin. */
 struct NotYet {
   const char *name;
   std::vector<double> speeds;
@@ -129,30 +136,37 @@ struct NotYet {
 
 std::vector<double> speeds_that_hold(const std::string &name)
 {
-  static const std::vector<NotYet> not_yet{{"hit-box-wall", {300}},       {"hit-box-sheet", {300}},          {"graze-box-edge", {300}},
-                                           {"graze-box-rotor", {30, 300}}, {"graze-capsule-edge", {30}}, {"graze-capsule-mesh-edge", {30, 300}},
+  static const std::vector<NotYet> not_yet{{"hit-box-wall", {300}},        {"hit-box-sheet", {300}},
+                                           {"graze-box-edge", {300}},      {"graze-box-rotor", {30, 300}},
+                                           {"graze-capsule-edge", {30}},   {"graze-capsule-mesh-edge", {30, 300}},
                                            {"graze-capsule-rotor", {100}}, {"graze-hull-rotor", {100}}};
   std::vector<double> speeds = all_speeds();
   for (const NotYet &each : not_yet)
     if (each.name == name)
-      std::erase_if(speeds, [&](double speed) { return std::find(each.speeds.begin(), each.speeds.end(), speed) != each.speeds.end(); });
+      std::erase_if(speeds, [&](double speed) {
+        return std::find(each.speeds.begin(), each.speeds.end(), speed) != each.speeds.end();
+      });
   return speeds;
 }
 
-/* A graze takes what speed there is along the normal: a ball of 5 cm that overlaps an edge by 1 mm meets it at 11 degrees, and loses a fifth of
- * its speed to a contact without friction and restitution. A rotor's tip leaves the way of a fast mover before it has touched all of it. */
+/* A graze takes what speed there is along the normal: a ball of 5 cm that overlaps an edge by 1 mm meets it at 11
+ * degrees, and loses a fifth of its speed to a contact without friction and restitution. A rotor's tip leaves the way
+ * of a fast mover before it has touched all of it. */
 Case graze_case(const Mover &mover, const ObstacleName &past)
 {
   const std::string name = fmt::format("graze-{}-{}", mover.name, past.name);
   const std::vector<double> speeds = speeds_that_hold(name);
   return {name, "what hits is stopped",
-          fmt::format("a {} overlaps {} by 1 mm and 1 cm on its way, at {} m/s", mover.name, past.words, fmt::join(speeds, ", ")),
+          fmt::format("a {} overlaps {} by 1 mm and 1 cm on its way, at {} m/s", mover.name, past.words,
+                      fmt::join(speeds, ", ")),
           "every one of them is deflected, by a thousandth of its speed at least; no pair gains energy",
           [=](Length length) {
             Passes passes = passes_of(mover, past.obstacle, {-0.001, -0.01}, speeds);
             Trial trial = trial_of(std::move(passes.scene), steps_for(length, steps, steps));
-            trial.checks.push_back(at_end(check("share of the velocity that is as it was", "", 0.999, least_deflected(passes.lanes))));
-            trial.checks.push_back(check("largest gain of kinetic energy", "", gain_from_rounding(), largest_gain(passes.lanes)));
+            trial.checks.push_back(
+                at_end(check("share of the velocity that is as it was", "", 0.999, least_deflected(passes.lanes))));
+            trial.checks.push_back(
+                check("largest gain of kinetic energy", "", gain_from_rounding(), largest_gain(passes.lanes)));
             return trial;
           }};
 }
@@ -162,13 +176,14 @@ Case wall_case(const Mover &mover, bool mesh)
   const std::string name = fmt::format("hit-{}-{}", mover.name, mesh ? "sheet" : "wall");
   const std::vector<double> speeds = speeds_that_hold(name);
   return {name, "what hits is stopped",
-          fmt::format("a {} against {}, at {} m/s", mover.name, mesh ? "a sheet of two triangles" : "a wall of 1 cm", fmt::join(speeds, ", ")),
-          "its centre never gets beyond the middle of the wall; energy never grows",
-          [=](Length length) {
+          fmt::format("a {} against {}, at {} m/s", mover.name, mesh ? "a sheet of two triangles" : "a wall of 1 cm",
+                      fmt::join(speeds, ", ")),
+          "its centre never gets beyond the middle of the wall; energy never grows", [=](Length length) {
             Passes passes = hits_on_wall(mover, mesh, speeds);
             Trial trial = trial_of(std::move(passes.scene), steps_for(length, steps, steps));
             trial.checks.push_back(check("got beyond the wall by", "m", 0, farthest_beyond(passes.lanes)));
-            trial.checks.push_back(check("largest gain of kinetic energy", "", gain_from_rounding(), largest_gain(passes.lanes)));
+            trial.checks.push_back(
+                check("largest gain of kinetic energy", "", gain_from_rounding(), largest_gain(passes.lanes)));
             return trial;
           }};
 }

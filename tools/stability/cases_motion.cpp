@@ -19,8 +19,8 @@ Trial flight_trial(Length length)
   body.linear_velocity = vec3_of(speed);
   body.angular_velocity = {1, 2, 3};
   trial.checks.push_back(check("distance from the parabola", "m", 3e-4, distance_from_path(0, [=](double t) -> Vector {
-    return start + t * speed + 0.5 * t * t * Vector(0, -g, 0);
-  })));
+                                 return start + t * speed + 0.5 * t * t * Vector(0, -g, 0);
+                               })));
   return trial;
 }
 
@@ -110,7 +110,8 @@ const std::vector<double> &coefficients()
 struct Cone {
   static constexpr int to_each_side = 16;
   static constexpr double finest = 0.25 * pi / 180;
-  static constexpr double nearest = 0.125 + 1e-9; /* degrees: the first that slips is the one at the angle, or the next */
+  static constexpr double nearest =
+      0.125 + 1e-9; /* degrees: the first that slips is the one at the angle, or the next */
   static double angle(double mu, int k) { return std::atan(mu) + k * finest; }
 };
 
@@ -139,7 +140,8 @@ Trial cone_trial(Length length)
     const uint32_t material = add_material(trial.scene, float(mu));
     for (int k = -Cone::to_each_side; k <= Cone::to_each_side; ++k) add_incline(trial.scene, material, Cone::angle(mu, k), z += 2);
   }
-  trial.checks.push_back(at_end(check("largest error of the angle of slip", "degrees", Cone::nearest, cone_error(trial.scene))));
+  trial.checks.push_back(
+      at_end(check("largest error of the angle of slip", "degrees", Cone::nearest, cone_error(trial.scene))));
   return trial;
 }
 
@@ -211,9 +213,12 @@ Trial rolling_trial(Length length)
   trial.checks.push_back(at_end(check("error of the rolling speed", "", 1e-5, [v0](const Moment &moment) {
     return std::abs(double(moment.bodies[1].linear_velocity[0]) / (5.0 / 7.0 * v0) - 1);
   })));
-  trial.checks.push_back(at_end(check("slip of the contact", "m/s", Bound::from_rounding(v0 * 0x1p-23, "spacing of floats of the speed at the start"), [](const Moment &moment) {
-    return std::abs(double(moment.bodies[1].linear_velocity[0]) + 0.5 * double(moment.bodies[1].angular_velocity[2]));
-  })));
+  trial.checks.push_back(at_end(check("slip of the contact", "m/s",
+                                      Bound::from_rounding(v0 * 0x1p-23, "spacing of floats of the speed at the start"),
+                                      [](const Moment &moment) {
+                                        return std::abs(double(moment.bodies[1].linear_velocity[0]) +
+                                                        0.5 * double(moment.bodies[1].angular_velocity[2]));
+                                      })));
   return trial;
 }
 
@@ -253,16 +258,22 @@ Trial bullet_trial(Length length)
 void add_motion_cases(std::vector<Case> &cases)
 {
   const char *group = "motion";
-  cases.push_back({"flight", group, "a spinning box thrown upwards", "within 0.3 mm of the parabola for 2 s: what float rounding adds up to", flight_trial});
-  cases.push_back({"restitution", group, "20 balls of four restitutions dropped from five heights", "each returns to e^2 of its height within 0.003%", restitution_trial});
+  cases.push_back({"flight", group, "a spinning box thrown upwards",
+                   "within 0.3 mm of the parabola for 2 s: what float rounding adds up to", flight_trial});
+  cases.push_back({"restitution", group, "20 balls of four restitutions dropped from five heights",
+                   "each returns to e^2 of its height within 0.003%", restitution_trial});
   cases.push_back({"elastic", group, "a ball of restitution 1 that bounces for 20 s", "its energy drifts by less than 0.5%", elastic_trial});
   cases.push_back({"closed-system", group, "64 balls and boxes collide in empty space",
-                   "momentum drifts by less than 3e-7 and angular momentum by less than 5e-7 of the sum of their lengths, energy never grows", closed_system_trial});
-  cases.push_back({"friction-cone", group, "boxes on ramps, ten coefficients of friction from 0.1 to 1", "each slips at atan mu, as near as ramps a quarter of a degree apart tell", cone_trial});
-  cases.push_back({"incline", group, "boxes slide down ramps 10 degrees steeper than their friction holds", "the way after 2 s is within 1.5% of g (sin a - mu cos a) t^2 / 2",
-                   incline_trial});
+                   "momentum drifts by less than 3e-7 and angular momentum by less than 5e-7 of the sum of their "
+                   "lengths, energy never grows",
+                   closed_system_trial});
+  cases.push_back({"friction-cone", group, "boxes on ramps, ten coefficients of friction from 0.1 to 1",
+                   "each slips at atan mu, as near as ramps a quarter of a degree apart tell", cone_trial});
+  cases.push_back({"incline", group, "boxes slide down ramps 10 degrees steeper than their friction holds",
+                   "the way after 2 s is within 1.5% of g (sin a - mu cos a) t^2 / 2", incline_trial});
   cases.push_back({"sliding-stop", group, "sliding boxes come to rest", "after v^2 / (2 mu g), less the v h / 2 that a substep of h = 1/240 s falls short: a share of mu g h / v, 2.1% at most", stop_trial});
-  cases.push_back({"rolling-ball", group, "a ball that starts sliding", "rolls at 5/7 of its speed, within 1e-5, without slip", rolling_trial});
+  cases.push_back({"rolling-ball", group, "a ball that starts sliding",
+                   "rolls at 5/7 of its speed, within 1e-5, without slip", rolling_trial});
   cases.push_back({"bullet-thin-wall", group, "a ball of 10 cm at 300 m/s against a wall of 1 cm", "its centre never gets beyond the wall's",
                    [](Length length) { return thin_wall_trial(sphere_shape(0.05f), 300, length); }});
   cases.push_back({"needle-thin-wall", group, "a needle of 1 m by 1 cm at 100 m/s, point first, against a wall of 1 cm", "its centre never gets beyond the wall's",

@@ -27,22 +27,26 @@ struct AtEnd {
 
 void watch_ball_and_column(Trial &trial, const AtEnd &bounds)
 {
-  const auto bound = [&](const std::optional<double> &given, auto from_rounding) { return given ? Bound(*given) : from_rounding(trial); };
-  trial.checks.push_back(at_end(check("deepest contact at the end", "m", bound(bounds.depth, depth_from_rounding), penetration())));
+  const auto bound = [&](const std::optional<double> &given, auto from_rounding) {
+    return given ? Bound(*given) : from_rounding(trial);
+  };
+  trial.checks.push_back(
+      at_end(check("deepest contact at the end", "m", bound(bounds.depth, depth_from_rounding), penetration())));
   trial.checks.push_back(check("farthest sideways", "m", way_from_rounding(trial), sideways(trial.scene)));
   trial.checks.push_back(check("gain of energy", "J/kg", bound(bounds.gain, energy_from_rounding), energy_gain()));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bound(bounds.speed, speed_from_rounding), speed())));
 }
 
-/* Where springs of this frequency hold a column of cubes of 1 kg, beyond the slop; the lowest contact of two cubes (effective mass
- * 1/2) carries `load` of them. */
+/* Where springs of this frequency hold a column of cubes of 1 kg, beyond the slop; the lowest contact of two cubes
+ * (effective mass 1/2) carries `load` of them. */
 double rest_depth(double hertz, double load)
 {
   const double effective_mass = 0.5, slop = 0.005;
   return slop + sink_under(load / effective_mass, hertz);
 }
 
-/* The lower of a column of five, and a tenth more; a cube of 1 m must not pass through another whatever the springs are. */
+/* The lower of a column of five, and a tenth more; a cube of 1 m must not pass through another whatever the springs
+ * are. */
 double depth_of_five(double hertz) { return std::min(0.9, 0.005 + 1.1 * (rest_depth(hertz, 4) - 0.005)); }
 
 /* A column of five that starts with its cubes 2 cm in one another. */
@@ -65,13 +69,19 @@ struct Stiffness {
 Case stiffness_case(const Stiffness &stiffness)
 {
   return {fmt::format("stiffness-{}", stiffness.hertz), "settings",
-          fmt::format("contacts of {} Hz, {} substeps: a column of five cubes that starts 2 cm in one another, and a ball that falls beside it", stiffness.hertz, stiffness.substeps),
-          "nothing leaves sideways, energy grows by no more than pushing the cubes apart takes (0.6 J/kg), contacts after 5 s no deeper than where springs of that "
+          fmt::format("contacts of {} Hz, {} substeps: a column of five cubes that starts 2 cm in one another, and a "
+                      "ball that falls beside it",
+                      stiffness.hertz, stiffness.substeps),
+          "nothing leaves sideways, energy grows by no more than pushing the cubes apart takes (0.6 J/kg), contacts "
+          "after 5 s no deeper than where springs of that "
           "frequency hold the load and a tenth more, at rest",
           [stiffness](Length length) {
-            Trial trial = pressed_trial(stiffness.hertz, length == Length::brief ? std::min(stiffness.substeps, 60u) : stiffness.substeps, length);
+            Trial trial =
+                pressed_trial(stiffness.hertz,
+                              length == Length::brief ? std::min(stiffness.substeps, 60u) : stiffness.substeps, length);
             watch_ball_and_column(trial, stiffness.bounds);
-            if (stiffness.hertz > 100) { /* they part each pair at 2.7 m/s and more, and one pass takes that out again only in part */
+            if (stiffness.hertz >
+                100) { /* they part each pair at 2.7 m/s and more, and one pass takes that out again only in part */
               trial.documented = trial.settings;
               trial.documented->push_speed = 0.2f;
             }
@@ -105,13 +115,17 @@ Figure difference_with(const Scene &scene, float hertz)
 Case clamped_case(double hertz)
 {
   return {fmt::format("stiffness-{}-clamped", hertz), "settings",
-          fmt::format("contacts of {} Hz with the default substeps, which allow 48 Hz: the column of five cubes that starts 2 cm in one another", hertz),
-          "each body where contacts of 48 Hz, a fifth of the substep rate, bring it, to the last bit; and as at rest as there",
+          fmt::format("contacts of {} Hz with the default substeps, which allow 48 Hz: the column of five cubes that "
+                      "starts 2 cm in one another",
+                      hertz),
+          "each body where contacts of 48 Hz, a fifth of the substep rate, bring it, to the last bit; and as at rest "
+          "as there",
           [hertz](Length length) {
             Trial trial = pressed_trial(hertz, Settings{}.substeps, length);
             const double limit = stiffest(trial.settings);
             const float just_above = std::nextafter(float(limit), HUGE_VALF);
-            trial.checks.push_back(check("difference from contacts at the limit", "m", 0, difference_with(trial.scene, just_above)));
+            trial.checks.push_back(
+                check("difference from contacts at the limit", "m", 0, difference_with(trial.scene, just_above)));
             watch_ball_and_column(trial, {depth_of_five(limit), 0.6, {}});
             return trial;
           }};
@@ -121,9 +135,11 @@ Case clamped_case(double hertz)
 /* depth: left out where contacts at the end are as deep as floats are apart. */
 Case step_case(int rate, uint64_t steps, const AtEnd &bounds)
 {
-  return {fmt::format("dt-1/{}", rate), "settings", fmt::format("steps of 1/{} s: a column of five cubes, and a ball that falls beside it", rate),
+  return {fmt::format("dt-1/{}", rate), "settings",
+          fmt::format("steps of 1/{} s: a column of five cubes, and a ball that falls beside it", rate),
           fmt::format("nothing leaves sideways, energy never grows, contacts at most {} deep at the end{}",
-                      bounds.depth ? fmt::format("{} m", *bounds.depth) : "rounding", rate <= 1000 ? ", at rest then" : ""),
+                      bounds.depth ? fmt::format("{} m", *bounds.depth) : "rounding",
+                      rate <= 1000 ? ", at rest then" : ""),
           [rate, steps, bounds](Length length) {
             Trial trial = trial_of(column_and_ball(), steps_for(length, steps, steps));
             trial.every = std::max<uint64_t>(1, steps / 300);
@@ -138,9 +154,12 @@ Case step_case(int rate, uint64_t steps, const AtEnd &bounds)
           }};
 }
 
-Case passes_case(const std::string &name, const std::string &what, uint32_t substeps, uint32_t iterations, int height, uint64_t steps, std::optional<double> depth = std::nullopt)
+Case passes_case(const std::string &name, const std::string &what, uint32_t substeps, uint32_t iterations, int height,
+                 uint64_t steps, std::optional<double> depth = std::nullopt)
 {
-  return {name, "settings", what, fmt::format("nothing leaves sideways or turns, contacts at most {} deep, at rest at the end", depth ? fmt::format("{:.3g} m", *depth) : "rounding"),
+  return {name, "settings", what,
+          fmt::format("nothing leaves sideways or turns, contacts at most {} deep, at rest at the end",
+                      depth ? fmt::format("{:.3g} m", *depth) : "rounding"),
           [=](Length length) {
             Trial trial = trial_of(column_of(equal(height)), steps_for(length, steps, steps));
             trial.own_passes = true;
@@ -157,7 +176,8 @@ Trial weightless_trial(Length length)
   Trial trial = trial_of(load_scene("box-stack:n=27,height=3,gap=0"), steps_for(length, 600, 600));
   trial.scene.gravity = {0, 0, 0};
   trial.checks.push_back(check("farthest from the start", "m", depth_from_rounding(trial), displacement(trial.scene)));
-  trial.checks.push_back(check("largest tilt", "rad", Bound::from_rounding(0x1p-23, "spacing of floats of 1"), tilt(trial.scene)));
+  trial.checks.push_back(
+      check("largest tilt", "rad", Bound::from_rounding(0x1p-23, "spacing of floats of 1"), tilt(trial.scene)));
   return trial;
 }
 
@@ -192,8 +212,8 @@ void add_setting_cases(std::vector<Case> &cases)
   cases.push_back(passes_case("substeps-1", "one substep of one pass: a column of ten cubes, held by the springs of 12 Hz that it allows: load / effective mass x g / w^2 = 3.2 cm",
                               1, 1, 10, 600, rest_depth(12, 9) + 1e-6)); /* floats of a height of 10 m are 1e-6 m apart */
   cases.push_back(passes_case("substeps-1000", "1,000 substeps: a column of ten cubes, 17 microseconds a substep", 1000, 1, 10, 30));
-  cases.push_back({"gravity-0", "settings", "27 cubes that touch face to face, without gravity", "nothing moves or turns in 10 s but for rounding",
-                   weightless_trial});
+  cases.push_back({"gravity-0", "settings", "27 cubes that touch face to face, without gravity",
+                   "nothing moves or turns in 10 s but for rounding", weightless_trial});
   cases.push_back({"gravity-1000", "settings", "a column of five cubes under 1,000 m/s^2",
                    "nothing leaves sideways or turns, contacts at most 2 cm deep, at rest at the end", heavy_trial});
 }

@@ -23,9 +23,12 @@ Trial standing_trial(const std::string &spec, uint64_t steps, const Standing &bo
 /* A pyramid of 1 m cubes: contacts may each be as deep as the slop, so that the top sinks by rows x slop and no more. */
 Case pyramid_case(int rows, const Standing &bounds)
 {
-  return {fmt::format("pyramid-{}", rows), "stacks", fmt::format("a wall of cubes, each resting on two, {} rows, 2,000 steps", rows),
-          fmt::format("no cube turns by {} rad or leaves by {} m, contacts at most {} m deep, slower than {} m/s at the end", *bounds.tilt, *bounds.sideways,
-                      *bounds.depth, *bounds.speed),
+  return {fmt::format("pyramid-{}", rows),
+          "stacks",
+          fmt::format("a wall of cubes, each resting on two, {} rows, 2,000 steps", rows),
+          fmt::format(
+              "no cube turns by {} rad or leaves by {} m, contacts at most {} m deep, slower than {} m/s at the end",
+              *bounds.tilt, *bounds.sideways, *bounds.depth, *bounds.speed),
           [rows, bounds](Length length) {
             const int used = length == Length::brief ? rows / 10 : rows;
             return standing_trial(fmt::format("pyramid:rows={}", used), steps_for(length, 2000, 150), bounds);
@@ -35,8 +38,12 @@ Case pyramid_case(int rows, const Standing &bounds)
 
 Case column_case(int height, const Standing &bounds)
 {
-  return {fmt::format("column-{}", height), "stacks", fmt::format("a column of {} cubes of 1 m", height),
-          fmt::format("stands 20 s: contacts at most {} m deep, turned, moved and, at the end, at rest but for rounding", *bounds.depth),
+  return {fmt::format("column-{}", height),
+          "stacks",
+          fmt::format("a column of {} cubes of 1 m", height),
+          fmt::format(
+              "stands 20 s: contacts at most {} m deep, turned, moved and, at the end, at rest but for rounding",
+              *bounds.depth),
           [height, bounds](Length length) {
             const int used = length == Length::brief ? 6 + height / 10 : height;
             return standing_trial(fmt::format("box-stack:n={},height={}", used, used), steps_for(length, 1200, 600), bounds);
@@ -47,8 +54,9 @@ Case column_case(int height, const Standing &bounds)
 Case built_case(const std::string &name, const std::string &what, const std::string &spec, const Standing &bounds)
 {
   return {name, "stacks", what,
-          fmt::format("stands 10 s: nothing turns by {} rad or leaves by {} m, contacts at most {} m deep, at rest at the end", *bounds.tilt,
-                      *bounds.sideways, *bounds.depth),
+          fmt::format(
+              "stands 10 s: nothing turns by {} rad or leaves by {} m, contacts at most {} m deep, at rest at the end",
+              *bounds.tilt, *bounds.sideways, *bounds.depth),
           [spec, bounds](Length length) { return standing_trial(spec, steps_for(length, 600, 600), bounds); }};
 }
 
@@ -108,13 +116,17 @@ void add_structure_cases(std::vector<Case> &cases)
   cases.push_back(column_case(20, {0.02, {}, {}, {}}));
   cases.push_back(column_case(50, {0.02, {}, {}, {}}));
   cases.push_back(column_case(100, {0.015, {}, {}, {}}));
-  cases.push_back(built_case("card-house", "ten leaning pairs of cards in four storeys, flat cards between them", "card-house", {0.015, 0.03, 0.03, 0.015}));
-  cases.push_back(built_case("arch", "a corbelled arch of six courses a side, closed by a lintel", "arch", {0.01, 0.01, 0.01, {}}));
-  cases.push_back(built_case("tower", "54 planks in 18 levels, each level across the one below", "tower", {0.0015, 0.001, 0.001, {}}));
+  cases.push_back(built_case("card-house", "ten leaning pairs of cards in four storeys, flat cards between them",
+                             "card-house", {0.015, 0.03, 0.03, 0.015}));
+  cases.push_back(
+      built_case("arch", "a corbelled arch of six courses a side, closed by a lintel", "arch", {0.01, 0.01, 0.01, {}}));
+  cases.push_back(built_case("tower", "54 planks in 18 levels, each level across the one below", "tower",
+                             {0.0015, 0.001, 0.001, {}}));
   cases.push_back({"dominoes", "stacks", "a row of 30 dominoes, the first pushed over", "all 30 fall; energy never grows; contacts at most 5 cm deep",
                    dominoes_trial});
   cases.push_back({"wall-hit", "stacks", "a wall of 95 bricks of 1 kg, hit by a ball of 20 kg at 20 m/s",
-                   "energy never grows, nothing sinks into the ground, contacts at most 20 cm deep (half a brick), all bricks at rest but for rounding after 10 s",
+                   "energy never grows, nothing sinks into the ground, contacts at most 20 cm deep (half a brick), all "
+                   "bricks at rest but for rounding after 10 s",
                    wall_trial});
 }
 

@@ -24,8 +24,8 @@ Counts counts_of(const Results &results, const std::string &solver)
 
 std::string text_of(const Counts &counts)
 {
-  return fmt::format("{} pass by default, {} only with a documented setting, {} with a documented solver, {} fail", counts.by_default, counts.with_setting,
-                     counts.with_solver, counts.failed);
+  return fmt::format("{} pass by default, {} only with a documented setting, {} with a documented solver, {} fail",
+                     counts.by_default, counts.with_setting, counts.with_solver, counts.failed);
 }
 
 std::string verdict_of(const Outcome &outcome)
@@ -41,7 +41,8 @@ std::string with_what(const Outcome &outcome)
 {
   if (!outcome.by_default) return "";
   const CheckResult &failed = *outcome.by_default;
-  return fmt::format("{}; by default FAIL {} ({})", outcome.settings, with_unit(failed.figure, failed.unit), failed.what);
+  return fmt::format("{}; by default FAIL {} ({})", outcome.settings, with_unit(failed.figure, failed.unit),
+                     failed.what);
 }
 
 std::string bounds_text(const Results &results)
@@ -49,8 +50,9 @@ std::string bounds_text(const Results &results)
   std::string text;
   for (const Result &result : results.results)
     for (const CheckResult &check : result.outcome.checks)
-      text += fmt::format("{:28} {:10} {:36} {:>12} of {:>12}  ratio {:<9.3g} {}{}\n", result.outcome.name, result.outcome.solver, check.what,
-                          with_unit(check.figure, check.unit), with_unit(check.bound.value, check.unit), check.ratio(), check.loose() ? "LOOSE " : "",
+      text += fmt::format("{:28} {:10} {:36} {:>12} of {:>12}  ratio {:<9.3g} {}{}\n", result.outcome.name,
+                          result.outcome.solver, check.what, with_unit(check.figure, check.unit),
+                          with_unit(check.bound.value, check.unit), check.ratio(), check.loose() ? "LOOSE " : "",
                           check.passed ? check.bound.derivation : "FAIL");
   return text;
 }

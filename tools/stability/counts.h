@@ -1,4 +1,5 @@
-/* counts.h - how many cases a solver passes, apart by what it took: a case that needs a setting of its own is not one passed by default. */
+/* counts.h - how many cases a solver passes, apart by what it took: a case that needs a setting of its own is not one
+ * passed by default. */
 #pragma once
 
 #include <string>
@@ -21,10 +22,12 @@ std::string text_of(const Counts &counts);
 /* "pass", "with substeps 16", "with solver direct", "FAIL" */
 std::string verdict_of(const Outcome &outcome);
 
-/* "contact_hertz 600; by default 0.02 m (deepest contact)": what it took and what failed without; empty if it passes by default. */
+/* "contact_hertz 600; by default 0.02 m (deepest contact)": what it took and what failed without; empty if it passes by
+ * default. */
 std::string with_what(const Outcome &outcome);
 
-/* Figure, bound and ratio of every check of every run, a line each, in the order of the results; loose bounds are marked. */
+/* Figure, bound and ratio of every check of every run, a line each, in the order of the results; loose bounds are
+ * marked. */
 std::string bounds_text(const Results &results);
 
 /* How many checks of this solver have a bound of more than ten times their figure without a derivation. */

@@ -13,7 +13,8 @@ constexpr double step = 1.0 / 60, lane_width = 20;
 
 Shape octahedron_shape()
 {
-  const std::vector<Vec3> points{{0.06f, 0, 0}, {-0.06f, 0, 0}, {0, 0.04f, 0}, {0, -0.04f, 0}, {0, 0, 0.05f}, {0, 0, -0.05f}};
+  const std::vector<Vec3> points{{0.06f, 0, 0},  {-0.06f, 0, 0}, {0, 0.04f, 0},
+                                 {0, -0.04f, 0}, {0, 0, 0.05f},  {0, 0, -0.05f}};
   return hull_shape(points, "octahedron");
 }
 
@@ -21,7 +22,8 @@ Shape octahedron_shape()
 Shape roof_shape()
 {
   const float half = 0.5f;
-  const std::vector<Vec3> vertices{{0, 0, -half}, {0, 0, half}, {-half, -half, -half}, {-half, -half, half}, {half, -half, -half}, {half, -half, half}};
+  const std::vector<Vec3> vertices{{0, 0, -half},        {0, 0, half},         {-half, -half, -half},
+                                   {-half, -half, half}, {half, -half, -half}, {half, -half, half}};
   const std::vector<uint32_t> triangles{0, 2, 1, 1, 2, 3, 0, 1, 4, 1, 5, 4};
   return mesh_shape(vertices, triangles, "roof");
 }
@@ -45,7 +47,8 @@ void add_rotor(Scene &scene, double z, double passes)
 {
   const float half = 0.5f, thick = 0.02f;
   const double spin = 100, tip = std::atan2(double(thick), double(half));
-  Body &rotor = add_body(scene, Motion::dynamic, box_shape(half, thick, 0.05f), {0, -std::hypot(double(half), double(thick)), z});
+  Body &rotor =
+      add_body(scene, Motion::dynamic, box_shape(half, thick, 0.05f), {0, -std::hypot(double(half), double(thick)), z});
   rotor.orientation = turn_about({0, 0, 1}, std::remainder(pi / 2 - tip - spin * passes, 2 * pi));
   rotor.angular_velocity = {0, 0, float(spin)};
 }
@@ -54,17 +57,20 @@ void add_obstacle(Scene &scene, Obstacle obstacle, double z, double passes)
 {
   switch (obstacle) {
   case Obstacle::edge: return add_cube_below(scene, turn_about({0, 0, 1}, pi / 4), {0.5, 0.5, 0}, z);
-  case Obstacle::corner: return add_cube_below(scene, turn_about(Vector(1, 1, 1).cross(Vector(0, 1, 0)), std::acos(1 / std::sqrt(3.0))), {0.5, 0.5, 0.5}, z);
+  case Obstacle::corner:
+    return add_cube_below(scene, turn_about(Vector(1, 1, 1).cross(Vector(0, 1, 0)), std::acos(1 / std::sqrt(3.0))),
+                          {0.5, 0.5, 0.5}, z);
   case Obstacle::mesh_edge: add_body(scene, Motion::fixed, roof_shape(), {0, 0, z}); return;
   case Obstacle::rotor: return add_rotor(scene, z, passes);
   }
 }
 
-/* Two whole steps at least and 30 cm before the lane's origin, and a part of a step that differs from lane to lane: contacts are found
- * at every distance. */
+/* Two whole steps at least and 30 cm before the lane's origin, and a part of a step that differs from lane to lane:
+ * contacts are found at every distance. */
 double time_to_pass(double speed, size_t row)
 {
-  const size_t lane = row * all_speeds().size() + size_t(std::find(all_speeds().begin(), all_speeds().end(), speed) - all_speeds().begin());
+  const size_t lane = row * all_speeds().size() +
+                      size_t(std::find(all_speeds().begin(), all_speeds().end(), speed) - all_speeds().begin());
   const double part = std::fmod(0.13 + 0.29 * double(lane), 1.0);
   return step * (std::max(2.0, std::ceil(0.3 / (speed * step))) + part);
 }
@@ -102,19 +108,22 @@ Vector lowest_point(const Mover &mover)
   const auto down = [&](int k) -> Vector { return (axes(1, k) > 0 ? -1.0 : 1.0) * axes.col(k); };
   if (mover.shape.type == ShapeType::sphere) return {0, -double(size[0]), 0};
   if (mover.shape.type == ShapeType::capsule) return double(size[1]) * down(1) - Vector(0, double(size[0]), 0);
-  if (mover.shape.type == ShapeType::box) return double(size[0]) * down(0) + double(size[1]) * down(1) + double(size[2]) * down(2);
+  if (mover.shape.type == ShapeType::box)
+    return double(size[0]) * down(0) + double(size[1]) * down(1) + double(size[2]) * down(2);
   Vector lowest(0, HUGE_VAL, 0);
   for (const Vec3 &vertex : mover.shape.hull->vertices)
     if (const Vector at = axes * vector_of(vertex); at.y() < lowest.y()) lowest = at;
   return lowest;
 }
 
-Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances, const std::vector<double> &speeds)
+Passes passes_of(const Mover &mover, Obstacle obstacle, const std::vector<double> &clearances,
+                 const std::vector<double> &speeds)
 {
   Passes passes{empty_scene({0, 0, 0}), {}};
   for (size_t row = 0; row < clearances.size(); ++row)
     for (double speed : speeds) {
-      const double clearance = clearances[row], z = lane_width * (double(passes.lanes.size()) - 7), when = time_to_pass(speed, row);
+      const double clearance = clearances[row], z = lane_width * (double(passes.lanes.size()) - 7),
+                   when = time_to_pass(speed, row);
       const size_t body = passes.scene.bodies.size();
       add_obstacle(passes.scene, obstacle, z, when);
       add_mover(passes.scene, mover, {-speed * when, clearance, z}, speed);

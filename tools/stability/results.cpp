@@ -18,13 +18,21 @@ Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json check_json(const CheckResult &check)
 {
-  return {{"what", check.what},         {"figure", number(check.figure)}, {"bound", check.bound.value}, {"ratio", number(check.ratio())},
-          {"unit", check.unit},         {"passed", check.passed},         {"derivation", check.bound.derivation}};
+  return {{"what", check.what},
+          {"figure", number(check.figure)},
+          {"bound", check.bound.value},
+          {"ratio", number(check.ratio())},
+          {"unit", check.unit},
+          {"passed", check.passed},
+          {"derivation", check.bound.derivation}};
 }
 
 Json counts_json(const Counts &counts)
 {
-  return {{"by_default", counts.by_default}, {"with_setting", counts.with_setting}, {"with_solver", counts.with_solver}, {"failed", counts.failed}};
+  return {{"by_default", counts.by_default},
+          {"with_setting", counts.with_setting},
+          {"with_solver", counts.with_solver},
+          {"failed", counts.failed}};
 }
 
 const char *word_of(Pass pass)
@@ -90,8 +98,10 @@ PageTable table_of(const Results &results)
   for (const std::string &solver : results.solvers) table.header.push_back(solver);
   for (const CaseResults &each : by_case(results)) {
     const CheckResult &check = each.front()->outcome.headline;
-    std::vector<PageCell> row{each.front()->outcome.name, each.front()->which.group,
-                              PageCell(fmt::format("{} at most {}", check.what, with_unit(check.bound.value, check.unit)), check.bound.value)};
+    std::vector<PageCell> row{
+        each.front()->outcome.name, each.front()->which.group,
+        PageCell(fmt::format("{} at most {}", check.what, with_unit(check.bound.value, check.unit)),
+                 check.bound.value)};
     for (const Result *result : each) row.push_back(verdict_cell(*result));
     table.rows.push_back(std::move(row));
   }
@@ -138,14 +148,19 @@ Chart chart_of(const CaseResults &results)
 
 PageTable checks_of(const CaseResults &results)
 {
-  PageTable table{"", {"solver", "figure", "value", "bound", "bound / value", "bound is from", "passed", "ms a step", "ms in all"}, {}};
+  PageTable table{
+      "",
+      {"solver", "figure", "value", "bound", "bound / value", "bound is from", "passed", "ms a step", "ms in all"},
+      {}};
   for (const Result *result : results)
     for (const CheckResult &check : result->outcome.checks) {
       PageCell passed(check.passed ? "yes" : "NO");
       passed.mark = check.passed ? "good" : "bad";
-      table.rows.push_back({result->outcome.solver, check.what, PageCell(with_unit(check.figure, check.unit), check.figure),
-                            PageCell(with_unit(check.bound.value, check.unit), check.bound.value), PageCell(check.ratio()), check.bound.derivation, passed, PageCell(result->outcome.milliseconds_per_step),
-                            PageCell(result->outcome.milliseconds)});
+      table.rows.push_back({result->outcome.solver, check.what,
+                            PageCell(with_unit(check.figure, check.unit), check.figure),
+                            PageCell(with_unit(check.bound.value, check.unit), check.bound.value),
+                            PageCell(check.ratio()), check.bound.derivation, passed,
+                            PageCell(result->outcome.milliseconds_per_step), PageCell(result->outcome.milliseconds)});
     }
   return table;
 }
@@ -207,12 +222,18 @@ void add_times(Page &page, const Results &results)
 std::string results_page(const Results &results, const std::string &command)
 {
   std::string counts;
-  for (const std::string &solver : results.solvers) counts += fmt::format("{}: {}. ", solver, text_of(counts_of(results, solver)));
+  for (const std::string &solver : results.solvers)
+    counts += fmt::format("{}: {}. ", solver, text_of(counts_of(results, solver)));
   Page page("Stability: stiff and extreme cases",
-            fmt::format("{} runs on {}. {}What passes only with a setting or a solver that its case documents says what failed without. A case states what passing means in figures, with their bounds; what a figure is compared with is a closed "
-                        "form, a conserved quantity, the start of the scene or a bound on energy. docs/stability.md says how a case is defined.{}",
+            fmt::format("{} runs on {}. {}What passes only with a setting or a solver that its case documents says "
+                        "what failed without. A case states what passing means in figures, with their bounds; what a "
+                        "figure is compared with is a closed "
+                        "form, a conserved quantity, the start of the scene or a bound on energy. docs/stability.md "
+                        "says how a case is defined.{}",
                         results.results.size(), results.backend, counts,
-                        results.length == Length::quick ? " Quick run: cases named -short are shorter or smaller than the whole ones." : ""));
+                        results.length == Length::quick
+                            ? " Quick run: cases named -short are shorter or smaller than the whole ones."
+                            : ""));
   page.html(picture_style);
   page.section("All cases");
   page.table(table_of(results));

@@ -17,14 +17,19 @@ const char *const begins = "<!-- table: begin -->\n", *const ends = "<!-- table:
 std::string check_cell(const CheckResult &check)
 {
   const std::string figure = std::isfinite(check.figure) ? fmt::format("{:.3g}", check.figure) : "no figure";
-  const std::string why = !check.bound.derivation.empty() ? "rounding" : check.figure > 0 ? fmt::format("{:.2g} x", check.ratio()) : "exact";
-  return fmt::format("{}: {} of {} ({}){}", check.what, figure, with_unit(check.bound.value, check.unit), why, check.passed ? "" : " **fails**");
+  const std::string why = !check.bound.derivation.empty() ? "rounding"
+                          : check.figure > 0              ? fmt::format("{:.2g} x", check.ratio())
+                                                          : "exact";
+  return fmt::format("{}: {} of {} ({}){}", check.what, figure, with_unit(check.bound.value, check.unit), why,
+                     check.passed ? "" : " **fails**");
 }
 
 std::string verdict_cell(const Outcome &outcome)
 {
   if (outcome.pass() == Pass::by_default) return "pass";
-  if (outcome.pass() == Pass::failed) return fmt::format("**fail** {} ({})", with_unit(outcome.headline.figure, outcome.headline.unit), outcome.headline.what);
+  if (outcome.pass() == Pass::failed)
+    return fmt::format("**fail** {} ({})", with_unit(outcome.headline.figure, outcome.headline.unit),
+                       outcome.headline.what);
   return "**with** " + with_what(outcome);
 }
 
@@ -43,10 +48,15 @@ std::string row_of(const Results &results, size_t first)
 
 std::string markdown_of(const Results &results, const std::string &command)
 {
-  std::string text = fmt::format("`{}` on {}. Each check: figure of bound, and how many times the figure the bound is (\"rounding\": the bound is derived from "
-                                 "that of floats; \"exact\": both are 0).\n\n", command, results.backend);
-  for (const std::string &solver : results.solvers) text += fmt::format("- {}: {} (of {})\n", solver, text_of(counts_of(results, solver)), counts_of(results, solver).all());
-  text += fmt::format("\n| case | what | figures of {} | {} |\n|---|---|---|", results.solvers.front(), fmt::join(results.solvers, " | "));
+  std::string text = fmt::format("`{}` on {}. Each check: figure of bound, and how many times the figure the bound is "
+                                 "(\"rounding\": the bound is derived from "
+                                 "that of floats; \"exact\": both are 0).\n\n",
+                                 command, results.backend);
+  for (const std::string &solver : results.solvers)
+    text += fmt::format("- {}: {} (of {})\n", solver, text_of(counts_of(results, solver)),
+                        counts_of(results, solver).all());
+  text += fmt::format("\n| case | what | figures of {} | {} |\n|---|---|---|", results.solvers.front(),
+                      fmt::join(results.solvers, " | "));
   for (size_t k = 0; k < results.solvers.size(); ++k) text += "---|";
   text += "\n";
   for (size_t k = 0; k < results.results.size(); ++k)
@@ -58,7 +68,8 @@ std::string with_table(const std::string &page, const std::string &table, const 
 {
   const size_t begin = page.find(begins), end = page.find(ends);
   if (begin == std::string::npos || end == std::string::npos || end < begin)
-    throw InputError(where + ": it must hold the lines '<!-- table: begin -->' and '<!-- table: end -->', between which the table is written");
+    throw InputError(where + ": it must hold the lines '<!-- table: begin -->' and '<!-- table: end -->', between "
+                             "which the table is written");
   return page.substr(0, begin) + begins + table + page.substr(end);
 }
 

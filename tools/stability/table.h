@@ -5,7 +5,8 @@
 
 namespace tandem::stability {
 
-/* Markdown: counts, then case by case the checks of the first solver with figure, bound and ratio, and the verdict of every solver. */
+/* Markdown: counts, then case by case the checks of the first solver with figure, bound and ratio, and the verdict of
+ * every solver. */
 std::string markdown_of(const Results &results, const std::string &command);
 
 /* `page` with what stands between its two marks replaced by `table`; InputError if it has no such marks. */

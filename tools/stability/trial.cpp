@@ -29,7 +29,8 @@ struct Record {
   }
   CheckResult result() const
   {
-    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound.value, series};
+    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound.value,
+            series};
   }
 };
 

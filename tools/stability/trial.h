@@ -34,8 +34,8 @@ private:
   mutable std::optional<Statistics> statistics_;
 };
 
-/* What a figure may reach: by physics, and at most ten times what the default solver shows. A figure that is 0, or the rounding of
- * floats, would forbid rounding itself: its bound is derived from that, and says how. */
+/* What a figure may reach: by physics, and at most ten times what the default solver shows. A figure that is 0, or the
+ * rounding of floats, would forbid rounding itself: its bound is derived from that, and says how. */
 struct Bound {
   Bound(double value = 0) : value(value) {}
   static Bound from_rounding(double value, std::string derivation);
@@ -128,8 +128,9 @@ Settings settings_of(const Trial &trial, const std::string &solver);
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
-/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is returned. A solver
- * that a case documents is tried for the default solver alone: the others are judged by themselves. */
+/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is
+ * returned. A solver that a case documents is tried for the default solver alone: the others are judged by
+ * themselves. */
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
                  const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
