@@ -1,6 +1,7 @@
 /* stability.cpp - `tandem stability`: stiff and extreme cases, each with its figure and bound, solver by solver. */
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -15,7 +16,9 @@
 #include "tools/progress.h"
 #include "tools/stability/batch.h"
 #include "tools/stability/cases.h"
+#include "tools/stability/counts.h"
 #include "tools/stability/results.h"
+#include "tools/stability/table.h"
 
 namespace tandem {
 namespace {
@@ -24,9 +27,9 @@ using stability::Case;
 using stability::Length;
 
 struct StabilityOptions {
-  std::string only, except, solvers, on = "tbb", out, between;
+  std::string only, except, solvers, on = "tbb", out, between, into;
   size_t at_once = 0; /* 0: one for each processor */
-  bool quick = false, list = false, inexact = false;
+  bool quick = false, list = false, inexact = false, bounds = false;
   JsonOutput json;
 };
 
@@ -84,9 +87,9 @@ void prepare_folder(const std::string &folder)
 std::string verdict(const stability::Outcome &outcome)
 {
   const stability::CheckResult &headline = outcome.headline;
-  return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver, outcome.passed ? "pass" : "FAIL",
-                     1e-3 * outcome.milliseconds, headline.figure, headline.unit, headline.what, headline.bound,
-                     outcome.note.empty() ? "" : "; " + outcome.note);
+  return fmt::format("{:24} {:10} {} {:7.1f} s  {:.3g} {} ({}), bound {:.3g}{}", outcome.name, outcome.solver,
+                     outcome.passed ? "pass" : "FAIL", 1e-3 * outcome.milliseconds, headline.figure, headline.unit,
+                     headline.what, headline.bound.value, outcome.note.empty() ? "" : "; " + outcome.note);
 }
 
 /* A backend that does not exist, or solvers it cannot run, is bad use: found before the first case. */
@@ -103,8 +106,8 @@ stability::Outcome run_with_progress(const Case &which, const std::string &solve
   return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
 }
 
-/* As it would be typed again. */
-std::string command_text(const StabilityOptions &options)
+/* As it would be typed again; without the files that are written, for a table that goes into a page. */
+std::string command_text(const StabilityOptions &options, bool files = true)
 {
   std::string text = "tandem stability";
   const auto add = [&](const char *name, const std::string &value) {
@@ -115,8 +118,19 @@ std::string command_text(const StabilityOptions &options)
   add("--solvers", options.solvers);
   add("--on", options.on == "tbb" ? "" : options.on);
   if (options.at_once > 0) text += fmt::format(" --cases-in-parallel {}", options.at_once);
-  add("--out", options.out);
-  return text + (options.quick ? " --quick" : "");
+  if (files) add("--out", options.out);
+  if (files) add("--table-in", options.into);
+  return text + (options.quick ? " --quick" : "") + (options.bounds ? " --bounds" : "");
+}
+
+/* The default solver's bounds must follow what it shows: one far above would let it get much worse unseen. */
+int conclude_bounds(const stability::Results &results)
+{
+  const size_t loose = stability::loose_bounds(results, results.solvers.front());
+  if (!loose) return 0;
+  fmt::print(stderr, "tandem: {} bounds are more than ten times the figure of {} and state no derivation\n", loose,
+             results.solvers.front());
+  return 1;
 }
 
 /* Status 1 unless the first solver, which is the default one unless it was left out, passes every case. */
@@ -155,6 +169,26 @@ void tell(const stability::Results &so_far, size_t &told)
   std::fflush(stdout);
 }
 
+void tell_end(const StabilityOptions &options, const stability::Results &results)
+{
+  if (options.bounds) fmt::print("{}", stability::bounds_text(results));
+  for (const std::string &solver : results.solvers)
+    fmt::print("{}: {}\n", solver, stability::text_of(stability::counts_of(results, solver)));
+  fmt::print("{}/index.html\n", options.out);
+}
+
+/* Its marks are looked for before the first case runs, too; read again at the end, since a full run gives time to edit
+ * it. */
+std::string page_for_table(const std::string &path)
+{
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  if (!file) throw InputError(fmt::format("--table-in {}: cannot be read", path));
+  stability::with_table(text.str(), "", path);
+  return text.str();
+}
+
 int run_cases(const StabilityOptions &options)
 {
   const std::vector<const Case *> cases = chosen_cases(options);
@@ -165,6 +199,7 @@ int run_cases(const StabilityOptions &options)
   options.json.check();
   check_backend(placement);
   prepare_folder(options.out);
+  if (!options.into.empty()) page_for_table(options.into);
   size_t told = 0;
   const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)}, [&](const stability::Results &so_far) {
     save(options, stability::results_json(so_far));
@@ -173,9 +208,14 @@ int run_cases(const StabilityOptions &options)
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
-  if (!options.json.takes_standard_output()) fmt::print("{}/index.html\n", options.out);
+  if (!options.into.empty())
+    write_file("--table-in", options.into,
+               stability::with_table(page_for_table(options.into),
+                                     stability::markdown_of(results, command_text(options, false)), options.into));
+  if (!options.json.takes_standard_output()) tell_end(options, results);
   options.json.write(json);
-  return conclude(results);
+  const int status = options.bounds ? conclude_bounds(results) : 0;
+  return conclude(results) | status;
 }
 
 /* Every case, shortened, on every backend: equal bits, whether the solver copes or not. */
@@ -243,6 +283,10 @@ Command stability_command(CLI::App &parser)
   command->add_option("--cases-in-parallel", options->at_once, "runs side by side (default: one for each processor; on devices one)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
+  command->add_option("--table-in", options->into, "write the table of the run between the marks of this Markdown page")
+      ->type_name("FILE");
+  command->add_flag("--bounds", options->bounds,
+                    "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
   command->add_flag("--list", options->list, "name the cases");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not, 2 for bad use.");

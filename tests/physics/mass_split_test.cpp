@@ -73,7 +73,7 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
  * sank in by 6.1 mm and never came to rest. */
 TEST_CASE("a tail carries its load at rest", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "pgs", "nncg", "direct");
+  const std::string solver = GENERATE("soft-step", "pgs", "nncg", "xpbd", "direct");
   Scene scene = laden_slab(20, 0, {0, -10, 0}, 0);
   add_ground(scene);
   World world(scene, settings_for(solver));

@@ -22,6 +22,7 @@ void add_spin_cases(std::vector<Case> &cases);
 void add_motion_cases(std::vector<Case> &cases);
 void add_scale_cases(std::vector<Case> &cases);
 void add_degenerate_cases(std::vector<Case> &cases);
+void add_misses_cases(std::vector<Case> &cases);
 
 /* --- scenes ----------------------------------------------------------------------------------------------- */
 
@@ -39,20 +40,40 @@ uint64_t steps_for(Length length, uint64_t full, uint64_t quick); /* brief: at m
 
 /* --- checks ------------------------------------------------------------------------------------------------ */
 
-/* "It stands": turns, sideways ways and, in the end, speeds stay below the bounds; no contact is deeper than `depth`. */
+/* "It stands": turns, sideways ways and, in the end, speeds stay below the bounds; no contact is deeper than `depth`.
+ * What is left out is derived from rounding: a symmetric pile has no reason to turn, and what is at rest none to
+ * move. */
 struct Standing {
-  double tilt = 0.05;      /* rad */
-  double sideways = 0.05;  /* m */
-  double depth = 0.02;     /* m: four times the slop */
-  double speed = 0.05;     /* m/s, at the end */
+  std::optional<double> depth;    /* m */
+  std::optional<double> tilt;     /* rad */
+  std::optional<double> sideways; /* m */
+  std::optional<double> speed;    /* m/s, at the end */
 };
 void add_standing(Trial &trial, const Standing &bounds);
 
-/* The setting that heavy loads and tall stacks need: more substeps, and contacts as stiff as those allow (h w <= sqrt 2 is the
- * limit of stability of a soft contact, 0.2 / h hertz is below it). docs/stability.md derives both. */
+/* --- bounds from rounding ----------------------------------------------------------------------------------
+ *
+ * Floats of a length L are L 2^-23 apart: so far may a separation be off, in each of the N substeps. Call these when
+ * scene, steps and settings are set: L is how far from the origin a body reaches, N and the substep h are those of the
+ * documented settings, if any. */
+
+Bound depth_from_rounding(const Trial &trial); /* m: L 2^-23 */
+Bound turn_from_rounding(const Trial &trial);  /* rad: N L 2^-23 over the smallest half extent, and at most 0.05 */
+Bound way_from_rounding(const Trial &trial);   /* m: that turn at a height of L, and at most 0.05 */
+Bound speed_from_rounding(const Trial &trial); /* m/s: L 2^-23 in a substep */
+/* J/kg: N 2^-23 of the energy that the scene starts with, its bodies lifted from y = 0. */
+Bound energy_from_rounding(const Trial &trial);
+
+/* m, beyond the slop: how deep springs hold a contact that bears `load` times its effective mass under g = 10 m/s^2. */
+double sink_under(double load, double hertz);
+/* Hz: the stiffest contact that a substep allows, a fifth of the substep rate. */
+double stiffest(const Settings &settings);
+
+/* The setting that heavy loads and tall stacks need: more substeps, and contacts as stiff as those allow (h w <= sqrt 2
+ * is the limit of stability of a soft contact, 0.2 / h hertz is below it). docs/stability.md derives both. */
 Settings with_substeps(uint32_t substeps);
 
-Check check(std::string what, std::string unit, double bound, Figure value);
+Check check(std::string what, std::string unit, Bound bound, Figure value);
 Check at_end(Check check);
 
 } // namespace tandem::stability

@@ -9,7 +9,7 @@
 namespace tandem::stability {
 namespace {
 
-/* Pushing apart may lift: 100 J/kg is a heap 20 m high, more than a thousand cubes of 1 m can make of themselves. */
+/* Pushing apart may lift: 20 J/kg is a heap 4 m high, lower than a thousand cubes of 1 m make without any gap. */
 Trial one_place_trial(const Shape &shape, int n, Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 120));
@@ -17,7 +17,7 @@ Trial one_place_trial(const Shape &shape, int n, Length length)
   const int used = length == Length::brief ? 12 : length == Length::quick ? n / 5 : n;
   for (int i = 0; i < used; ++i) add_body(trial.scene, Motion::dynamic, shape, {0, 0.5f, 0});
   trial.every = 5;
-  trial.checks.push_back(check("gain of energy", "J/kg", 100, energy_gain()));
+  trial.checks.push_back(check("gain of energy", "J/kg", 20, energy_gain()));
   trial.checks.push_back(check("fastest", "m/s", 20, speed()));
   return trial;
 }
@@ -47,8 +47,8 @@ Trial overlap_weightless_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
   for (int i = 0; i < 8; ++i) add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0.1f * float(i % 2), 0.1f * float(i / 2 % 2), 0.1f * float(i / 4)});
-  trial.checks.push_back(check("fastest", "m/s", 3, speed()));
-  trial.checks.push_back(at_end(check("deepest contact at the end", "m", 0.02, penetration())));
+  trial.checks.push_back(check("fastest", "m/s", 1, speed()));
+  trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth_from_rounding(trial), penetration())));
   return trial;
 }
 
@@ -67,7 +67,7 @@ Trial many_on_one_trial(Length length)
     trial.scene.bodies.push_back(body);
   }
   trial.every = 20;
-  add_standing(trial, {0.05, 0.02, 0.02, 0.05});
+  add_standing(trial, {8e-4, 2e-4, 1e-5, {}});
   return trial;
 }
 
@@ -80,7 +80,7 @@ Trial coplanar_trial(Length length)
   for (int layer = 0; layer < 2; ++layer)
     for (int i = 0; i < side * side; ++i)
       add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.125f, 0.5f), {float(i % side), 0.125f + 0.25f * float(layer), float(i / side)});
-  add_standing(trial, {0.01, 0.005, 0.02, 0.02});
+  add_standing(trial, {1e-3, {}, {}, {}});
   return trial;
 }
 
@@ -91,8 +91,11 @@ Trial seams_trial(Length length)
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 0;
   for (int i = 0; i < 24; ++i) add_body(trial.scene, Motion::fixed, box_shape(0.5f, 0.25f, 1), {float(i), -0.25f, 0});
   add_body(trial.scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0.25f, 0.3f, 0}).linear_velocity = {5, 0, 0};
-  trial.checks.push_back(check("loss of speed", "m/s", 0.05, [](const Moment &moment) { return std::abs(5 - double(moment.bodies[24].linear_velocity[0])); }));
-  trial.checks.push_back(check("lifted by", "m", 0.002, [](const Moment &moment) { return double(moment.bodies[24].position[1]) - 0.3; }));
+  trial.checks.push_back(check("loss of speed", "m/s", 2e-3, [](const Moment &moment) {
+    return std::abs(5 - double(moment.bodies[24].linear_velocity[0]));
+  }));
+  trial.checks.push_back(check("lifted by", "m", depth_from_rounding(trial),
+                               [](const Moment &moment) { return double(moment.bodies[24].position[1]) - 0.3; }));
   return trial;
 }
 
@@ -111,7 +114,7 @@ Trial poison_trial(Length length)
   };
   trial.checks.push_back(check("fastest", "m/s", 12, speed())); /* from the top of the pile to the ground */
   trial.checks.push_back(at_end(check("bodies under the ground by", "m", 0, below(0.5))));
-  trial.checks.push_back(check("gain of energy", "J/kg", 0.1, energy_gain()));
+  trial.checks.push_back(check("gain of energy", "J/kg", energy_from_rounding(trial), energy_gain()));
   return trial;
 }
 
@@ -120,19 +123,27 @@ Trial poison_trial(Length length)
 void add_degenerate_cases(std::vector<Case> &cases)
 {
   const char *group = "degenerate";
-  cases.push_back({"boxes-in-one-place", group, "1,000 cubes of 1 m in the same place", "energy grows by less than 100 J/kg, nothing is faster than 20 m/s, all stay finite",
+  cases.push_back({"boxes-in-one-place", group, "1,000 cubes of 1 m in the same place",
+                   "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
                    [](Length length) { return one_place_trial(box_shape(0.5f, 0.5f, 0.5f), 1000, length); }, true});
-  cases.push_back({"balls-in-one-place", group, "500 balls of 1 m in the same place", "energy grows by less than 100 J/kg, nothing is faster than 20 m/s, all stay finite",
+  cases.push_back({"balls-in-one-place", group, "500 balls of 1 m in the same place",
+                   "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
                    [](Length length) { return one_place_trial(sphere_shape(0.5f), 500, length); }, true});
   cases.push_back({"deep-overlap", group, "boxes and balls inside one another, in the ground and in a fixed block",
                    "nothing is faster than 6 m/s (twice the push speed), all are apart to 2 cm after 10 s", overlap_trial});
-  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity", "nothing is faster than 3 m/s (the push speed), all are apart to 2 cm after 10 s",
+  cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity",
+                   "nothing is faster than 1 m/s (three axes, each parted at a tenth of the push speed and a half "
+                   "more), all are apart after 10 s",
                    overlap_weightless_trial});
-  cases.push_back({"many-on-one", group, "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
-                   "nothing leaves by 2 cm or turns by 0.05 rad, contacts at most 2 cm deep, at rest after 2 s", many_on_one_trial, true});
-  cases.push_back({"coplanar", group, "72 slabs in two layers, face to face with all their neighbours", "nothing leaves by 5 mm or turns by 0.01 rad in 10 s", coplanar_trial});
-  cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles", "it loses less than 5 cm/s and is lifted by less than 2 mm",
-                   seams_trial});
+  cases.push_back(
+      {"many-on-one", group,
+       "10,000 cubes of 10 cm on one plate that rests on the ground: 10,000 contacts share a body",
+       "nothing leaves by 10 micrometres or turns by 0.2 mrad, contacts at most 0.8 mm deep, at rest after 2 s",
+       many_on_one_trial, true});
+  cases.push_back({"coplanar", group, "72 slabs in two layers, face to face with all their neighbours",
+                   "contacts at most 1 mm deep, nothing leaves or turns in 10 s but for rounding", coplanar_trial});
+  cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles",
+                   "it loses less than 2 mm/s and is not lifted", seams_trial});
   cases.push_back({"poisoned", group, "a NaN put into one body of a pile of 64", "that body alone is quarantined; the others fall into its place, none through the ground",
                    poison_trial});
 }

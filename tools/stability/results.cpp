@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "tools/page.h"
+#include "tools/stability/counts.h"
 #include "tools/stability/picture.h"
 
 namespace tandem::stability {
@@ -15,22 +16,51 @@ namespace {
 /* JSON has no NaN: a figure that is none is null. */
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
+Json check_json(const CheckResult &check)
+{
+  return {{"what", check.what},
+          {"figure", number(check.figure)},
+          {"bound", check.bound.value},
+          {"ratio", number(check.ratio())},
+          {"unit", check.unit},
+          {"passed", check.passed},
+          {"derivation", check.bound.derivation}};
+}
+
+Json counts_json(const Counts &counts)
+{
+  return {{"by_default", counts.by_default},
+          {"with_setting", counts.with_setting},
+          {"with_solver", counts.with_solver},
+          {"failed", counts.failed}};
+}
+
+const char *word_of(Pass pass)
+{
+  switch (pass) {
+  case Pass::by_default: return "default";
+  case Pass::with_setting: return "documented setting";
+  case Pass::with_solver: return "documented solver";
+  default: return "failed";
+  }
+}
+
 Json result_json(const Result &result)
 {
   const Outcome &outcome = result.outcome;
   Json checks = Json::array();
-  for (const CheckResult &check : outcome.checks)
-    checks.push_back({{"what", check.what}, {"figure", number(check.figure)}, {"bound", check.bound}, {"unit", check.unit}, {"passed", check.passed}});
+  for (const CheckResult &check : outcome.checks) checks.push_back(check_json(check));
   return {{"name", outcome.name},
           {"solver", outcome.solver},
           {"passed", outcome.passed},
           {"figure", number(outcome.headline.figure)},
-          {"bound", outcome.headline.bound},
+          {"bound", outcome.headline.bound.value},
           {"unit", outcome.headline.unit},
           {"what", outcome.headline.what},
           {"group", result.which.group},
           {"settings", outcome.settings},
-          {"default_passed", outcome.default_passed},
+          {"pass", word_of(outcome.pass())},
+          {"by_default", outcome.by_default ? check_json(*outcome.by_default) : Json(nullptr)},
           {"steps", outcome.steps},
           {"ms", outcome.milliseconds},
           {"ms_per_step", outcome.milliseconds_per_step},
@@ -39,17 +69,10 @@ Json result_json(const Result &result)
           {"checks", checks}};
 }
 
-/* "0.0087 m" */
-std::string with_unit(double figure, const std::string &unit)
-{
-  const std::string text = std::isfinite(figure) ? fmt::format("{:.3g}", figure) : "no figure";
-  return unit.empty() ? text : text + " " + unit;
-}
-
 PageCell verdict_cell(const Result &result)
 {
   const Outcome &outcome = result.outcome;
-  const std::string settings = outcome.passed && !outcome.default_passed ? " with " + outcome.settings : "";
+  const std::string settings = outcome.by_default ? ", only with " + with_what(outcome) : "";
   PageCell cell(fmt::format("{} {}{}", outcome.passed ? "pass" : "FAIL", with_unit(outcome.headline.figure, outcome.headline.unit), settings),
                 outcome.headline.figure);
   cell.mark = outcome.passed ? "good" : "bad";
@@ -75,8 +98,10 @@ PageTable table_of(const Results &results)
   for (const std::string &solver : results.solvers) table.header.push_back(solver);
   for (const CaseResults &each : by_case(results)) {
     const CheckResult &check = each.front()->outcome.headline;
-    std::vector<PageCell> row{each.front()->outcome.name, each.front()->which.group,
-                              PageCell(fmt::format("{} at most {}", check.what, with_unit(check.bound, check.unit)), check.bound)};
+    std::vector<PageCell> row{
+        each.front()->outcome.name, each.front()->which.group,
+        PageCell(fmt::format("{} at most {}", check.what, with_unit(check.bound.value, check.unit)),
+                 check.bound.value)};
     for (const Result *result : each) row.push_back(verdict_cell(*result));
     table.rows.push_back(std::move(row));
   }
@@ -111,26 +136,31 @@ Chart chart_of(const CaseResults &results)
         for (const Sample &sample : same.series)
           if (std::isfinite(sample.value)) largest = std::max(largest, sample.value);
       }
-  if (check.bound > 0 && largest > 20 * check.bound) {
+  if (check.bound.value > 0 && largest > 20 * check.bound.value) {
     chart.y.scale = AxisScale::logarithmic;
-    chart.y.lowest = check.bound / 100;
+    chart.y.lowest = check.bound.value / 100;
   } else chart.y.lowest = 0;
-  chart.y.highest = std::max(largest, 1.1 * check.bound);
+  chart.y.highest = std::max(largest, 1.1 * check.bound.value);
   if (*chart.y.highest <= 0) chart.y.highest = 1;
-  chart.levels = {{check.bound, "bound"}};
+  chart.levels = {{check.bound.value, "bound"}};
   return chart;
 }
 
 PageTable checks_of(const CaseResults &results)
 {
-  PageTable table{"", {"solver", "figure", "value", "bound", "passed", "ms a step", "ms in all"}, {}};
+  PageTable table{
+      "",
+      {"solver", "figure", "value", "bound", "bound / value", "bound is from", "passed", "ms a step", "ms in all"},
+      {}};
   for (const Result *result : results)
     for (const CheckResult &check : result->outcome.checks) {
       PageCell passed(check.passed ? "yes" : "NO");
       passed.mark = check.passed ? "good" : "bad";
-      table.rows.push_back({result->outcome.solver, check.what, PageCell(with_unit(check.figure, check.unit), check.figure),
-                            PageCell(with_unit(check.bound, check.unit), check.bound), passed, PageCell(result->outcome.milliseconds_per_step),
-                            PageCell(result->outcome.milliseconds)});
+      table.rows.push_back({result->outcome.solver, check.what,
+                            PageCell(with_unit(check.figure, check.unit), check.figure),
+                            PageCell(with_unit(check.bound.value, check.unit), check.bound.value),
+                            PageCell(check.ratio()), check.bound.derivation, passed,
+                            PageCell(result->outcome.milliseconds_per_step), PageCell(result->outcome.milliseconds)});
     }
   return table;
 }
@@ -191,16 +221,19 @@ void add_times(Page &page, const Results &results)
 
 std::string results_page(const Results &results, const std::string &command)
 {
-  size_t passed = 0, by_default = 0;
-  for (const Result &result : results.results) {
-    passed += result.outcome.passed;
-    by_default += result.outcome.default_passed;
-  }
+  std::string counts;
+  for (const std::string &solver : results.solvers)
+    counts += fmt::format("{}: {}. ", solver, text_of(counts_of(results, solver)));
   Page page("Stability: stiff and extreme cases",
-            fmt::format("{} runs on {}, {} passed, {} of them with the solver's default settings; the others with the setting that their cell names. A case states what passing means in figures, with their bounds; what a figure is compared with is a closed "
-                        "form, a conserved quantity, the start of the scene or a bound on energy. docs/stability.md says how a case is defined.{}",
-                        results.results.size(), results.backend, passed, by_default,
-                        results.length == Length::quick ? " Quick run: cases named -short are shorter or smaller than the whole ones." : ""));
+            fmt::format("{} runs on {}. {}What passes only with a setting or a solver that its case documents says "
+                        "what failed without. A case states what passing means in figures, with their bounds; what a "
+                        "figure is compared with is a closed "
+                        "form, a conserved quantity, the start of the scene or a bound on energy. docs/stability.md "
+                        "says how a case is defined.{}",
+                        results.results.size(), results.backend, counts,
+                        results.length == Length::quick
+                            ? " Quick run: cases named -short are shorter or smaller than the whole ones."
+                            : ""));
   page.html(picture_style);
   page.section("All cases");
   page.table(table_of(results));
@@ -213,6 +246,12 @@ std::string results_page(const Results &results, const std::string &command)
   page.section("How it was made");
   page.commands({command});
   return page.text();
+}
+
+std::string with_unit(double figure, const std::string &unit)
+{
+  const std::string text = std::isfinite(figure) ? fmt::format("{:.3g}", figure) : "no figure";
+  return unit.empty() ? text : text + " " + unit;
 }
 
 double Results::total_milliseconds() const
@@ -240,13 +279,15 @@ std::string series_csv(const Results &results)
 
 Json results_json(const Results &results)
 {
-  Json cases = Json::array();
+  Json cases = Json::array(), counts = Json::object();
   for (const Result &result : results.results) cases.push_back(result_json(result));
+  for (const std::string &solver : results.solvers) counts[solver] = counts_json(counts_of(results, solver));
   return {{"backend", results.backend},
           {"solvers", results.solvers},
           {"quick", results.length == Length::quick},
           {"complete", results.complete()},
           {"ms", results.total_milliseconds()},
+          {"counts", counts},
           {"cases", cases}};
 }
 

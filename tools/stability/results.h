@@ -27,6 +27,9 @@ struct Results {
   double total_milliseconds() const; /* of all runs, as if one after the other */
 };
 
+/* "0.0087 m" */
+std::string with_unit(double figure, const std::string &unit);
+
 /* "complete" is false while runs are missing. */
 Json results_json(const Results &results);
 /* The page: a table case by solver, then each case with its pictures and its figure over time. `command` made it. */

@@ -29,7 +29,8 @@ struct Record {
   }
   CheckResult result() const
   {
-    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound, series};
+    return {check->what, check->unit, figure, check->bound, std::isfinite(figure) && figure <= check->bound.value,
+            series};
   }
 };
 
@@ -95,6 +96,18 @@ void fail(Outcome &outcome, const Trial &trial, const std::string &why)
 
 } // namespace
 
+Bound Bound::from_rounding(double value, std::string derivation) { return {value, std::move(derivation)}; }
+Bound Bound::promised(double value, std::string derivation) { return {value, std::move(derivation)}; }
+
+bool CheckResult::loose() const { return bound.derivation.empty() && bound.value > 10 * figure; }
+
+Pass Outcome::pass() const
+{
+  if (!passed) return Pass::failed;
+  if (!by_default) return Pass::by_default;
+  return documented_solver.empty() ? Pass::with_setting : Pass::with_solver;
+}
+
 Moment::Moment(World &world, uint64_t step)
   : world(world), step(step), time(static_cast<double>(step) * static_cast<double>(world.settings().step)), bodies(world.bodies())
 {
@@ -142,7 +155,6 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
   } catch (const std::exception &error) {
     fail(outcome, trial, error.what());
   }
-  outcome.default_passed = outcome.passed;
   outcome.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
   return outcome;
 }
@@ -184,8 +196,9 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
     first.milliseconds = second.milliseconds;
     return first;
   }
+  second.documented_solver = trial->documented_solver;
   second.solver = first.solver;
-  second.default_passed = false;
+  second.by_default = first.headline;
   second.note = fmt::format("with {}; by default {:.3g} {} ({})", second.settings, first.headline.figure, first.headline.unit, first.headline.what);
   return second;
 }

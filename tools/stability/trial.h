@@ -34,12 +34,25 @@ private:
   mutable std::optional<Statistics> statistics_;
 };
 
+/* What a figure may reach: by physics, and at most ten times what the default solver shows. A figure that is 0, or the
+ * rounding of floats, would forbid rounding itself: its bound is derived from that, and says how. */
+struct Bound {
+  Bound(double value = 0) : value(value) {}
+  static Bound from_rounding(double value, std::string derivation);
+  static Bound promised(double value, std::string derivation); /* to users, who care for no less than this */
+  double value;
+  std::string derivation; /* empty: none is needed */
+
+private:
+  Bound(double value, std::string derivation) : value(value), derivation(std::move(derivation)) {}
+};
+
 /* One figure; smaller is better. */
 struct Check {
   enum class Over { maximum, last }; /* of the values seen, which one counts */
   std::string what; /* "largest tilt of a box" */
   std::string unit; /* "rad"; empty for a ratio */
-  double bound;
+  Bound bound;
   std::function<double(const Moment &)> value; /* called in order of time; may keep state of its own */
   Over over = Over::maximum;
   double from = 0; /* s: not asked before */
@@ -79,10 +92,16 @@ struct Sample {
 
 struct CheckResult {
   std::string what, unit;
-  double figure, bound;
+  double figure;
+  Bound bound;
   bool passed;
   std::vector<Sample> series;
+  double ratio() const { return bound.value / figure; } /* how much worse it could become unseen */
+  bool loose() const;                                   /* more than ten times, and no derivation says why */
 };
+
+/* How a case was passed: what needs more than the defaults counts apart. */
+enum class Pass { by_default, with_setting, with_solver, failed };
 
 struct Outcome {
   std::string name, solver;
@@ -90,13 +109,15 @@ struct Outcome {
   CheckResult headline; /* the first check that failed, else the first */
   std::vector<CheckResult> checks;
   std::string settings;       /* settings_text() of the run */
-  bool default_passed = false; /* false and passed: with the documented settings */
+  std::optional<CheckResult> by_default; /* where only a documented setting or solver passes: what failed without it */
+  std::string documented_solver;         /* that which passed, if the case's own solver did not */
   std::string note;           /* why there is no figure, which body was lost, or what the default settings gave */
   double milliseconds_per_step = 0; /* of the run that `settings` names, without its figures */
   double milliseconds = 0;          /* of all runs of the case: worlds made, steps, figures */
   uint64_t steps = 0; /* done */
   uint64_t body_hash = 0;
   std::vector<BodyState> end;
+  Pass pass() const;
 };
 
 /* The trial's settings with this solver, and its own substeps and iterations where the case leaves them open. */
@@ -107,8 +128,9 @@ Settings settings_of(const Trial &trial, const std::string &solver);
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 
-/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is returned. A solver
- * that a case documents is tried for the default solver alone: the others are judged by themselves. */
+/* The case, and if it fails and documents settings that it needs, the case with those; what passes, else the first, is
+ * returned. A solver that a case documents is tried for the default solver alone: the others are judged by
+ * themselves. */
 Outcome run_case(const Case &which, Length length, const std::string &solver, const Placement &placement,
                  const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 

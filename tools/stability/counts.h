@@ -1,0 +1,36 @@
+/* counts.h - how many cases a solver passes, apart by what it took: a case that needs a setting of its own is not one
+ * passed by default. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/stability/results.h"
+
+namespace tandem::stability {
+
+struct Counts {
+  size_t by_default = 0, with_setting = 0, with_solver = 0, failed = 0;
+  size_t all() const { return by_default + with_setting + with_solver + failed; }
+};
+
+Counts counts_of(const Results &results, const std::string &solver);
+
+/* "59 pass by default, 11 only with a documented setting, 1 with a documented solver, 0 fail" */
+std::string text_of(const Counts &counts);
+
+/* "pass", "with substeps 16", "with solver direct", "FAIL" */
+std::string verdict_of(const Outcome &outcome);
+
+/* "contact_hertz 600; by default 0.02 m (deepest contact)": what it took and what failed without; empty if it passes by
+ * default. */
+std::string with_what(const Outcome &outcome);
+
+/* Figure, bound and ratio of every check of every run, a line each, in the order of the results; loose bounds are
+ * marked. */
+std::string bounds_text(const Results &results);
+
+/* How many checks of this solver have a bound of more than ten times their figure without a derivation. */
+size_t loose_bounds(const Results &results, const std::string &solver);
+
+} // namespace tandem::stability

@@ -1,0 +1,76 @@
+/* table.cpp - see table.h. */
+#include "tools/stability/table.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "tools/stability/counts.h"
+
+namespace tandem::stability {
+namespace {
+
+const char *const begins = "<!-- table: begin -->\n", *const ends = "<!-- table: end -->\n";
+
+/* "deepest contact 0.00119 of 0.0058 m (4.9)"; the ratio is left out where it says nothing. */
+std::string check_cell(const CheckResult &check)
+{
+  const std::string figure = std::isfinite(check.figure) ? fmt::format("{:.3g}", check.figure) : "no figure";
+  const std::string why = !check.bound.derivation.empty() ? "rounding"
+                          : check.figure > 0              ? fmt::format("{:.2g} x", check.ratio())
+                                                          : "exact";
+  return fmt::format("{}: {} of {} ({}){}", check.what, figure, with_unit(check.bound.value, check.unit), why,
+                     check.passed ? "" : " **fails**");
+}
+
+std::string verdict_cell(const Outcome &outcome)
+{
+  if (outcome.pass() == Pass::by_default) return "pass";
+  if (outcome.pass() == Pass::failed)
+    return fmt::format("**fail** {} ({})", with_unit(outcome.headline.figure, outcome.headline.unit),
+                       outcome.headline.what);
+  return "**with** " + with_what(outcome);
+}
+
+std::string row_of(const Results &results, size_t first)
+{
+  const Result &result = results.results[first];
+  std::string checks, row;
+  for (const CheckResult &check : result.outcome.checks) checks += (checks.empty() ? "" : "<br>") + check_cell(check);
+  row = fmt::format("| {} | {} | {} |", result.outcome.name, result.which.what, checks);
+  for (size_t k = first; k < results.results.size() && results.results[k].which.name == result.which.name; ++k)
+    row += " " + verdict_cell(results.results[k].outcome) + " |";
+  return row + "\n";
+}
+
+} // namespace
+
+std::string markdown_of(const Results &results, const std::string &command)
+{
+  std::string text = fmt::format("`{}` on {}. Each check: figure of bound, and how many times the figure the bound is "
+                                 "(\"rounding\": the bound is derived from "
+                                 "that of floats; \"exact\": both are 0).\n\n",
+                                 command, results.backend);
+  for (const std::string &solver : results.solvers)
+    text += fmt::format("- {}: {} (of {})\n", solver, text_of(counts_of(results, solver)),
+                        counts_of(results, solver).all());
+  text += fmt::format("\n| case | what | figures of {} | {} |\n|---|---|---|", results.solvers.front(),
+                      fmt::join(results.solvers, " | "));
+  for (size_t k = 0; k < results.solvers.size(); ++k) text += "---|";
+  text += "\n";
+  for (size_t k = 0; k < results.results.size(); ++k)
+    if (k == 0 || results.results[k].which.name != results.results[k - 1].which.name) text += row_of(results, k);
+  return text;
+}
+
+std::string with_table(const std::string &page, const std::string &table, const std::string &where)
+{
+  const size_t begin = page.find(begins), end = page.find(ends);
+  if (begin == std::string::npos || end == std::string::npos || end < begin)
+    throw InputError(where + ": it must hold the lines '<!-- table: begin -->' and '<!-- table: end -->', between "
+                             "which the table is written");
+  return page.substr(0, begin) + begins + table + page.substr(end);
+}
+
+} // namespace tandem::stability
