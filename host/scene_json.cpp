@@ -4,12 +4,11 @@
 #include "host/geometry/shape_mass.h"
 #include "host/json_numbers.h"
 #include "host/json_reader.h"
+#include "host/output_file.h"
 #include "host/scene_json_shapes.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace tandem {
 namespace {
@@ -214,11 +213,10 @@ std::string to_scene_json(const Scene &scene)
 
 void write_scene_json(const Scene &scene, const std::string &path)
 {
-  std::string text = to_scene_json(scene);
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+  const std::string text = to_scene_json(scene);
+  OutputFile file(path, path);
+  file.write(text);
+  file.commit();
 }
 
 } // namespace tandem
