@@ -119,7 +119,7 @@ void order_rows(const Numbers &numbers, ContactProblem &problem)
     if (twice != last) numbers.refuse(fmt::format("contact {} has two blocks in column {}", i, problem.column[*twice]));
     for (int axis = 0; axis < 3; ++axis)
       if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)]; !(own > 0) || !std::isfinite(1 / static_cast<float>(own)))
-        numbers.refuse(fmt::format("W[{0}][{0}] is {1}; it must be positive, and its inverse a 32-bit float", 3 * i + static_cast<uint32_t>(axis), own));
+        numbers.refuse(fmt::format("W[{0}][{0}] must be positive, and its inverse a 32-bit float; it is {1}", 3 * i + static_cast<uint32_t>(axis), own));
   }
   for (size_t k = 0; k < order.size(); ++k) {
     sorted.column[k] = problem.column[order[k]];
