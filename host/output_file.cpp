@@ -87,7 +87,7 @@ OutputFile::~OutputFile()
   if (!beside_.empty()) ::unlink(beside_.c_str());
 }
 
-void OutputFile::fail(int error) const { throw InputError(fmt::format("{}: cannot write this file: {}", label_, std::strerror(error))); }
+void OutputFile::fail(int error) const { throw InputError(fmt::format("{}: cannot write: {}", label_, std::strerror(error))); }
 
 void OutputFile::write(std::string_view bytes)
 {
@@ -136,7 +136,7 @@ void OutputFile::check(const std::string &path, const std::string &label)
 {
   struct stat status {};
   const bool direct = ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-  if (direct && ::access(path.c_str(), W_OK) != 0) throw InputError(fmt::format("{}: cannot write this file: {}", label, std::strerror(errno)));
+  if (direct && ::access(path.c_str(), W_OK) != 0) throw InputError(fmt::format("{}: cannot write: {}", label, std::strerror(errno)));
   if (!direct) OutputFile(path, label);
 }
 

@@ -18,7 +18,8 @@ namespace {
 
 /* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined and squared;
  * distances are squared; masses and their inverses are added. */
-constexpr float longest = 1e9f, farthest = 1e18f, most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
+constexpr double farthest = 1e18;
+constexpr float longest = 1e9f, most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
 
 [[noreturn]] void refuse(const std::string &where, const std::string &what, const std::string &why)
 {

@@ -1,6 +1,8 @@
 /* scene_gltf_document.cpp - see scene_gltf_document.h; after the glTF 2.0 specification, chapters 3.5 (nodes) and 4 (binary files). */
 #include "host/scene_gltf_document.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -151,8 +153,12 @@ void read_pointer(const JsonValue &pointer, GltfDocument &document)
   if (!path.starts_with(nodes)) return;
   const std::string property = path.substr(std::min(path.find('/', nodes.size()), path.size()));
   if (property != "/translation" && property != "/rotation" && property != "/scale" && property != "/matrix") return;
-  const nlohmann::json number = nlohmann::json::parse(path.substr(nodes.size(), path.find('/', nodes.size()) - nodes.size()), nullptr, false);
-  document.animated.insert(gltf_index({number, pointer.where(), pointer.path() + ".pointer", JsonFloats::numbers}, "node", document.nodes.size()));
+  const std::string digits = path.substr(nodes.size(), path.find('/', nodes.size()) - nodes.size());
+  uint32_t index = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+  if (error != std::errc{} || end != digits.data() + digits.size() || index >= document.nodes.size())
+    pointer.fail(fmt::format("node {} does not exist; the file has {}", digits.substr(0, 40), document.nodes.size()));
+  document.animated.insert(int(index));
 }
 
 /* Which nodes move; how is none of our business yet. */
