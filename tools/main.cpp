@@ -1,11 +1,13 @@
 /* main.cpp - the command `tandem`: parses, runs one subcommand, turns errors into one line. */
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fcntl.h>
@@ -35,12 +37,25 @@ void keep_standard_files_apart()
     if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that its use fails */
 }
 
+constexpr int output_lost = -1; /* and said */
+
+/* Where the reader of standard output has gone, as `head` does, the process ends as others do; other pipes are told as files are. */
+int complain_of_output(int reason)
+{
+  if (reason == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  complain(fmt::format("standard output: cannot write: {}", std::strerror(reason ? reason : EIO)), 2);
+  return output_lost;
+}
+
 /* What was printed may wait in the buffer still. */
 int with_output_written(int status)
 {
   errno = 0;
-  const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
-  return written ? status : complain(fmt::format("standard output: cannot write: {}", std::strerror(errno ? errno : EIO)), 2);
+  if (status != output_lost && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
+  return status == output_lost ? 2 : status;
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -95,8 +110,10 @@ int guarded(int count, char **arguments)
     return complain(error.what(), 2);
   } catch (const std::bad_alloc &) {
     return complain("out of memory", 1);
+  } catch (const std::system_error &error) { /* fmt::print throws one where the output takes no more */
+    return std::ferror(stdout) ? complain_of_output(error.code().value()) : complain(error.what(), 1);
   } catch (const std::exception &error) {
-    return std::ferror(stdout) ? 2 : complain(error.what(), 1); /* fmt::print throws where the output takes no more; said in the end */
+    return complain(error.what(), 1);
   }
 }
 
@@ -105,6 +122,7 @@ int guarded(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
+  std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
   tandem::keep_standard_files_apart();
   return tandem::with_output_written(tandem::guarded(count, arguments));
 }

@@ -206,6 +206,18 @@ TEST_CASE("hostile files: a pipe takes what is written to it", "[command]")
   CHECK(contents(scratch.file("copy.glb")) == contents(scratch.file("plain.glb")));
   CHECK(files::exists(scratch.file("pipe.glb")));
   check_refused("run " + tiny + " --steps 2 --save " + scratch.file("pipe.glb"), "cannot write"); /* nobody reads */
+  const std::string reader_that_goes = "head -c 1 '" + scratch.file("pipe.glb") + "' >/dev/null & sleep 0.2;";
+  const Result left = command("run box-grid:nx=6,ny=6,nz=6 --steps 60 --save " + scratch.file("pipe.glb"), reader_that_goes);
+  CHECK(left.status == 2);
+  CHECK(left.error == "tandem: " + scratch.file("pipe.glb") + ": cannot write: Broken pipe\n");
+}
+
+TEST_CASE("hostile files: a reader of standard output may go without a word", "[command]")
+{
+  const Scratch scratch;
+  command("stability --list 2>'" + scratch.file("said") + "'; echo $? >'" + scratch.file("status") + "') | true", "(sleep 0.2;");
+  CHECK(contents(scratch.file("said")).empty());
+  CHECK(contents(scratch.file("status")) == "141\n"); /* SIGPIPE, as of other programs */
 }
 
 TEST_CASE("hostile numbers: a run whose bodies do not stay finite says so in its status", "[command]")
