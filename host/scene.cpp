@@ -59,14 +59,14 @@ struct Checker {
     /* The solver works with 1/x: it must not overflow. */
     if (!std::isfinite(1.0f / x)) fail(fmt::format("{} is {}, too small: its inverse is not a finite float", field, x));
   }
-  void at_most(const char *field, double x, double limit) const
+  template <class Real> void at_most(const char *field, Real x, Real limit) const
   {
     if (!(std::abs(x) <= limit)) fail(fmt::format("{} is {}; at most {} is possible, so that what is computed from it stays a float", field, x, limit));
   }
   template <class Vector> void within(const char *field, const Vector &v, double limit) const
   {
     finite_vector(field, v);
-    for (double x : v) at_most(field, x, limit);
+    for (auto x : v) at_most(field, x, decltype(x)(limit));
   }
   void length(const char *field, float x) const
   {

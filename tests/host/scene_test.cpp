@@ -209,7 +209,7 @@ TEST_CASE("numbers whose powers and sums are no floats are refused, field by fie
     for (const float factor : {2.0f, 1e10f, 3e29f}) {
       Shape larger = shape;
       for (float &x : larger.size) x *= x == 1e9f ? factor : 1;
-      CHECK(said(larger).find("at most 1000000000 is possible") != std::string::npos);
+      CHECK(said(larger).find("so that what is computed from it stays a float") != std::string::npos);
       Child child;
       child.shape = larger;
       CHECK_FALSE(said(compound_shape({child})).empty());
@@ -221,7 +221,7 @@ TEST_CASE("numbers whose powers and sums are no floats are refused, field by fie
   Child child;
   child.shape = sphere_shape(1);
   child.position = {0, -2e9f, 0};
-  CHECK(said(compound_shape({child})).find("position is -2000000000") != std::string::npos);
+  CHECK(said(compound_shape({child})).find("child 0: position is -2") != std::string::npos);
   CHECK(complaint([](Scene &s) { s.bodies[0].position = {1e18, -1e18, 0}; }).empty());
   const std::vector<std::function<void(Scene &)>> spoilers{
       [](Scene &s) { s.bodies[0].position[1] = -2e18; },
