@@ -166,6 +166,22 @@ TEST_CASE("hostile files: an output that cannot be written is one line and statu
   CHECK(names_in(scratch.path).size() == std::size(outputs));
 }
 
+TEST_CASE("hostile files: each file of a folder of results is checked", "[command]")
+{
+  const std::string problem = "report --quick --parts problems --problems '" TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat' --out ";
+  const std::string flight = "stability --only flight --solvers soft-step --on serial --out ";
+  for (const auto &[arguments, name] : {std::pair{problem, "report.html"}, {problem, "report.csv"}, {problem, "report.json"}, {flight, "index.html"}, {flight, "figures.csv"},
+                                        {flight, "stability.json"}}) {
+    const Scratch scratch;
+    files::create_symlink("/dev/full", scratch.file(name));
+    const Result result = command(arguments + scratch.path.string());
+    INFO(name << "\n" << result.error);
+    CHECK(result.status == 2);
+    CHECK(result.error == "tandem: --out " + scratch.file(name) + ": cannot write: No space left on device\n");
+    CHECK(files::is_symlink(scratch.file(name)));
+  }
+}
+
 TEST_CASE("hostile files: what was printed is written, or the status says so", "[command]")
 {
   for (const std::string &arguments : std::vector<std::string>{"scenes", "--help", "--version", "devices", "run " + tiny + " --steps 1", "run " + tiny + " --steps 1 --json -",
