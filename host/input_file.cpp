@@ -29,7 +29,10 @@ struct OpenFile {
   }
 };
 
-[[noreturn]] void refuse(const std::string &path, const std::string &why) { throw InputError(fmt::format("{}: cannot read: {}", path, why)); }
+[[noreturn]] void refuse(const std::string &path, const std::string &why)
+{
+  throw InputError(fmt::format("{}: cannot read: {}", path, why));
+}
 
 /* The size told is a hint: what grows meanwhile, or tells none, is read to its end. */
 std::string contents_of(const OpenFile &file, const std::string &path, size_t expected)
@@ -68,14 +71,18 @@ std::string read_file(const std::string &path)
   return contents_of(file, path, static_cast<size_t>(status.st_size));
 }
 
-std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside, const std::string &asks)
+std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside,
+                             const std::string &asks)
 {
-  if (name.empty() || name.find('\0') != std::string::npos) throw InputError(fmt::format("{}: \"{}\" is no name of a file", asks, name.c_str()));
+  if (name.empty() || name.find('\0') != std::string::npos)
+    throw InputError(fmt::format("{}: \"{}\" is no name of a file", asks, name.c_str()));
   const files::path folder = files::path(scene).parent_path(), file = folder / name;
   std::error_code error;
-  const files::path home = files::weakly_canonical(folder.empty() ? "." : folder, error), place = files::weakly_canonical(file, error);
+  const files::path home = files::weakly_canonical(folder.empty() ? "." : folder, error),
+                    place = files::weakly_canonical(file, error);
   if (outside == OutsideFiles::refused && (error || !is_below(place, home)))
-    throw InputError(fmt::format("{}: \"{}\" lies outside the folder of the scene; put the file there, or use --allow-outside-files for a scene that you trust",
+    throw InputError(fmt::format("{}: \"{}\" lies outside the folder of the scene; put the file there, or use "
+                                 "--allow-outside-files for a scene that you trust",
                                  asks, name));
   try {
     return read_file(file.string());

@@ -15,6 +15,7 @@ enum class OutsideFiles { refused, allowed };
 std::string read_file(const std::string &path);
 
 /* `name`, relative to the folder of the file `scene`. InputError as above and for a place outside that folder; `asks` begins the message. */
-std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside, const std::string &asks);
+std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside,
+                             const std::string &asks);
 
 } // namespace tandem

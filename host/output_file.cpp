@@ -26,7 +26,8 @@ constexpr int most_links = 40, most_names = 1000;
 std::string behind_links(std::string path)
 {
   std::error_code error;
-  for (int k = 0; k < most_links && files::is_symlink(path, error); ++k) path = (files::path(path).parent_path() / files::read_symlink(path, error)).string();
+  for (int k = 0; k < most_links && files::is_symlink(path, error); ++k)
+    path = (files::path(path).parent_path() / files::read_symlink(path, error)).string();
   return path;
 }
 
@@ -87,7 +88,10 @@ OutputFile::~OutputFile()
   if (!beside_.empty()) ::unlink(beside_.c_str());
 }
 
-void OutputFile::fail(int error) const { throw InputError(fmt::format("{}: cannot write: {}", label_, std::strerror(error))); }
+void OutputFile::fail(int error) const
+{
+  throw InputError(fmt::format("{}: cannot write: {}", label_, std::strerror(error)));
+}
 
 void OutputFile::write(std::string_view bytes)
 {
@@ -128,7 +132,8 @@ void OutputFile::copy_to_target()
   const int target = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
   if (target < 0 || ::lseek(descriptor_, 0, SEEK_SET) != 0) fail(errno);
   std::string piece(most_buffered, '\0');
-  for (ssize_t got = 0; (got = ::read(descriptor_, piece.data(), piece.size())) > 0;) put(target, {piece.data(), static_cast<size_t>(got)});
+  for (ssize_t got = 0; (got = ::read(descriptor_, piece.data(), piece.size())) > 0;)
+    put(target, {piece.data(), static_cast<size_t>(got)});
   if (::close(target) != 0) fail(errno);
 }
 
@@ -136,7 +141,8 @@ void OutputFile::check(const std::string &path, const std::string &label)
 {
   struct stat status {};
   const bool direct = ::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-  if (direct && ::access(path.c_str(), W_OK) != 0) throw InputError(fmt::format("{}: cannot write: {}", label, std::strerror(errno)));
+  if (direct && ::access(path.c_str(), W_OK) != 0)
+    throw InputError(fmt::format("{}: cannot write: {}", label, std::strerror(errno)));
   if (!direct) OutputFile(path, label);
 }
 

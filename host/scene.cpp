@@ -61,7 +61,9 @@ struct Checker {
   }
   template <class Real> void at_most(const char *field, Real x, Real limit) const
   {
-    if (!(std::abs(x) <= limit)) fail(fmt::format("{} is {}; at most {} is possible, so that what is computed from it stays a float", field, x, limit));
+    if (!(std::abs(x) <= limit))
+      fail(fmt::format("{} is {}; at most {} is possible, so that what is computed from it stays a float", field, x,
+                       limit));
   }
   template <class Vector> void within(const char *field, const Vector &v, double limit) const
   {
@@ -77,7 +79,9 @@ struct Checker {
   {
     positive(field, x);
     at_most(field, x, heaviest);
-    if (x < lightest) fail(fmt::format("{} is {}; at least {} is needed, so that its inverse can be added to others", field, x, lightest));
+    if (x < lightest)
+      fail(fmt::format("{} is {}; at least {} is needed, so that its inverse can be added to others", field, x,
+                       lightest));
   }
   void friction(const char *field, float x) const
   {

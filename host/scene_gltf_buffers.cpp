@@ -49,8 +49,9 @@ size_t size_or(const JsonValue &json, const char *key, size_t otherwise)
 
 tinygltf::Accessor read_accessor(const JsonValue &json)
 {
-  static constexpr const char *keys[] = {"bufferView", "byteOffset", "componentType", "normalized", "count", "type",
-                                         "max",        "min",        "sparse",        "name",       "extras", "extensions"};
+  static constexpr const char *keys[] = {"bufferView", "byteOffset", "componentType", "normalized",
+                                         "count",      "type",       "max",           "min",
+                                         "sparse",     "name",       "extras",        "extensions"};
   static constexpr const char *types[] = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
   static constexpr int values[] = {TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
                                    TINYGLTF_TYPE_MAT2,   TINYGLTF_TYPE_MAT3, TINYGLTF_TYPE_MAT4};
@@ -59,7 +60,8 @@ tinygltf::Accessor read_accessor(const JsonValue &json)
   accessor.type = values[json.member("type").choice(types)];
   const JsonValue component_type = json.member("componentType");
   const uint32_t type = component_type.unsigned_integer();
-  if (type < TINYGLTF_COMPONENT_TYPE_BYTE || type > TINYGLTF_COMPONENT_TYPE_FLOAT || type == TINYGLTF_COMPONENT_TYPE_INT)
+  if (type < TINYGLTF_COMPONENT_TYPE_BYTE || type > TINYGLTF_COMPONENT_TYPE_FLOAT ||
+      type == TINYGLTF_COMPONENT_TYPE_INT)
     component_type.fail(fmt::format("is {}; 5120, 5121, 5122, 5123, 5125 and 5126 exist", type));
   accessor.componentType = int(type);
   accessor.count = json.member("count").unsigned_integer();
@@ -71,7 +73,8 @@ tinygltf::Accessor read_accessor(const JsonValue &json)
 
 tinygltf::BufferView read_view(const JsonValue &json, size_t buffers)
 {
-  static constexpr const char *keys[] = {"buffer", "byteOffset", "byteLength", "byteStride", "target", "name", "extras", "extensions"};
+  static constexpr const char *keys[] = {"buffer", "byteOffset", "byteLength", "byteStride",
+                                         "target", "name",       "extras",     "extensions"};
   json.only_keys(keys);
   tinygltf::BufferView view;
   view.buffer = gltf_index(json.member("buffer"), "buffer", buffers);
@@ -79,7 +82,8 @@ tinygltf::BufferView read_view(const JsonValue &json, size_t buffers)
   view.byteLength = json.member("byteLength").unsigned_integer();
   if (const auto stride = json.find("byteStride")) {
     view.byteStride = stride->unsigned_integer();
-    if (view.byteStride < 4 || view.byteStride > 252 || view.byteStride % 4) stride->fail(fmt::format("is {}; a multiple of 4 from 4 to 252 is needed", view.byteStride));
+    if (view.byteStride < 4 || view.byteStride > 252 || view.byteStride % 4)
+      stride->fail(fmt::format("is {}; a multiple of 4 from 4 to 252 is needed", view.byteStride));
   }
   return view;
 }
@@ -102,7 +106,8 @@ std::string percent_decoded(const std::string &text)
 {
   std::string result;
   for (size_t i = 0; i < text.size(); ++i) {
-    const int high = text[i] == '%' && i + 2 < text.size() ? digit_of(text[i + 1]) : -1, low = high >= 0 ? digit_of(text[i + 2]) : -1;
+    const int high = text[i] == '%' && i + 2 < text.size() ? digit_of(text[i + 1]) : -1,
+              low = high >= 0 ? digit_of(text[i + 2]) : -1;
     result += low < 0 ? text[i] : char(16 * high + low);
     if (low >= 0) i += 2;
   }
@@ -131,7 +136,8 @@ std::string GltfBuffers::read_buffer(const JsonValue &json, size_t index, const 
   const size_t length = json.member("byteLength").unsigned_integer();
   const std::optional<JsonValue> uri = json.find("uri");
   for (const char *packed : packed_views)
-    if (gltf_extension_of(view, packed) && (!uri || gltf_extension_of(json, packed))) view.fail(fmt::format("a mesh packed by {} is not supported yet", packed));
+    if (gltf_extension_of(view, packed) && (!uri || gltf_extension_of(json, packed)))
+      view.fail(fmt::format("a mesh packed by {} is not supported yet", packed));
   std::string bytes;
   if (!uri && index == 0) bytes = document_.binary;
   else if (const std::string text = json.member("uri").text(); text.starts_with("data:")) {
@@ -156,19 +162,22 @@ const std::string &GltfBuffers::buffer(size_t index, const JsonValue &view, cons
 GltfElements GltfBuffers::elements_of(uint32_t index, const JsonValue &asks)
 {
   const size_t accessors = count_of(document_, "accessors");
-  if (index >= accessors) asks.fail(fmt::format("accessor {} of the mesh does not exist; the file has {}", index, accessors));
+  if (index >= accessors)
+    asks.fail(fmt::format("accessor {} of the mesh does not exist; the file has {}", index, accessors));
   const std::string where = asks.place();
   const JsonValue json = gltf_item(document_, "accessors", index, where);
   GltfElements elements{read_accessor(json)};
   const tinygltf::Accessor &accessor = elements.accessor;
   if (accessor.sparse.isSparse) asks.fail("a mesh of sparse accessors is not supported yet");
   if (!json.find("bufferView")) asks.fail(fmt::format("accessor {} of the mesh names no buffer view", index));
-  const auto view_index = size_t(gltf_index(json.member("bufferView"), "buffer view", count_of(document_, "bufferViews")));
+  const auto view_index =
+      size_t(gltf_index(json.member("bufferView"), "buffer view", count_of(document_, "bufferViews")));
   const JsonValue view_json = gltf_item(document_, "bufferViews", view_index, where);
   const tinygltf::BufferView view = read_view(view_json, count_of(document_, "buffers"));
   const std::string &bytes = buffer(size_t(view.buffer), view_json, asks);
   const auto stride = size_t(accessor.ByteStride(view));
-  const size_t element = size_t(tinygltf::GetNumComponentsInType(uint32_t(accessor.type))) * size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType)));
+  const size_t element = size_t(tinygltf::GetNumComponentsInType(uint32_t(accessor.type))) *
+                         size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType)));
   const bool view_inside = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset;
   const size_t room = view_inside && accessor.byteOffset <= view.byteLength ? view.byteLength - accessor.byteOffset : 0;
   if (stride < element || element > room || accessor.count == 0 || accessor.count - 1 > (room - element) / stride)

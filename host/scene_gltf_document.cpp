@@ -28,7 +28,9 @@ struct Chunks {
 
 Chunks chunks_of(const std::string &bytes, const std::string &where)
 {
-  const auto fail = [&](const char *why) { throw InputError(fmt::format("{}: no readable binary glTF file: {}", where, why)); };
+  const auto fail = [&](const char *why) {
+    throw InputError(fmt::format("{}: no readable binary glTF file: {}", where, why));
+  };
   if (bytes.size() < 20) fail("it ends within its first 20 bytes");
   if (number_at(bytes, 4) != 2) fail("it is not of version 2");
   const size_t end = number_at(bytes, 8);
@@ -67,8 +69,8 @@ std::vector<int> read_indices(const JsonValue &list, const char *what, size_t co
   return indices;
 }
 
-const char *const node_keys[] = {"camera",   "children", "skin",    "matrix", "mesh",   "rotation",  "scale",
-                                 "translation", "weights",  "name", "extras", "extensions"};
+const char *const node_keys[] = {"camera", "children",    "skin",    "matrix", "mesh",   "rotation",
+                                 "scale",  "translation", "weights", "name",   "extras", "extensions"};
 
 /* A matrix stands for the three others. */
 void check_transform(const JsonValue &json, const GltfNode &node)
@@ -85,8 +87,11 @@ void read_node(const JsonValue &json, size_t node_count, size_t mesh_count, Gltf
   json.only_keys(node_keys);
   if (const auto list = json.find("children")) node.children = read_indices(*list, "node", node_count);
   if (const auto mesh = json.find("mesh")) node.mesh = gltf_index(*mesh, "mesh", mesh_count);
-  for (const auto &[key, numbers] : {std::pair{"matrix", &node.matrix}, {"translation", &node.translation}, {"rotation", &node.rotation},
-                                     {"scale", &node.scale}, {"weights", &node.weights}})
+  for (const auto &[key, numbers] : {std::pair{"matrix", &node.matrix},
+                                     {"translation", &node.translation},
+                                     {"rotation", &node.rotation},
+                                     {"scale", &node.scale},
+                                     {"weights", &node.weights}})
     if (const auto list = json.find(key)) *numbers = read_numbers(*list);
   check_transform(json, node);
   node.has_skin = json.find("skin").has_value();
@@ -169,7 +174,8 @@ void read_animation(const JsonValue &animation, GltfDocument &document)
     const JsonValue target = channels.element(i).member("target");
     if (const auto pointer = gltf_extension_of(target, "KHR_animation_pointer")) read_pointer(*pointer, document);
     const std::optional<JsonValue> node = target.find("node");
-    if (node && target.member("path").text() != "weights") document.animated.insert(gltf_index(*node, "node", document.nodes.size()));
+    if (node && target.member("path").text() != "weights")
+      document.animated.insert(gltf_index(*node, "node", document.nodes.size()));
   }
 }
 
@@ -181,7 +187,10 @@ std::string GltfDocument::label(int index) const
   return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", name);
 }
 
-void GltfDocument::refuse(int index, const std::string &what) const { throw InputError(fmt::format("{}: {}", place(index), what)); }
+void GltfDocument::refuse(int index, const std::string &what) const
+{
+  throw InputError(fmt::format("{}: {}", place(index), what));
+}
 
 std::optional<JsonValue> GltfDocument::physics_of(int index) const
 {
@@ -214,7 +223,8 @@ std::optional<JsonValue> gltf_extension_of(const JsonValue &owner, const char *n
 int gltf_index(const JsonValue &json, const char *what, size_t count)
 {
   const uint32_t index = json.unsigned_integer();
-  if (index >= count || index > INT32_MAX) json.fail(fmt::format("{} {} does not exist; the file has {}", what, index, count));
+  if (index >= count || index > INT32_MAX)
+    json.fail(fmt::format("{} {} does not exist; the file has {}", what, index, count));
   return int(index);
 }
 

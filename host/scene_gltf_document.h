@@ -32,11 +32,11 @@ struct GltfDocument {
   nlohmann::json file;
   std::string binary; /* the second chunk of a .glb */
   std::vector<GltfNode> nodes;
-  std::vector<int> roots;  /* of the scene that is simulated */
+  std::vector<int> roots; /* of the scene that is simulated */
   std::set<int> animated;
 
   const GltfNode &node(int index) const { return nodes[size_t(index)]; }
-  std::string label(int node) const;                                /* node 'Cup' */
+  std::string label(int node) const; /* node 'Cup' */
   const std::string &place(int index) const { return node(index).place; }
   [[noreturn]] void refuse(int node, const std::string &what) const; /* InputError: file: node 'Cup': what */
   std::optional<JsonValue> physics_of(int node) const;

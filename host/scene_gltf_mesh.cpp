@@ -14,7 +14,8 @@ namespace {
 std::vector<uint32_t> indices_of(const GltfElements &elements, size_t vertices, const JsonValue &asks)
 {
   const int type = elements.accessor.componentType;
-  if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+  if (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE && type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     asks.fail(fmt::format("indices of the mesh have the component type {}; 5121, 5123 and 5125 exist", type));
   if (elements.accessor.type != TINYGLTF_TYPE_SCALAR) asks.fail("indices of the mesh must be scalars");
   if (elements.accessor.normalized) asks.fail("indices of the mesh must not be normalized");
@@ -50,14 +51,18 @@ std::vector<Triangle> triangles_of(uint32_t mode, uint32_t count)
 void check_positions(const GltfElements &points, const GltfDocument &document, const JsonValue &asks)
 {
   const int type = points.accessor.componentType;
-  const bool quantized = type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT && document.uses("KHR_mesh_quantization");
+  const bool quantized = type >= TINYGLTF_COMPONENT_TYPE_BYTE && type <= TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+                         document.uses("KHR_mesh_quantization");
   if (points.accessor.type != TINYGLTF_TYPE_VEC3 || (type != TINYGLTF_COMPONENT_TYPE_FLOAT && !quantized))
-    asks.fail("positions of the mesh that are not three floats each are not supported yet, but for the whole numbers of KHR_mesh_quantization");
-  if (type == TINYGLTF_COMPONENT_TYPE_FLOAT && points.accessor.normalized) asks.fail("positions of the mesh are floats; only whole numbers can be normalized");
+    asks.fail("positions of the mesh that are not three floats each are not supported yet, but for the whole numbers "
+              "of KHR_mesh_quantization");
+  if (type == TINYGLTF_COMPONENT_TYPE_FLOAT && points.accessor.normalized)
+    asks.fail("positions of the mesh are floats; only whole numbers can be normalized");
 }
 
 /* Only vertices that the indices name belong to the mesh: primitives may share one accessor. */
-void append_vertices(const GltfElements &points, const std::vector<uint32_t> &indices, const Transform &place, const JsonValue &asks, GltfMesh &mesh)
+void append_vertices(const GltfElements &points, const std::vector<uint32_t> &indices, const Transform &place,
+                     const JsonValue &asks, GltfMesh &mesh)
 {
   for (uint32_t at : indices) {
     const Double3 point{points.at(at, 0), points.at(at, 1), points.at(at, 2)};
@@ -71,7 +76,8 @@ uint32_t mode_of(const JsonValue &primitive)
 {
   const std::optional<JsonValue> mode = primitive.find("mode");
   if (!mode) return TINYGLTF_MODE_TRIANGLES;
-  if (mode->unsigned_integer() > TINYGLTF_MODE_TRIANGLE_FAN) mode->fail(fmt::format("is {}; 0 (points) to 6 (a fan of triangles) exist", mode->unsigned_integer()));
+  if (mode->unsigned_integer() > TINYGLTF_MODE_TRIANGLE_FAN)
+    mode->fail(fmt::format("is {}; 0 (points) to 6 (a fan of triangles) exist", mode->unsigned_integer()));
   return mode->unsigned_integer();
 }
 
@@ -99,18 +105,22 @@ void GltfMeshes::check_packing(const JsonValue &primitive, uint32_t accessor, co
     asks.fail("a mesh packed by KHR_draco_mesh_compression is not supported yet");
 }
 
-void GltfMeshes::append_primitive(const JsonValue &primitive, const Transform &place, const JsonValue &asks, GltfMesh &mesh)
+void GltfMeshes::append_primitive(const JsonValue &primitive, const Transform &place, const JsonValue &asks,
+                                  GltfMesh &mesh)
 {
-  static constexpr const char *keys[] = {"attributes", "indices", "material", "mode", "targets", "extras", "extensions"};
+  static constexpr const char *keys[] = {"attributes", "indices", "material",  "mode",
+                                         "targets",    "extras",  "extensions"};
   primitive.only_keys(keys);
-  const std::optional<JsonValue> position = primitive.member("attributes").find("POSITION"), chosen = primitive.find("indices");
+  const std::optional<JsonValue> position = primitive.member("attributes").find("POSITION"),
+                                 chosen = primitive.find("indices");
   if (!position) return; /* nothing to see, says the specification */
   for (const std::optional<JsonValue> &accessor : {position, chosen})
     if (accessor) check_packing(primitive, accessor->unsigned_integer(), asks);
   const GltfElements points = buffers_.elements_of(position->unsigned_integer(), asks);
   check_positions(points, document_, asks);
   const std::vector<uint32_t> indices =
-      chosen ? indices_of(buffers_.elements_of(chosen->unsigned_integer(), asks), points.count, asks) : all_of(points.count);
+      chosen ? indices_of(buffers_.elements_of(chosen->unsigned_integer(), asks), points.count, asks)
+             : all_of(points.count);
   const auto base = uint32_t(mesh.vertices.size());
   append_vertices(points, indices, place, asks, mesh);
   const bool mirrored = is_mirrored(place);
@@ -143,18 +153,24 @@ GltfMesh GltfMeshes::of_node(uint32_t root, const JsonValue &asks)
 {
   GltfMesh mesh;
   std::set<int> visited;
-  if (root >= document_.nodes.size()) asks.fail(fmt::format("node {} does not exist; the file has {}", root, document_.nodes.size()));
+  if (root >= document_.nodes.size())
+    asks.fail(fmt::format("node {} does not exist; the file has {}", root, document_.nodes.size()));
   std::vector<std::pair<int, Transform>> pending{{int(root), {}}};
   while (!pending.empty()) {
     const auto [index, place] = pending.back();
     pending.pop_back();
     if (!visited.insert(index).second) document_.refuse(index, "has two parents; a node tree is needed");
     const GltfNode &node = document_.node(index);
-    if (node.has_skin) asks.fail(fmt::format("the mesh of {}, deformed by a skin, is not supported yet", document_.label(index)));
-    if (node.has_instances) asks.fail(fmt::format("the mesh of {}, many times over by EXT_mesh_gpu_instancing, is not supported yet", document_.label(index)));
-    if (is_deformed(node.weights)) asks.fail(fmt::format("the mesh of {}, deformed by morph targets, is not supported yet", document_.label(index)));
+    if (node.has_skin)
+      asks.fail(fmt::format("the mesh of {}, deformed by a skin, is not supported yet", document_.label(index)));
+    if (node.has_instances)
+      asks.fail(fmt::format("the mesh of {}, many times over by EXT_mesh_gpu_instancing, is not supported yet",
+                            document_.label(index)));
+    if (is_deformed(node.weights))
+      asks.fail(fmt::format("the mesh of {}, deformed by morph targets, is not supported yet", document_.label(index)));
     if (node.mesh) append_mesh(*node.mesh, place, asks, mesh);
-    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) pending.push_back({*child, place * local_transform(document_, *child)});
+    for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+      pending.push_back({*child, place * local_transform(document_, *child)});
   }
   return mesh;
 }

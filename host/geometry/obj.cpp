@@ -16,8 +16,9 @@ namespace tandem {
 namespace {
 
 /* Said about a surface or beside it, without being one. */
-constexpr std::string_view passed_over[] = {"vt",     "vn",      "vp",       "p",          "l",         "o",     "g",        "s",        "mg",
-                                            "usemtl", "mtllib",  "usemap",   "maplib",     "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
+constexpr std::string_view passed_over[] = {
+    "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
+    "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
 struct Face {
   std::vector<int64_t> corners; /* from 0 */
@@ -34,7 +35,10 @@ public:
   std::vector<Face> faces;
 
 private:
-  [[noreturn]] void fail(const std::string &why, size_t line) const { throw InputError(fmt::format("{}: line {}: {}", where_, line, why)); }
+  [[noreturn]] void fail(const std::string &why, size_t line) const
+  {
+    throw InputError(fmt::format("{}: line {}: {}", where_, line, why));
+  }
   std::vector<std::string_view> next_words();
   void read_vertex(const std::vector<std::string_view> &words);
   void read_face(const std::vector<std::string_view> &words);
@@ -77,12 +81,14 @@ float ObjReader::number(std::string_view word) const
   float value = 0;
   const char *end = word.data() + word.size();
   const auto [stop, error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, value);
-  if (error == std::errc::result_out_of_range && stop == end) { /* too small for a float is none; too large is a mistake */
+  if (error == std::errc::result_out_of_range &&
+      stop == end) { /* too small for a float is none; too large is a mistake */
     double wide = 0;
     const auto [wide_stop, wide_error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, wide);
     if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return float(wide);
   }
-  if (error != std::errc{} || stop != end || !std::isfinite(value)) fail(fmt::format("'{}' is no finite number of 32 bits", word.substr(0, 40)), line_);
+  if (error != std::errc{} || stop != end || !std::isfinite(value))
+    fail(fmt::format("'{}' is no finite number of 32 bits", word.substr(0, 40)), line_);
   return value;
 }
 
@@ -90,7 +96,8 @@ float ObjReader::number(std::string_view word) const
 void ObjReader::read_vertex(const std::vector<std::string_view> &words)
 {
   const size_t numbers = words.size() - 1;
-  if (numbers < 3 || numbers == 5 || numbers > 7) fail(fmt::format("a vertex of {} numbers; 'v x y z' is needed", numbers), line_);
+  if (numbers < 3 || numbers == 5 || numbers > 7)
+    fail(fmt::format("a vertex of {} numbers; 'v x y z' is needed", numbers), line_);
   for (const std::string_view word : words)
     if (word != "v") number(word);
   vertices.push_back({number(words[1]), number(words[2]), number(words[3])});
@@ -108,7 +115,9 @@ int64_t ObjReader::corner(std::string_view word) const
     const auto [stop, error] = std::from_chars(word.data() + at, word.data() + end, index);
     const bool left_out = at == end && parts == 1 && end < word.size();
     if (parts > 2 || (!left_out && (error != std::errc{} || stop != word.data() + end || index == 0)))
-      fail(fmt::format("'{}' is no corner of a face; use a number of a vertex, from 1 on, as in 7, 7/2, 7//3 or 7/2/3", word.substr(0, 40)), line_);
+      fail(fmt::format("'{}' is no corner of a face; use a number of a vertex, from 1 on, as in 7, 7/2, 7//3 or 7/2/3",
+                       word.substr(0, 40)),
+           line_);
     if (parts == 0) first = index;
     at = end + 1;
   }
@@ -134,7 +143,9 @@ void ObjReader::read()
     if (words[0] == "v") read_vertex(words);
     else if (words[0] == "f") read_face(words);
     else if (std::find(std::begin(passed_over), std::end(passed_over), words[0]) == std::end(passed_over))
-      fail(fmt::format("'{}' begins no line that is known in OBJ files of vertices (v) and faces (f)", words[0].substr(0, 40)), line_);
+      fail(fmt::format("'{}' begins no line that is known in OBJ files of vertices (v) and faces (f)",
+                       words[0].substr(0, 40)),
+           line_);
   }
 }
 
@@ -144,7 +155,8 @@ void ObjReader::check_corners() const
   for (const Face &face : faces)
     for (const int64_t corner : face.corners)
       if (corner >= static_cast<int64_t>(vertices.size()))
-        fail(fmt::format("a face names vertex {}, but there are {} (1 is the first)", corner + 1, vertices.size()), face.line);
+        fail(fmt::format("a face names vertex {}, but there are {} (1 is the first)", corner + 1, vertices.size()),
+             face.line);
 }
 
 /* The same vertices and faces, and nothing that could be read in another way. */
@@ -165,12 +177,14 @@ std::vector<Triangle> triangles_of(const ObjReader &read, const std::string &whe
   tinyobj::ObjReader reader;
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
-  if (!reader.ParseFromString(plain_text(read), "", config)) throw InputError(fmt::format("{}: its polygons cannot be cut into triangles", where));
+  if (!reader.ParseFromString(plain_text(read), "", config))
+    throw InputError(fmt::format("{}: its polygons cannot be cut into triangles", where));
   std::vector<Triangle> triangles;
   for (const tinyobj::shape_t &shape : reader.GetShapes())
     for (size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
       Triangle &triangle = triangles.emplace_back();
-      for (size_t corner = 0; corner < 3; ++corner) triangle[corner] = static_cast<uint32_t>(shape.mesh.indices[i + corner].vertex_index);
+      for (size_t corner = 0; corner < 3; ++corner)
+        triangle[corner] = static_cast<uint32_t>(shape.mesh.indices[i + corner].vertex_index);
     }
   return triangles;
 }
@@ -182,14 +196,17 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
   ObjReader read(text, where);
   read.read();
   read.check_corners();
-  if (read.vertices.empty()) throw InputError(fmt::format("{}: no vertices (lines 'v x y z'); is it an OBJ file?", where));
+  if (read.vertices.empty())
+    throw InputError(fmt::format("{}: no vertices (lines 'v x y z'); is it an OBJ file?", where));
   ObjMesh mesh{read.vertices, {}};
   if (read.faces.empty()) return mesh;
   mesh.triangles = triangles_of(read, where);
   size_t expected = 0;
   for (const Face &face : read.faces) expected += face.corners.size() - 2;
   if (mesh.triangles.size() != expected)
-    throw InputError(fmt::format("{}: a polygon crosses itself, or its corners lie in one line: it cannot be cut into triangles; give triangles", where));
+    throw InputError(fmt::format(
+        "{}: a polygon crosses itself, or its corners lie in one line: it cannot be cut into triangles; give triangles",
+        where));
   return mesh;
 }
 

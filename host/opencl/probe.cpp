@@ -89,8 +89,10 @@ std::string driver_fault(const std::function<void()> &ask)
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {}
   if (answer == Answer::came_back) return {};
   const std::string advice = "OCL_ICD_VENDORS=FOLDER chooses the drivers that are loaded, and tbb and serial need none";
-  if (answer == Answer::died) return fmt::format("an OpenCL driver {} while it was asked for its devices; {}", end_of(status), advice);
-  return fmt::format("an OpenCL driver gave no answer in {} s while it was asked for its devices; TANDEM_OPENCL_TIMEOUT=SECONDS waits longer; {}",
+  if (answer == Answer::died)
+    return fmt::format("an OpenCL driver {} while it was asked for its devices; {}", end_of(status), advice);
+  return fmt::format("an OpenCL driver gave no answer in {} s while it was asked for its devices; "
+                     "TANDEM_OPENCL_TIMEOUT=SECONDS waits longer; {}",
                      timeout_seconds(), advice);
 }
 
