@@ -10,6 +10,7 @@
 #include "host/animation.h"
 
 #include "host/animation_geometry.h"
+#include "host/output_file.h"
 
 #include <algorithm>
 #include <array>
@@ -24,11 +25,6 @@
 #include <tuple>
 
 namespace tandem {
-struct CloseFile {
-  void operator()(std::FILE *file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
 struct Pose {
   Vec3 position;
   Quat orientation;
@@ -50,24 +46,20 @@ struct RecordedBody {
 
 struct Recording {
   Recording(const std::string &target_path, uint32_t keep_every);
-  ~Recording();
 
   [[noreturn]] void fail(const char *what) const
   {
     throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(errno ? errno : EIO)));
   }
-  void put(std::FILE *file, const void *data, size_t bytes) const
-  {
-    errno = 0;
-    if (std::fwrite(data, 1, bytes, file) != bytes) fail("cannot write");
-  }
+  void put(const void *data, size_t bytes) { target.write({static_cast<const char *>(data), bytes}); }
   uint64_t pose_bytes(size_t body_count) const { return uint64_t(body_count) * times.size() * sizeof(Pose); }
 
-  std::string path, spool_path;
+  std::string path;
   uint32_t stride;
   uint64_t added = 0;
   bool finished = false;
-  File target, spool;
+  OutputFile target;
+  File spool;
   std::vector<float> times;
   std::vector<RecordedBody> bodies;
   std::vector<ColoredMesh> meshes;
@@ -97,34 +89,27 @@ Quat normalized(const Quat &q)
 
 std::string text(std::span<const float> values) { return fmt::format("[{}]", fmt::join(values, ",")); }
 
-/* Comma-separated items of a JSON array or object, gathered and passed on in pieces. */
+/* Comma-separated items of a JSON array or object; only counted where there is no file. */
 class JsonStream {
 public:
-  JsonStream(std::FILE *file, uint64_t &bytes) : file_(file), bytes_(bytes) {}
-  ~JsonStream() { flush(); }
+  explicit JsonStream(OutputFile *file) : file_(file) {}
   void raw(std::string_view text)
   {
-    buffer_ += text;
+    if (file_) file_->write(text);
+    bytes_ += text.size();
     separator_ = "";
-    if (buffer_.size() > 1u << 16) flush();
   }
   void item(std::string_view text)
   {
-    buffer_ += separator_;
+    raw(separator_);
     raw(text);
     separator_ = ",";
   }
-  void flush()
-  {
-    std::fwrite(buffer_.data(), 1, buffer_.size(), file_); /* errors stay set: finish() asks ferror */
-    bytes_ += buffer_.size();
-    buffer_.clear();
-  }
+  uint64_t bytes() const { return bytes_; }
 
 private:
-  std::FILE *file_;
-  uint64_t &bytes_;
-  std::string buffer_;
+  OutputFile *file_;
+  uint64_t bytes_ = 0;
   const char *separator_ = "";
 };
 
@@ -354,10 +339,9 @@ void write_animation(JsonStream &json, const Recording &r, const Layout &layout)
   json.raw("]}]");
 }
 
-uint64_t write_json(const Recording &r, const Layout &layout)
+uint64_t write_json(const Recording &r, const Layout &layout, OutputFile *file)
 {
-  uint64_t length = 0;
-  JsonStream json(r.target.get(), length);
+  JsonStream json(file);
   json.raw(R"({"asset":{"version":"2.0","generator":"Tandem"})");
   if (!r.bodies.empty()) { /* empty arrays are not allowed */
     write_nodes(json, r);
@@ -367,24 +351,22 @@ uint64_t write_json(const Recording &r, const Layout &layout)
     write_animation(json, r, layout);
   }
   json.raw("}");
-  json.flush();
-  return length;
+  return json.bytes();
 }
 
-void write_json_chunk(const Recording &r, const Layout &layout)
+/* The length comes first, so the text is made twice: a pipe has no way back, and the text may be too large to keep. */
+void write_json_chunk(Recording &r, const Layout &layout)
 {
+  const uint64_t length = write_json(r, layout, nullptr), padding = (4 - length % 4) % 4;
   std::array<uint32_t, 5> header{0x46546c67, 2, 0, 0, 0x4e4f534a}; /* "glTF", version, length; length, "JSON" */
-  r.put(r.target.get(), header.data(), sizeof header);
-  uint64_t length = write_json(r, layout);
-  for (; length % 4 != 0; ++length) r.put(r.target.get(), " ", 1);
-  uint64_t total = sizeof header + length + (layout.binary_bytes() > 0 ? 8 + layout.binary_bytes() : 0);
+  const uint64_t total = sizeof header + length + padding + (layout.binary_bytes() > 0 ? 8 + layout.binary_bytes() : 0);
   if (total > most_bytes)
     throw InputError(fmt::format("{}: {} bytes do not fit into the 4 GiB of a .glb; keep fewer frames", r.path, total));
   header[2] = uint32_t(total);
-  header[3] = uint32_t(length);
-  std::fseek(r.target.get(), 0, SEEK_SET);
-  r.put(r.target.get(), header.data(), sizeof header);
-  std::fseek(r.target.get(), 0, SEEK_END);
+  header[3] = uint32_t(length + padding);
+  r.put(header.data(), sizeof header);
+  write_json(r, layout, &r.target);
+  r.target.write(std::string_view("   ", padding));
 }
 
 /* --- the poses ----------------------------------------------------------------------------------- */
@@ -408,7 +390,7 @@ void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &r
 }
 
 /* Turns frames of bodies into bodies of frames, as many bodies at a time as fit into a block. */
-void write_poses(const Recording &r, const Layout &layout)
+void write_poses(Recording &r, const Layout &layout)
 {
   const std::vector<uint32_t> &animated = layout.animated;
   const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(Pose))));
@@ -427,8 +409,8 @@ void write_poses(const Recording &r, const Layout &layout)
       }
     }
     for (size_t k = 0; k < bodies; ++k) {
-      r.put(r.target.get(), translations.data() + k * frames, frames * sizeof(Vec3));
-      r.put(r.target.get(), rotations.data() + k * frames, frames * sizeof(Quat));
+      r.put(translations.data() + k * frames, frames * sizeof(Vec3));
+      r.put(rotations.data() + k * frames, frames * sizeof(Quat));
     }
   }
 }
@@ -449,23 +431,9 @@ AnimationWriter::AnimationWriter(const Scene &scene, const std::string &path, ui
 AnimationWriter::~AnimationWriter() = default;
 
 Recording::Recording(const std::string &target_path, uint32_t keep_every)
-    : path(target_path), spool_path(target_path + ".frames"), stride(keep_every)
+    : path(target_path), stride(keep_every), target(path, path), spool(nameless_file_beside(path))
 {
-  target.reset(std::fopen(path.c_str(), "wb"));
-  if (!target) fail("cannot write");
-  spool.reset(std::fopen(spool_path.c_str(), "w+b"));
-  if (spool) return;
-  int reason = errno;
-  std::remove(path.c_str());
-  throw InputError(fmt::format("{}: cannot write: {}", spool_path, std::strerror(reason)));
-}
-
-Recording::~Recording()
-{
-  spool.reset();
-  std::remove(spool_path.c_str());
-  target.reset();
-  if (!finished) std::remove(path.c_str());
+  if (!spool) fail("cannot write the frames that wait for the end");
 }
 
 /* --- recording --------------------------------------------------------------------------------- */
@@ -496,7 +464,8 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
     if (first) r.bodies[body].rest = r.last[k];
     if (!same_pose(r.last[k], r.bodies[body].rest)) r.moved[k] = true;
   }
-  r.put(r.spool.get(), r.last.data(), r.last.size() * sizeof(Pose));
+  errno = 0;
+  if (std::fwrite(r.last.data(), sizeof(Pose), r.last.size(), r.spool.get()) != r.last.size()) r.fail("cannot write the frames that wait for the end");
 }
 
 void AnimationWriter::finish()
@@ -507,16 +476,14 @@ void AnimationWriter::finish()
   write_json_chunk(r, layout);
   if (layout.binary_bytes() > 0) {
     std::array<uint32_t, 2> header{uint32_t(layout.binary_bytes()), 0x004e4942}; /* length, "BIN" */
-    r.put(r.target.get(), header.data(), sizeof header);
-    r.put(r.target.get(), layout.geometry.bytes.data(), layout.geometry.bytes.size());
+    r.put(header.data(), sizeof header);
+    r.put(layout.geometry.bytes.data(), layout.geometry.bytes.size());
   }
   if (!layout.animated.empty()) {
-    r.put(r.target.get(), r.times.data(), 4 * r.times.size());
+    r.put(r.times.data(), 4 * r.times.size());
     write_poses(r, layout);
   }
-  errno = 0;
-  bool failed = std::ferror(r.target.get()) != 0;
-  if (std::fclose(r.target.release()) != 0 || failed) r.fail("cannot write");
+  r.target.commit();
   r.finished = true;
 }
 

@@ -2,7 +2,7 @@
  *
  * One node per body; one keyframe per recorded step for each body that moved. The result is body by
  * body in the file while the simulation delivers frame by frame, so frames wait in a file beside the
- * target until finish() turns them over block by block; memory stays at a few tens of bytes a body,
+ * target, in one without a name, until finish() turns them over block by block; memory stays at a few tens of bytes a body,
  * however long the recording.
  *
  *   add_frame: |b0 b1 b2 …|b0 b1 b2 …|   ->   finish: | b0: t t t …, q q q … | b1: … |
@@ -22,10 +22,9 @@ struct Recording; /* what is kept until finish(); animation.cpp */
 
 class AnimationWriter {
 public:
-  /* Creates `path` (it must end in .glb) at once, so that an unwritable place is known before the
-   * simulation runs; throws InputError. Of the frames added, every `stride`-th is kept, from the first on. */
+  /* `path` must end in .glb; a place that cannot be written throws InputError before the simulation runs. Of the frames added, every `stride`-th is kept, from the first on. */
   AnimationWriter(const Scene &scene, const std::string &path, uint32_t stride = 1);
-  /* Without finish(), what was begun is removed. */
+  /* Without finish(), what stood at `path` stands there still. */
   ~AnimationWriter();
   AnimationWriter(const AnimationWriter &) = delete;
   AnimationWriter &operator=(const AnimationWriter &) = delete;

@@ -238,7 +238,13 @@ Tamper plant(const PlantedError &error)
 Comparison compare_backends(const Scene &scene, const ComparisonRequest &request)
 {
   if (request.backends.size() < 2) throw InputError("comparing takes at least two backends: serial,tbb");
-  return Lockstep(scene, request).run();
+  BroadphaseChoice choice{request.settings.broadphase, "as asked"};
+  if (choice.name == "auto") choice = choose_broadphase(scene, request.backends.front()); /* each on its own choice would run other kernels */
+  ComparisonRequest decided = request;
+  decided.settings.broadphase = choice.name;
+  Comparison comparison = Lockstep(scene, decided).run();
+  comparison.broadphase = choice;
+  return comparison;
 }
 
 } // namespace tandem

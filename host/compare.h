@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "host/broadphases/choice.h"
 #include "host/buffer_place.h"
 #include "host/world.h"
 
@@ -61,6 +62,7 @@ struct Difference {
 
 struct Comparison {
   bool equal = true;
+  BroadphaseChoice broadphase; /* on every backend; `auto` is decided once, for the first */
   uint64_t steps = 0; /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;

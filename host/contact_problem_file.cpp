@@ -5,12 +5,10 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 
+#include "host/input_file.h"
 #include "host/scene.h"
 
 namespace tandem {
@@ -21,12 +19,7 @@ constexpr uint64_t most_contacts = 1'000'000, most_dense_contacts = 5'000;
 /* The numbers of a file in order, with the line each stands in. */
 class Numbers {
 public:
-  explicit Numbers(const std::string &path) : path_(path)
-  {
-    std::ifstream file(path, std::ios::binary);
-    if (!file || std::filesystem::is_directory(path)) throw InputError(fmt::format("{}: cannot be read as a contact problem", path));
-    text_.assign(std::istreambuf_iterator<char>(file), {});
-  }
+  explicit Numbers(const std::string &path) : path_(path), text_(read_file(path)) {}
 
   [[noreturn]] void refuse(const std::string &why) const { throw InputError(fmt::format("{}: line {}: {}", path_, line_, why)); }
 
@@ -40,6 +33,7 @@ public:
   {
     const double value = number<double>(what, "a number");
     if (!std::isfinite(value)) refuse(fmt::format("{} is not finite", what));
+    if (!std::isfinite(static_cast<float>(value))) refuse(fmt::format("{} is {}, which no 32-bit float holds", what, value));
     return value;
   }
   uint64_t whole(const std::string &what, uint64_t lowest, uint64_t highest)
@@ -124,8 +118,8 @@ void order_rows(const Numbers &numbers, ContactProblem &problem)
     const auto twice = std::adjacent_find(first, last, [&](uint32_t a, uint32_t b) { return key(a) == key(b); });
     if (twice != last) numbers.refuse(fmt::format("contact {} has two blocks in column {}", i, problem.column[*twice]));
     for (int axis = 0; axis < 3; ++axis)
-      if (!(problem.blocks[*first][static_cast<size_t>(4 * axis)] > 0))
-        numbers.refuse(fmt::format("W[{0}][{0}] must be positive", 3 * i + static_cast<uint32_t>(axis)));
+      if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)]; !(own > 0) || !std::isfinite(1 / static_cast<float>(own)))
+        numbers.refuse(fmt::format("W[{0}][{0}] must be positive, and its inverse a 32-bit float; it is {1}", 3 * i + static_cast<uint32_t>(axis), own));
   }
   for (size_t k = 0; k < order.size(); ++k) {
     sorted.column[k] = problem.column[order[k]];

@@ -2,13 +2,9 @@
 #include "host/json_reader.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <fmt/format.h>
-#include <memory>
 #include <set>
 
 namespace tandem {
@@ -42,14 +38,16 @@ template <class Real> std::optional<Real> parse_hex_float(const std::string &tex
   return start ? -magnitude : magnitude;
 }
 
-/* Duplicate keys would silently lose a value: the parser keeps the last. */
-class DuplicateKeys {
+/* While parsing. Duplicate keys would silently lose a value, since the parser keeps the last; depth would end in a full stack. */
+class StrictParsing {
 public:
-  explicit DuplicateKeys(const std::string &where) : where_(where) {}
+  explicit StrictParsing(const std::string &where) : where_(where) {}
 
-  bool operator()(int, nlohmann::json::parse_event_t event, nlohmann::json &parsed)
+  bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json &parsed)
   {
     using Event = nlohmann::json::parse_event_t;
+    if ((event == Event::object_start || event == Event::array_start) && depth >= most_json_levels)
+      throw InputError(fmt::format("{}: arrays and objects stand more than {} deep within one another; no scene needs that", where_, most_json_levels));
     if (event == Event::object_start) open_.emplace_back();
     if (event == Event::object_end) open_.pop_back();
     if (event == Event::key && !open_.back().insert(parsed.get_ref<const std::string &>()).second)
@@ -93,7 +91,7 @@ std::optional<JsonValue> JsonValue::find(const char *key) const
   if (!value_->is_object()) fail(fmt::format("is {}; an object is needed", shown(*value_)));
   auto member = value_->find(key);
   if (member == value_->end()) return {};
-  return JsonValue(*member, *where_, path_.empty() ? key : path_ + "." + key);
+  return JsonValue(*member, *where_, path_.empty() ? key : path_ + "." + key, floats_);
 }
 
 JsonValue JsonValue::member(const char *key) const
@@ -121,12 +119,12 @@ size_t JsonValue::array_size() const
 
 JsonValue JsonValue::element(size_t index) const
 {
-  return {(*value_)[index], *where_, fmt::format("{}[{}]", path_, index)};
+  return {(*value_)[index], *where_, fmt::format("{}[{}]", path_, index), floats_};
 }
 
 template <class Real> Real JsonValue::number_of() const
 {
-  if (value_->is_string()) {
+  if (value_->is_string() && floats_ == JsonFloats::numbers_and_hexadecimal) {
     std::optional<Real> parsed = parse_hex_float<Real>(value_->get_ref<const std::string &>());
     if (parsed && std::isfinite(*parsed)) return *parsed;
     fail(fmt::format("is {}; a number or a finite hexadecimal float such as \"0x1.8p+1\" is needed", shown(*value_)));
@@ -185,24 +183,10 @@ size_t JsonValue::choice(std::span<const char *const> names) const
   fail(fmt::format("is {}; one of {} is needed", shown(*value_), joined(names)));
 }
 
-std::string read_file(const std::string &path)
-{
-  std::unique_ptr<std::FILE, int (*)(std::FILE *)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  std::string text;
-  char piece[1 << 16];
-  while (file) { /* a folder opens, and fails at the first read */
-    size_t got = std::fread(piece, 1, sizeof piece, file.get());
-    text.append(piece, got);
-    if (std::ferror(file.get())) break;
-    if (got < sizeof piece) return text;
-  }
-  throw InputError(fmt::format("{}: cannot read: {}", path, std::strerror(errno ? errno : EIO)));
-}
-
 nlohmann::json parse_json(const std::string &text, const std::string &where)
 {
   try {
-    return nlohmann::json::parse(text, DuplicateKeys(where));
+    return nlohmann::json::parse(text, StrictParsing(where));
   } catch (const nlohmann::json::parse_error &error) {
     throw InputError(
         fmt::format("{}:{}: malformed JSON: {}", where, line_and_column(text, error.byte), plain_reason(error.what())));

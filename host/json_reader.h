@@ -16,15 +16,20 @@
 
 namespace tandem {
 
+/* Whether a string may stand for a number: in our own scenes, which write hexadecimal floats so. */
+enum class JsonFloats { numbers_and_hexadecimal, numbers };
+
 class JsonValue {
 public:
   /* `where` (a file, perhaps a node in it) begins every message; it and `value` must outlive this. */
-  JsonValue(const nlohmann::json &value, const std::string &where, std::string path = "")
-      : value_(&value), where_(&where), path_(std::move(path))
+  JsonValue(const nlohmann::json &value, const std::string &where, std::string path = "", JsonFloats floats = JsonFloats::numbers_and_hexadecimal)
+      : value_(&value), where_(&where), path_(std::move(path)), floats_(floats)
   {}
 
   [[noreturn]] void fail(const std::string &message) const;
   const std::string &where() const { return *where_; }
+  const std::string &path() const { return path_; }
+  bool is_null() const { return value_->is_null(); }
   std::string place() const { return path_.empty() ? *where_ : *where_ + ": " + path_; }
 
   /* An object's member; `find` gives nothing when it is absent, `member` fails. Both fail on non-objects. */
@@ -36,7 +41,7 @@ public:
   size_t array_size() const; /* fails when it is not an array */
   JsonValue element(size_t index) const;
 
-  /* Finite floats: a number, or a string with a hexadecimal float such as "-0x1.8p+1". */
+  /* Finite floats: a number, or (JsonFloats) a string with a hexadecimal float such as "-0x1.8p+1". */
   float number() const;
   double precise_number() const; /* the same, of 64 bits */
   Vec3 vec3() const;
@@ -53,12 +58,14 @@ private:
   const nlohmann::json *value_;
   const std::string *where_;
   std::string path_;
+  JsonFloats floats_;
 };
 
-/* The whole file; InputError when it cannot be read. */
-std::string read_file(const std::string &path);
+/* Deeper than any scene; far from where recursion over values (their text, their end) runs out of stack. */
+inline constexpr int most_json_levels = 100;
 
-/* Throws InputError: `where:line:column: malformed JSON: …`, or a key that stands twice in one object. */
+/* Throws InputError: `where:line:column: malformed JSON: …`, a key that stands twice in one object, or more than most_json_levels arrays
+ * and objects within one another. */
 nlohmann::json parse_json(const std::string &text, const std::string &where);
 
 } // namespace tandem

@@ -16,6 +16,11 @@
 namespace tandem {
 namespace {
 
+/* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined and squared;
+ * distances are squared; masses and their inverses are added. */
+constexpr double farthest = 1e18;
+constexpr float longest = 1e9f, most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
+
 [[noreturn]] void refuse(const std::string &where, const std::string &what, const std::string &why)
 {
   throw InputError(fmt::format("{}: {}: {}", where, what, why));
@@ -54,15 +59,44 @@ struct Checker {
     /* The solver works with 1/x: it must not overflow. */
     if (!std::isfinite(1.0f / x)) fail(fmt::format("{} is {}, too small: its inverse is not a finite float", field, x));
   }
+  template <class Real> void at_most(const char *field, Real x, Real limit) const
+  {
+    if (!(std::abs(x) <= limit))
+      fail(fmt::format("{} is {}; at most {} is possible, so that what is computed from it stays a float", field, x,
+                       limit));
+  }
+  template <class Vector> void within(const char *field, const Vector &v, double limit) const
+  {
+    finite_vector(field, v);
+    for (auto x : v) at_most(field, x, decltype(x)(limit));
+  }
+  void length(const char *field, float x) const
+  {
+    positive(field, x);
+    at_most(field, x, longest);
+  }
+  void mass(const char *field, float x) const
+  {
+    positive(field, x);
+    at_most(field, x, heaviest);
+    if (x < lightest)
+      fail(fmt::format("{} is {}; at least {} is needed, so that its inverse can be added to others", field, x,
+                       lightest));
+  }
+  void friction(const char *field, float x) const
+  {
+    at_least_zero(field, x);
+    at_most(field, x, most_friction);
+  }
 };
 
 /* Its sides, the common tangent of the two spheres, exist only while neither sphere holds the other. */
 void check_capsule(const Shape &shape, const Checker &check)
 {
   const float bottom = shape.size[0], half_height = shape.size[1], top = shape.size[2];
-  check.positive("radius_bottom", bottom);
-  check.positive("half_height", half_height);
-  check.positive("radius_top", top);
+  check.length("radius_bottom", bottom);
+  check.length("half_height", half_height);
+  check.length("radius_top", top);
   if (std::abs(double(bottom) - top) >= 2.0 * half_height)
     check.fail(fmt::format("one sphere of the capsule (radii {} and {}, {} apart) holds the other; a sphere of radius {} is the same", bottom, top,
                            2.0 * half_height, std::max(bottom, top)));
@@ -71,16 +105,16 @@ void check_capsule(const Shape &shape, const Checker &check)
 void check_cylinder(const Shape &shape, const Checker &check)
 {
   check.at_least_zero("radius_bottom", shape.size[0]);
-  check.positive("half_height", shape.size[1]);
+  check.length("half_height", shape.size[1]);
   check.at_least_zero("radius_top", shape.size[2]);
-  check.positive("the larger radius", std::max(shape.size[0], shape.size[2]));
+  check.length("the larger radius", std::max(shape.size[0], shape.size[2]));
 }
 
 void check_hull(const Shape &shape, const Checker &check)
 {
   if (!shape.hull) check.fail("a hull without points; hull_shape makes one");
   if (shape.hull->vertices.size() < 4) check.fail(fmt::format("a hull of {} vertices; at least 4 are needed", shape.hull->vertices.size()));
-  for (const Vec3 &vertex : shape.hull->vertices) check.finite_vector("a vertex of the hull", vertex);
+  for (const Vec3 &vertex : shape.hull->vertices) check.within("a vertex of the hull", vertex, longest);
 }
 
 void check_shape(const Shape &shape, const Checker &check);
@@ -98,7 +132,7 @@ void check_child(const Child &child, const Checker &check)
   if (child.shape.type == ShapeType::half_space || child.shape.type == ShapeType::compound)
     check.fail("a half_space or compound cannot be a child; give a half_space a body of its own, and name a compound's children one by one");
   check_shape(child.shape, check);
-  check.finite_vector("position", child.position);
+  check.within("position", child.position, longest);
   check_unit("orientation", child.orientation, check);
   check.positive("density", child.density);
 }
@@ -116,9 +150,9 @@ void check_shape(const Shape &shape, const Checker &check)
 {
   check.finite_vector("size", shape.size);
   switch (shape.type) {
-  case ShapeType::sphere: check.positive("radius", shape.size[0]); return;
+  case ShapeType::sphere: check.length("radius", shape.size[0]); return;
   case ShapeType::box:
-    for (int axis = 0; axis < 3; ++axis) check.positive("a half extent", shape.size[axis]);
+    for (int axis = 0; axis < 3; ++axis) check.length("a half extent", shape.size[axis]);
     return;
   case ShapeType::half_space: return;
   case ShapeType::capsule: check_capsule(shape, check); return;
@@ -126,6 +160,7 @@ void check_shape(const Shape &shape, const Checker &check)
   case ShapeType::hull: check_hull(shape, check); return;
   case ShapeType::mesh:
     if (!shape.mesh) check.fail("a mesh without triangles; mesh_shape makes one");
+    for (const Vec3 &vertex : shape.mesh->vertices) check.within("a vertex of the mesh", vertex, longest);
     return;
   case ShapeType::compound: check_compound(shape, check); return;
   }
@@ -134,10 +169,10 @@ void check_shape(const Shape &shape, const Checker &check)
 
 void check_material(const Material &material, const Checker &check)
 {
-  check.at_least_zero("static_friction", material.static_friction);
-  check.at_least_zero("dynamic_friction", material.dynamic_friction);
-  check.at_least_zero("rolling_friction", material.rolling_friction);
-  check.at_least_zero("spinning_friction", material.spinning_friction);
+  check.friction("static_friction", material.static_friction);
+  check.friction("dynamic_friction", material.dynamic_friction);
+  check.friction("rolling_friction", material.rolling_friction);
+  check.friction("spinning_friction", material.spinning_friction);
   if (!(material.restitution >= 0 && material.restitution <= 1))
     check.fail(fmt::format("restitution is {}; a number from 0 to 1 is needed", material.restitution));
   if (material.friction_combine > Combine::geometric_mean || material.restitution_combine > Combine::geometric_mean)
@@ -146,9 +181,9 @@ void check_material(const Material &material, const Checker &check)
 
 void check_pose(const Body &body, const Checker &check)
 {
-  check.finite_vector("position", body.position);
+  check.within("position", body.position, farthest);
   check_unit("orientation", body.orientation, check);
-  check.finite_vector("shape_position", body.shape_position);
+  check.within("shape_position", body.shape_position, longest);
   check_unit("shape_orientation", body.shape_orientation, check);
   check.finite_vector("linear_velocity", body.linear_velocity);
   check.finite_vector("angular_velocity", body.angular_velocity);
@@ -169,7 +204,7 @@ void check_inertia(const Body &body, const Shape &shape, const Checker &check)
   bool from_shape = body.inertia == Vec3{0, 0, 0};
   Vec3 moments = from_shape ? inertia_of_shape(body, shape, check) : body.inertia;
   for (float moment : moments)
-    if (from_shape || moment != 0) check.positive(from_shape ? "inertia from shape and mass" : "inertia", moment);
+    if (from_shape || moment != 0) check.mass(from_shape ? "inertia from shape and mass" : "inertia", moment);
   const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type >= ShapeType::hull;
   if (from_shape && turned && !has_principal_axes(body, shape))
     check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the inertia, or a density instead "
@@ -206,7 +241,7 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
     check.fail("a half_space is not continuous: nothing comes out behind it; make the bodies that hit it so");
   if (body.motion != Motion::dynamic) return;
   if (shape.type == ShapeType::half_space) check.fail("a half_space cannot be dynamic; make it fixed or kinematic");
-  check.positive("mass", body.mass);
+  check.mass("mass", body.mass);
   check_inertia(body, shape, check);
 }
 

@@ -369,11 +369,11 @@ Scene build_scene(const SceneSpec &spec)
   return scene;
 }
 
-Scene load_scene(const std::string &spec_or_path)
+Scene load_scene(const std::string &spec_or_path, OutsideFiles outside)
 {
   std::string extension = lower_extension(spec_or_path);
-  if (extension == ".json") return read_scene_json(spec_or_path);
-  if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path);
+  if (extension == ".json") return read_scene_json(spec_or_path, outside);
+  if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path, outside);
   return build_scene(parse_scene_spec(spec_or_path));
 }
 

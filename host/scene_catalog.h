@@ -7,6 +7,7 @@
  */
 #pragma once
 
+#include "host/input_file.h"
 #include "host/scene.h"
 
 #include <map>
@@ -54,6 +55,6 @@ Scene build_scene(const SceneSpec &spec);
 
 /* What the command's SCENE argument means: a path that ends in .json, .gltf or .glb is a file, all
  * else a built-in scene. Throws InputError. */
-Scene load_scene(const std::string &spec_or_path);
+Scene load_scene(const std::string &spec_or_path, OutsideFiles outside = OutsideFiles::refused);
 
 } // namespace tandem

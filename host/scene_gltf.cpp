@@ -10,7 +10,7 @@
  *
  * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
  *
- * The parts are read by scene_gltf_document, _transform, _body, _shapes, _mesh, _materials, _filters and _motion, after the extension
+ * The parts are read by scene_gltf_document, _extensions, _buffers, _transform, _body, _shapes, _mesh, _materials, _filters and _motion, after the extension
  * texts KHR_implicit_shapes and KHR_physics_rigid_bodies (Khronos, drafts).
  */
 #include "host/scene_gltf.h"
@@ -26,7 +26,7 @@ namespace {
 
 class Walk {
 public:
-  explicit Walk(const GltfDocument &document);
+  explicit Walk(const GltfDocument &document) : document_(document) {}
   std::vector<BodyNodes> bodies();
 
 private:
@@ -38,7 +38,6 @@ private:
     size_t list;   /* the same of the trigger above that lists nodes */
     bool animated; /* it, or a node above */
   };
-  std::vector<int> root_nodes() const;
   void visit(const Visit &at);
   void add(const JsonValue &physics, Visit &below);
   void add_trigger(const JsonValue &trigger, Visit &at);
@@ -46,37 +45,11 @@ private:
   void settle_triggers();
 
   const GltfDocument &document_;
-  std::set<int> animated_, visited_;
+  std::set<int> visited_;
   std::vector<Visit> pending_;
   std::vector<BodyNodes> bodies_;
   std::map<int, size_t> parts_; /* listed by a trigger and not met yet: which body they belong to */
 };
-
-Walk::Walk(const GltfDocument &document) : document_(document)
-{
-  for (const tinygltf::Animation &animation : document.model.animations)
-    for (const tinygltf::AnimationChannel &channel : animation.channels)
-      if (channel.target_path != "weights") animated_.insert(channel.target_node);
-}
-
-std::vector<int> Walk::root_nodes() const
-{
-  const tinygltf::Model &model = document_.model;
-  if (!model.scenes.empty()) {
-    int chosen = model.defaultScene < 0 ? 0 : model.defaultScene;
-    if (size_t(chosen) >= model.scenes.size())
-      throw InputError(fmt::format("{}: scene {} does not exist; the file has {}", document_.where, chosen, model.scenes.size()));
-    return model.scenes[size_t(chosen)].nodes;
-  }
-  std::vector<bool> is_child(model.nodes.size());
-  for (const tinygltf::Node &node : model.nodes)
-    for (int child : node.children)
-      if (child >= 0 && size_t(child) < is_child.size()) is_child[size_t(child)] = true;
-  std::vector<int> roots;
-  for (size_t i = 0; i < is_child.size(); ++i)
-    if (!is_child[i]) roots.push_back(int(i));
-  return roots;
-}
 
 /* `below` has the world transform of the node itself. */
 void Walk::add(const JsonValue &physics, Visit &below)
@@ -125,7 +98,7 @@ void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
   const JsonValue nodes = trigger.member("nodes");
   if (nodes.array_size() == 0) nodes.fail("is empty; at least one node is needed");
   for (size_t i = 0; i < nodes.array_size(); ++i)
-    if (!parts_.emplace(int(nodes.element(i).unsigned_integer()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
+    if (!parts_.emplace(gltf_index(nodes.element(i), "node", document_.nodes.size()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
   at.list = bodies_.size();
   bodies_.push_back({{at.node, at.parent}, false, true});
 }
@@ -135,7 +108,6 @@ void Walk::settle_triggers()
 {
   if (!parts_.empty()) {
     const auto [part, whole] = *parts_.begin();
-    document_.require_node(part);
     document_.refuse(bodies_[whole].body.node, fmt::format("trigger.nodes lists {}, which is no node below it with a trigger geometry", document_.label(part)));
   }
   for (BodyNodes &nodes : bodies_) {
@@ -150,14 +122,11 @@ void Walk::settle_triggers()
 
 void Walk::visit(const Visit &at)
 {
-  document_.require_node(at.node);
   if (!visited_.insert(at.node).second) document_.refuse(at.node, "has two parents; a node tree is needed");
   Visit below = at;
   below.parent = at.parent * local_transform(document_, at.node);
-  below.animated |= animated_.count(at.node) > 0;
-  const nlohmann::json extensions = document_.extensions_of(at.node);
-  const std::string where = document_.place(at.node);
-  if (extensions.contains(bodies_extension)) add(JsonValue(extensions[bodies_extension], where), below);
+  below.animated |= document_.animated.count(at.node) > 0;
+  if (const auto physics = document_.physics_of(at.node)) add(*physics, below);
   const std::vector<int> &children = document_.node(at.node).children;
   for (auto child = children.rbegin(); child != children.rend(); ++child) {
     below.node = *child;
@@ -167,7 +136,7 @@ void Walk::visit(const Visit &at)
 
 std::vector<BodyNodes> Walk::bodies()
 {
-  std::vector<int> roots = root_nodes();
+  const std::vector<int> &roots = document_.roots;
   for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending_.push_back({*root, {}, none, none, false});
   while (!pending_.empty()) {
     Visit next = pending_.back();
@@ -180,9 +149,9 @@ std::vector<BodyNodes> Walk::bodies()
 
 } // namespace
 
-Scene read_scene_gltf(const std::string &path)
+Scene read_scene_gltf(const std::string &path, OutsideFiles outside)
 {
-  const GltfDocument document = read_gltf_document(path);
+  const GltfDocument document = read_gltf_document(path, outside);
   GltfBodies bodies(document);
   for (const BodyNodes &nodes : Walk(document).bodies()) bodies.add(nodes);
   Scene scene = bodies.take();

@@ -6,12 +6,13 @@
  */
 #pragma once
 
+#include "host/input_file.h"
 #include "host/scene.h"
 
 namespace tandem {
 
 /* Reads .gltf (text) or .glb (binary; told from the content) and validates. Gravity is
  * 9.81 m/s² along -Y, as glTF knows none. Throws InputError: `file: node 'name': what`. */
-Scene read_scene_gltf(const std::string &path);
+Scene read_scene_gltf(const std::string &path, OutsideFiles outside = OutsideFiles::refused);
 
 } // namespace tandem

@@ -40,7 +40,7 @@ void set_frame(const RigidPlace &frame, Body &body)
 
 GltfBodies::GltfBodies(const GltfDocument &document) : document_(document), shapes_(document)
 {
-  JsonValue bodies(document.bodies, document.where, std::string("extensions.") + bodies_extension);
+  const JsonValue bodies = document.extension(bodies_extension, document.where);
   static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras", "extensions"};
   bodies.only_keys(keys);
   scene_.name = document.where;
@@ -79,9 +79,7 @@ GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at, bool trigge
 {
   static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
   static constexpr const char *trigger_keys[] = {"geometry", "collisionFilter", "extras", "extensions"};
-  const nlohmann::json extensions = document_.extensions_of(at.node);
-  const std::string where = document_.place(at.node);
-  const JsonValue json = JsonValue(extensions[bodies_extension], where).member(trigger ? "trigger" : "collider");
+  const JsonValue json = document_.physics_of(at.node)->member(trigger ? "trigger" : "collider");
   if (trigger) json.only_keys(trigger_keys);
   else json.only_keys(collider_keys);
   const RigidPlace place = rigid_place(document_, at.node, at.world);
@@ -154,11 +152,7 @@ void GltfBodies::add(const BodyNodes &nodes)
   if (nodes.colliders.empty()) place_ghost(nodes, body);
   else if (nodes.colliders.size() == 1) place_alone(nodes, body);
   else place_together(nodes, body);
-  if (nodes.moves) {
-    const nlohmann::json extensions = document_.extensions_of(node);
-    const std::string where = document_.place(node);
-    read_gltf_motion(JsonValue(extensions[bodies_extension], where).member("motion"), nodes.body.world, scene_, body);
-  }
+  if (nodes.moves) read_gltf_motion(document_.physics_of(node)->member("motion"), nodes.body.world, scene_, body);
   scene_.bodies.push_back(body);
 }
 

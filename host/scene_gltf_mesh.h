@@ -2,7 +2,8 @@
 #pragma once
 
 #include "host/geometry/geometry.h"
-#include "host/scene_gltf_document.h"
+#include "host/scene_gltf_buffers.h"
+#include "host/scene_gltf_transform.h"
 
 namespace tandem {
 
@@ -11,10 +12,22 @@ struct GltfMesh {
   std::vector<Triangle> triangles;
 };
 
-/* `asks`, a geometry of a collider, begins the complaints. */
-GltfMesh mesh_at(const GltfDocument &document, uint32_t mesh, const JsonValue &asks);
+class GltfMeshes {
+public:
+  explicit GltfMeshes(const GltfDocument &document) : document_(document), buffers_(document) {}
 
-/* The meshes of the node and of all below it, in the node's own space: its own transform places the node, not the mesh. */
-GltfMesh mesh_of_node(const GltfDocument &document, uint32_t node, const JsonValue &asks);
+  /* `asks`, a geometry of a collider, begins the complaints. */
+  GltfMesh of_mesh(uint32_t mesh, const JsonValue &asks);
+  /* The meshes of the node and of all below it, in the node's own space: its own transform places the node, not the mesh. */
+  GltfMesh of_node(uint32_t node, const JsonValue &asks);
+
+private:
+  void check_packing(const JsonValue &primitive, uint32_t accessor, const JsonValue &asks) const;
+  void append_primitive(const JsonValue &primitive, const Transform &place, const JsonValue &asks, GltfMesh &mesh);
+  void append_mesh(int index, const Transform &place, const JsonValue &asks, GltfMesh &mesh);
+
+  const GltfDocument &document_;
+  GltfBuffers buffers_;
+};
 
 } // namespace tandem

@@ -139,13 +139,13 @@ Shape solid_of(const GltfMesh &mesh, const std::array<double, 3> &scale, bool hu
 GltfShape GltfShapes::read_implicit(const JsonValue &geometry, uint32_t index, const Vec3 &scale) const
 {
   static constexpr const char *document_keys[] = {"shapes", "extras", "extensions"};
-  JsonValue document(document_.shapes, geometry.where(), std::string("extensions.") + shapes_extension);
+  const nlohmann::json empty = nlohmann::json::object();
+  const JsonValue document = document_.extension(shapes_extension, geometry.where());
   document.only_keys(document_keys);
   JsonValue list = document.member("shapes");
   if (index >= list.array_size()) geometry.member("shape").fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
   JsonValue json = list.element(index);
   std::string type = json.member("type").text();
-  nlohmann::json empty = nlohmann::json::object();
   GltfShape result;
   if (type == "plane") result.shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())), scale);
   else if (type == "sphere") result.shape = read_sphere(json.member("sphere"), scale);
@@ -175,7 +175,7 @@ GltfShape GltfShapes::read(const JsonValue &geometry, const std::array<double, 3
   GltfShape result;
   if (use.source == 0) result = read_implicit(geometry, use.index, {float(std::abs(scale[0])), float(scale[1]), float(scale[2])});
   else
-    result.shape = solid_of(use.source == 1 ? mesh_of_node(document_, use.index, geometry) : mesh_at(document_, use.index, geometry), scale, use.hull_asked, geometry);
+    result.shape = solid_of(use.source == 1 ? meshes_.of_node(use.index, geometry) : meshes_.of_mesh(use.index, geometry), scale, use.hull_asked, geometry);
   return known_.emplace(use, std::move(result)).first->second;
 }
 

@@ -5,9 +5,7 @@
  */
 #pragma once
 
-#include "host/scene_gltf_document.h"
-
-#include <map>
+#include "host/scene_gltf_mesh.h"
 
 namespace tandem {
 
@@ -18,7 +16,7 @@ struct GltfShape {
 
 class GltfShapes {
 public:
-  explicit GltfShapes(const GltfDocument &document) : document_(document) {}
+  explicit GltfShapes(const GltfDocument &document) : document_(document), meshes_(document) {}
 
   /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. The same geometry in the
    * same scale gives the same shape: hull and mesh are shared. */
@@ -28,6 +26,7 @@ private:
   GltfShape read_implicit(const JsonValue &geometry, uint32_t index, const Vec3 &scale) const;
 
   const GltfDocument &document_;
+  GltfMeshes meshes_;
   struct Use {
     int source; /* shape, node or mesh */
     bool hull_asked;

@@ -73,7 +73,7 @@ bool is_mirrored(const Transform &t) { return determinant(t) < 0; }
 
 Transform local_transform(const GltfDocument &document, int index)
 {
-  const tinygltf::Node &node = document.node(index);
+  const GltfNode &node = document.node(index);
   auto has = [&](const std::vector<double> &values, size_t size, const char *name) {
     if (!values.empty() && values.size() != size)
       document.refuse(index, fmt::format("{} has {} numbers; {} are needed", name, values.size(), size));

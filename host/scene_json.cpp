@@ -4,12 +4,11 @@
 #include "host/geometry/shape_mass.h"
 #include "host/json_numbers.h"
 #include "host/json_reader.h"
+#include "host/output_file.h"
 #include "host/scene_json_shapes.h"
 
 #include <algorithm>
-#include <cstring>
 #include <fmt/format.h>
-#include <fstream>
 
 namespace tandem {
 namespace {
@@ -89,12 +88,15 @@ template <typename Record> void read_value(const JsonValue &json, Record &record
   });
 }
 
-void read_value(const JsonValue &json, Shape &shape) { read_shape(json, shape); }
-
 template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records)
 {
   records.resize(json.array_size());
   for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
+}
+
+void read_shapes(const JsonValue &json, OutsideFiles outside, std::vector<Shape> &shapes)
+{
+  for (size_t i = 0; i < json.array_size(); ++i) shapes.push_back(read_shape(json.element(i), outside));
 }
 
 /* With a density, mass, centre of mass and principal axes come from the shape, and the body's frame moves there. */
@@ -178,7 +180,7 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 
 } // namespace
 
-Scene parse_scene_json(const std::string &text, const std::string &where)
+Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
   static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
   nlohmann::json document = parse_json(text, where);
@@ -189,14 +191,14 @@ Scene parse_scene_json(const std::string &text, const std::string &where)
   if (auto name = root.find("name")) read_value(*name, scene.name);
   if (auto gravity = root.find("gravity")) read_value(*gravity, scene.gravity);
   if (auto materials = root.find("materials")) read_value(*materials, scene.materials);
-  read_value(root.member("shapes"), scene.shapes);
+  read_shapes(root.member("shapes"), outside, scene.shapes);
   read_value(root.member("bodies"), scene.bodies);
   take_densities(root.member("bodies"), scene, where);
   validate(scene, where);
   return scene;
 }
 
-Scene read_scene_json(const std::string &path) { return parse_scene_json(read_file(path), path); }
+Scene read_scene_json(const std::string &path, OutsideFiles outside) { return parse_scene_json(read_file(path), path, outside); }
 
 std::string to_scene_json(const Scene &scene)
 {
@@ -211,11 +213,10 @@ std::string to_scene_json(const Scene &scene)
 
 void write_scene_json(const Scene &scene, const std::string &path)
 {
-  std::string text = to_scene_json(scene);
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) throw InputError(fmt::format("{}: cannot write: {}", path, std::strerror(errno)));
+  const std::string text = to_scene_json(scene);
+  OutputFile file(path, path);
+  file.write(text);
+  file.commit();
 }
 
 } // namespace tandem

@@ -5,16 +5,17 @@
  */
 #pragma once
 
+#include "host/input_file.h"
 #include "host/scene.h"
 
 namespace tandem {
 
 /* Reads and validates. Throws InputError with the file and the place in it (bodies[3].mass), or
  * line and column when it is not JSON at all. */
-Scene read_scene_json(const std::string &path);
+Scene read_scene_json(const std::string &path, OutsideFiles outside = OutsideFiles::refused);
 
 /* The same from memory; `where` stands for the file name in messages. */
-Scene parse_scene_json(const std::string &text, const std::string &where);
+Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside = OutsideFiles::refused);
 
 /* The text of a scene file. Throws InputError when the scene is not valid. */
 std::string to_scene_json(const Scene &scene);

@@ -2,7 +2,6 @@
 #include "host/scene_json_shapes.h"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/obj.h"
@@ -80,10 +79,10 @@ std::vector<Triangle> read_triangles(const JsonValue &json)
   return triangles;
 }
 
-ObjMesh read_obj(const JsonValue &json)
+ObjMesh read_obj(const JsonValue &json, OutsideFiles outside)
 {
-  const std::filesystem::path file = std::filesystem::path(json.where()).parent_path() / json.text();
-  return load_obj(file.string());
+  const std::string text = read_file_beside(json.where(), json.text(), outside, json.place());
+  return parse_obj(text, fmt::format("{}: {}", json.place(), json.text()));
 }
 
 /* A mirrored mesh is turned inside out by it, and back here. */
@@ -96,23 +95,23 @@ void take_scale(const JsonValue &json, std::vector<Vec3> &points, std::vector<Tr
   if (scale[0] * scale[1] * scale[2] < 0) triangles = turned_round(triangles);
 }
 
-Shape read_hull(const JsonValue &json)
+Shape read_hull(const JsonValue &json, OutsideFiles outside)
 {
   only_one(json, "points", "obj");
   const std::optional<JsonValue> file = json.find("obj");
   const JsonValue source = file ? *file : json.member("points");
-  std::vector<Vec3> points = file ? read_obj(source).vertices : read_points(source);
+  std::vector<Vec3> points = file ? read_obj(source, outside).vertices : read_points(source);
   std::vector<Triangle> none;
   take_scale(json, points, none);
   return hull_shape(points, source.place());
 }
 
-Shape read_mesh(const JsonValue &json)
+Shape read_mesh(const JsonValue &json, OutsideFiles outside)
 {
   only_one(json, "vertices", "obj");
   only_one(json, "triangles", "obj");
   ObjMesh mesh;
-  if (const std::optional<JsonValue> file = json.find("obj")) mesh = read_obj(*file);
+  if (const std::optional<JsonValue> file = json.find("obj")) mesh = read_obj(*file, outside);
   else mesh = {read_points(json.member("vertices")), read_triangles(json.member("triangles"))};
   take_scale(json, mesh.vertices, mesh.triangles);
   std::vector<uint32_t> indices;
@@ -129,12 +128,12 @@ Shape read_height_field(const JsonValue &json)
   return height_field_shape(heights, json.member("columns").unsigned_integer(), spacing.element(0).number(), spacing.element(1).number(), json.place());
 }
 
-Child read_child(const JsonValue &json)
+Child read_child(const JsonValue &json, OutsideFiles outside)
 {
   static constexpr const char *keys[] = {"shape", "position", "orientation", "density", "material", "filter_group", "filter_mask"};
   json.only_keys(keys);
   Child child;
-  read_shape(json.member("shape"), child.shape);
+  child.shape = read_shape(json.member("shape"), outside);
   if (const auto position = json.find("position")) child.position = position->vec3();
   if (const auto orientation = json.find("orientation")) child.orientation = orientation->quat();
   if (const auto density = json.find("density")) child.density = density->number();
@@ -144,10 +143,10 @@ Child read_child(const JsonValue &json)
   return child;
 }
 
-Shape read_compound(const JsonValue &children)
+Shape read_compound(const JsonValue &children, OutsideFiles outside)
 {
   std::vector<Child> list;
-  for (size_t i = 0; i < children.array_size(); ++i) list.push_back(read_child(children.element(i)));
+  for (size_t i = 0; i < children.array_size(); ++i) list.push_back(read_child(children.element(i), outside));
   return compound_shape(std::move(list));
 }
 
@@ -217,21 +216,23 @@ std::string written_radii(const Shape &shape)
 
 } // namespace
 
-void read_shape(const JsonValue &json, Shape &shape)
+Shape read_shape(const JsonValue &json, OutsideFiles outside)
 {
+  Shape shape;
   const auto name = Name(json.member("type").choice(names));
   std::vector<const char *> known = keys_of(name);
   std::optional<JsonValue> size = json.find("size");
   for (const char *key : replaced_by_size(name)) only_one(json, "size", key);
   known.insert(known.begin(), "type");
   json.only_keys(known);
-  if (name == hull) shape = read_hull(json);
-  else if (name == mesh) shape = read_mesh(json);
+  if (name == hull) shape = read_hull(json, outside);
+  else if (name == mesh) shape = read_mesh(json, outside);
   else if (name == height_field) shape = read_height_field(json);
-  else if (name == compound) shape = read_compound(json.member("children"));
+  else if (name == compound) shape = read_compound(json.member("children"), outside);
   else shape = {types[name], {0, 0, 0}};
   if (size) shape.size = size->vec3();
   else read_size(json, name, shape);
+  return shape;
 }
 
 std::string written_shape(const Shape &shape)

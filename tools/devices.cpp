@@ -1,5 +1,6 @@
 /* devices.cpp - `tandem devices`: what can run kernels here, and whether its bits can be trusted. */
 #include <memory>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -42,7 +43,22 @@ Json device_json(const opencl::DeviceInfo &device)
           {"note", device.reason}};
 }
 
-Json devices_json(const std::vector<opencl::DeviceInfo> &devices)
+/* What OpenCL offers, or why it offers nothing. */
+struct Offer {
+  std::vector<opencl::DeviceInfo> devices;
+  std::string fault;
+};
+
+Offer opencl_offer()
+{
+  try {
+    return {opencl::list_devices(), ""};
+  } catch (const std::runtime_error &error) {
+    return {{}, error.what()};
+  }
+}
+
+Json devices_json(const Offer &offer)
 {
   Json list = Json::array();
   list.push_back({{"name", "serial"}, {"kind", "cpu"}, {"threads", 1}, {"lanes", {1}}, {"exact", true}});
@@ -50,21 +66,22 @@ Json devices_json(const std::vector<opencl::DeviceInfo> &devices)
                   {"exact", true}});
   list.push_back({{"name", "reference"}, {"kind", "cpu"}, {"threads", tbb::info::default_concurrency()}, {"lanes", {1}}, {"exact", false},
                   {"note", "double precision"}});
-  for (const opencl::DeviceInfo &device : devices) list.push_back(device_json(device));
-  return {{"backends", list}};
+  for (const opencl::DeviceInfo &device : offer.devices) list.push_back(device_json(device));
+  return {{"backends", list}, {"opencl_fault", offer.fault.empty() ? Json(nullptr) : Json(offer.fault)}};
 }
 
-void print_devices(const std::vector<opencl::DeviceInfo> &devices)
+void print_devices(const Offer &offer)
 {
   fmt::print("serial   one thread, one item at a time: what every other is compared with, and the one for gdb\n");
   fmt::print("reference  the same kernels in double: for measuring errors, never compared bit for bit\n");
   fmt::print("tbb      {} threads, {} lanes\n", tbb::info::default_concurrency(), fmt::join(lane_widths(), ", "));
-  for (const opencl::DeviceInfo &device : devices) {
+  for (const opencl::DeviceInfo &device : offer.devices) {
     fmt::print("{:<8} {} {}\n", short_name(device), device.type, device.device_name);
     fmt::print("         {}, {}, driver {}\n", device.platform_name, device.platform_version, device.driver_version);
     fmt::print("         {}\n", verdict(device));
   }
-  if (devices.empty()) fmt::print("No OpenCL device: no platform is installed, or none has one. serial and tbb need none.\n");
+  if (!offer.fault.empty()) fmt::print("No OpenCL device: {}\n", offer.fault);
+  else if (offer.devices.empty()) fmt::print("No OpenCL device: no platform is installed, or none has one. serial and tbb need none.\n");
 }
 
 } // namespace
@@ -76,9 +93,9 @@ Command devices_command(CLI::App &parser)
   command->add_option("--json", json->path, "write the list as JSON; - for standard output")->type_name("FILE");
   return {command, [json] {
             json->check();
-            const std::vector<opencl::DeviceInfo> devices = opencl::list_devices();
-            if (!json->takes_standard_output()) print_devices(devices);
-            json->write(devices_json(devices));
+            const Offer offer = opencl_offer();
+            if (!json->takes_standard_output()) print_devices(offer);
+            json->write(devices_json(offer));
             return 0;
           }};
 }

@@ -84,11 +84,11 @@ std::string quoted(const std::string &text)
   return result + "'";
 }
 
-std::string gdb_line(const Difference &difference, const SceneOptions &options)
+std::string gdb_line(const Difference &difference, const SceneOptions &options, const std::string &broadphase)
 {
   if (difference.breakpoint.empty()) return "";
   return fmt::format("gdb -ex 'break {}' -ex run --args tandem run {} --on serial --steps {}{}", difference.breakpoint,
-                     quoted(options.scene_text()), difference.step + 1, options.typed_again());
+                     quoted(options.scene_text()), difference.step + 1, options.typed_again(broadphase));
 }
 
 std::string kernel_name(const Difference &difference) { return difference.kernel ? row_of(*difference.kernel).name : ""; }
@@ -100,7 +100,7 @@ Json bodies_json(const Difference &difference, const Scene &scene)
   return bodies;
 }
 
-Json difference_json(const Difference &difference, const Scene &scene, const SceneOptions &options)
+Json difference_json(const Difference &difference, const Scene &scene, const SceneOptions &options, const std::string &broadphase)
 {
   const auto text_or_null = [](const std::string &text) { return text.empty() ? Json(nullptr) : Json(text); };
   Json json = {{"step", difference.step}, {"kernel", text_or_null(kernel_name(difference))}, {"launch", difference.launch}};
@@ -116,7 +116,7 @@ Json difference_json(const Difference &difference, const Scene &scene, const Sce
   json["ulps"] = difference.ulps ? Json(*difference.ulps) : Json(nullptr);
   json["differing"] = difference.differing;
   json["bodies"] = bodies_json(difference, scene);
-  json["gdb"] = text_or_null(gdb_line(difference, options));
+  json["gdb"] = text_or_null(gdb_line(difference, options, broadphase));
   json["note"] = text_or_null(difference.note);
   return json;
 }
@@ -127,10 +127,12 @@ Json comparison_json(const Comparison &comparison, const ComparisonRequest &requ
   const auto &difference = comparison.first_difference;
   return {{"equal", comparison.equal},
           {"backends", request.backends},
+          {"broadphase", comparison.broadphase.name},
+          {"broadphase_why", comparison.broadphase.why},
           {"steps", comparison.steps},
           {"kernels_compared", comparison.kernels_compared},
           {"bytes_compared", comparison.bytes_compared},
-          {"first_difference", difference ? difference_json(*difference, scene, options) : Json(nullptr)}};
+          {"first_difference", difference ? difference_json(*difference, scene, options, comparison.broadphase.name) : Json(nullptr)}};
 }
 
 std::string bodies_text(const Difference &difference, const Scene &scene)
@@ -157,14 +159,14 @@ void print_place(const Difference &difference, const Scene &scene)
   fmt::print("{}", table.text("  "));
 }
 
-void print_difference(const Difference &difference, const Scene &scene, const SceneOptions &options)
+void print_difference(const Difference &difference, const Scene &scene, const SceneOptions &options, const std::string &broadphase)
 {
   fmt::print("DIFFERENT: {} and {} in step {}", difference.backends[0], difference.backends[1], difference.step);
   if (difference.kernel) fmt::print(", kernel {} (launch {} of the step)", kernel_name(difference), difference.launch);
   fmt::print("\n");
   if (difference.buffer && !difference.breakpoint.empty()) print_place(difference, scene);
   if (!difference.note.empty()) fmt::print("  {}\n", difference.note);
-  const std::string gdb = gdb_line(difference, options);
+  const std::string gdb = gdb_line(difference, options, broadphase);
   if (!gdb.empty()) fmt::print("\nTo stop there (debug build):\n  {}\n", gdb);
 }
 
@@ -184,8 +186,9 @@ int execute(const DiffOptions &options)
   const Comparison comparison = compare_backends(scene, request);
   progress.clear();
   if (!options.json.takes_standard_output()) {
+    if (request.settings.broadphase == "auto") fmt::print("Broadphase on all of them: {} ({})\n", comparison.broadphase.name, comparison.broadphase.why);
     if (comparison.equal) fmt::print("EQUAL");
-    else print_difference(*comparison.first_difference, scene, options.scene);
+    else print_difference(*comparison.first_difference, scene, options.scene, comparison.broadphase.name);
     fmt::print("{}{}: {} steps, {} kernels and {} compared bit for bit\n", comparison.equal ? ": " : "\n",
                fmt::join(request.backends, ", "), comparison.steps, comparison.kernels_compared,
                bytes_text(comparison.bytes_compared));

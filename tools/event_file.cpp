@@ -1,9 +1,6 @@
 /* event_file.cpp - see event_file.h. One event a line, so that other tools can read it by lines too. */
 #include "tools/event_file.h"
 
-#include <cerrno>
-#include <cstring>
-
 #include <fmt/format.h>
 
 #include "tools/output.h"
@@ -24,27 +21,26 @@ std::string line_of(uint64_t step, const ContactEvent &event)
 } // namespace
 
 EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
-    : path_(path), file_(path, std::ios::binary | std::ios::trunc)
+    : file_(path, fmt::format("--events {}", path))
 {
   Json names = Json::array();
   for (const Body &body : world.scene().bodies) names.push_back(body.name);
   const auto dumped = [](const Json &json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
-  file_ << fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": {}, \"events\": [", dumped(scene), world.settings().step, dumped(names));
+  file_.write(fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": {}, \"events\": [", dumped(scene), world.settings().step, dumped(names)));
 }
 
 void EventFile::add_step(uint64_t step, World &world)
 {
   for (const ContactEvent &event : world.contact_events()) {
-    file_ << (first_ ? "\n" : ",\n") << line_of(step, event);
+    file_.write((first_ ? "\n" : ",\n") + line_of(step, event));
     first_ = false;
   }
 }
 
 void EventFile::finish()
 {
-  file_ << "\n]}\n";
-  file_.close();
-  if (!file_) throw InputError(fmt::format("--events {}: cannot write this file: {}", path_, std::strerror(errno)));
+  file_.write("\n]}\n");
+  file_.commit();
 }
 
 } // namespace tandem

@@ -2,24 +2,23 @@
 #pragma once
 
 #include <cstdint>
-#include <fstream>
 #include <string>
 
+#include "host/output_file.h"
 #include "host/world.h"
 
 namespace tandem {
 
 class EventFile {
 public:
-  /* Truncates. InputError names --events where the file cannot be written. */
+  /* InputError names --events where the file cannot be written. */
   EventFile(const std::string &path, const std::string &scene, const World &world);
 
   void add_step(uint64_t step, World &world); /* the events of the step just made */
   void finish();                              /* InputError where the disk did not take it all */
 
 private:
-  std::string path_;
-  std::ofstream file_;
+  OutputFile file_;
   bool first_ = true;
 };
 

@@ -10,6 +10,7 @@
 
 #include "host/shape_bounds.h"
 #include "host/specialise.h"
+#include "tools/output.h"
 #include "tools/scene_options.h"
 
 namespace tandem {
@@ -211,8 +212,11 @@ void write_png(const std::string &path, const std::vector<uint8_t> &pixels, uint
   image.width = width;
   image.height = height;
   image.format = PNG_FORMAT_RGB;
-  if (!png_image_write_to_file(&image, path.c_str(), 0, pixels.data(), 0, nullptr))
-    throw InputError(fmt::format("--image '{}' cannot be written: {}", path, image.message));
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::string png(size, '\0');
+  if (!png_image_write_to_memory(&image, png.data(), &size, 0, pixels.data(), 0, nullptr))
+    throw std::runtime_error(fmt::format("--image {}: the picture cannot be made: {}", path, image.message));
+  write_file("--image", path, {png.data(), size});
 }
 
 } // namespace tandem

@@ -1,9 +1,17 @@
 /* main.cpp - the command `tandem`: parses, runs one subcommand, turns errors into one line. */
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <string>
+#include <system_error>
 #include <vector>
+
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <fmt/format.h>
 
@@ -18,8 +26,36 @@ int complain(std::string message, int status)
 {
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();
-  fmt::print(stderr, "tandem: {}\n", message);
+  std::fputs(fmt::format("tandem: {}\n", message).c_str(), stderr);
   return status;
+}
+
+/* A file opened later would else take the number of an output that is closed, and what is printed would land in it. */
+void keep_standard_files_apart()
+{
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that its use fails */
+}
+
+constexpr int output_lost = -1; /* and said */
+
+/* Where the reader of standard output has gone, as `head` does, the process ends as others do; other pipes are told as files are. */
+int complain_of_output(int reason)
+{
+  if (reason == EPIPE) {
+    std::signal(SIGPIPE, SIG_DFL);
+    std::raise(SIGPIPE);
+  }
+  complain(fmt::format("standard output: cannot write: {}", std::strerror(reason ? reason : EIO)), 2);
+  return output_lost;
+}
+
+/* What was printed may wait in the buffer still. */
+int with_output_written(int status)
+{
+  errno = 0;
+  if (status != output_lost && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
+  return status == output_lost ? 2 : status;
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -51,7 +87,7 @@ int parse_and_execute(int count, char **arguments)
                   "tandem");
   parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
-                "Exit status: 0 fine, 1 the check failed, 2 bad use or input.");
+                "Exit status: 0 fine, 1 the check failed, 2 bad use or input, or an output that cannot be written.");
   const std::vector<Command> commands = add_commands(parser);
   try {
     parser.parse(count, arguments);
@@ -66,18 +102,27 @@ int parse_and_execute(int count, char **arguments)
   return execute_parsed(commands);
 }
 
+int guarded(int count, char **arguments)
+{
+  try {
+    return parse_and_execute(count, arguments);
+  } catch (const InputError &error) {
+    return complain(error.what(), 2);
+  } catch (const std::bad_alloc &) {
+    return complain("out of memory", 1);
+  } catch (const std::system_error &error) { /* fmt::print throws one where the output takes no more */
+    return std::ferror(stdout) ? complain_of_output(error.code().value()) : complain(error.what(), 1);
+  } catch (const std::exception &error) {
+    return complain(error.what(), 1);
+  }
+}
+
 } // namespace
 } // namespace tandem
 
 int main(int count, char **arguments)
 {
-  try {
-    return tandem::parse_and_execute(count, arguments);
-  } catch (const tandem::InputError &error) {
-    return tandem::complain(error.what(), 2);
-  } catch (const std::bad_alloc &) {
-    return tandem::complain("out of memory", 1);
-  } catch (const std::exception &error) {
-    return tandem::complain(error.what(), 1);
-  }
+  std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
+  tandem::keep_standard_files_apart();
+  return tandem::with_output_written(tandem::guarded(count, arguments));
 }

@@ -2,42 +2,28 @@
 #include "tools/output.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 
 #include <fmt/format.h>
 
-#include "host/scene.h"
+#include "host/output_file.h"
 
 namespace tandem {
 namespace {
 
-[[noreturn]] void refuse(const std::string &option, const std::string &path)
-{
-  throw InputError(fmt::format("{} {}: cannot write this file: {}", option, path, std::strerror(errno)));
-}
+std::string label_of(const std::string &option, const std::string &path) { return fmt::format("{} {}", option, path); }
 
 } // namespace
 
 void check_writable(const std::string &option, const std::string &path)
 {
-  if (path.empty() || path == "-") return;
-  const bool existed = std::filesystem::exists(path);
-  std::FILE *file = std::fopen(path.c_str(), "ab");
-  if (!file) refuse(option, path);
-  std::fclose(file);
-  if (!existed) std::filesystem::remove(path);
+  if (!path.empty() && path != "-") OutputFile::check(path, label_of(option, path));
 }
 
-void write_file(const std::string &option, const std::string &path, const std::string &contents)
+void write_file(const std::string &option, const std::string &path, std::string_view contents)
 {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-  file.close();
-  if (!file) refuse(option, path);
+  OutputFile file(path, label_of(option, path));
+  file.write(contents);
+  file.commit();
 }
 
 void JsonOutput::write(const Json &json) const

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -19,8 +20,8 @@ using Json = nlohmann::ordered_json;
  * Empty paths and "-" pass. */
 void check_writable(const std::string &option, const std::string &path);
 
-/* Truncates and writes; InputError if the disk will not take it. */
-void write_file(const std::string &option, const std::string &path, const std::string &contents);
+/* Whole or not at all (host/output_file.h); InputError if the disk will not take it. */
+void write_file(const std::string &option, const std::string &path, std::string_view contents);
 
 /* The --json option's value: FILE, "-" for standard output, or empty for none. */
 class JsonOutput {

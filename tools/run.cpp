@@ -22,6 +22,7 @@ struct RunOptions {
   explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
   SceneOptions scene;
   std::string save, image, image_size = "960x540", camera, trace, events;
+  bool allow_quarantine = false;
   JsonOutput json;
 };
 
@@ -36,7 +37,9 @@ void add_options(CLI::App &parser, RunOptions &options)
       ->type_name("F.json");
   parser.add_option("--events", options.events, "write which bodies begin, go on and cease to touch in each step, and how hard")->type_name("F.json");
   parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
-  parser.footer("Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
+  parser.add_flag("--allow-quarantine", options.allow_quarantine, "exit status 0 also where bodies stopped being finite and were taken out");
+  parser.footer("Exit status: 0 fine, 1 a body stopped being finite or a batch is wrong, 2 bad use or input, or an output that cannot be written.\n"
+                "Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
                 "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
                 "stages alone.");
 }
@@ -169,11 +172,14 @@ void print_outcome(const Outcome &outcome, World &world, const Placement &placem
 }
 
 /* What a user must not miss, whatever else is printed. */
-void print_warnings(const Outcome &outcome, World &world)
+void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
 {
   for (const Quarantine &quarantine : world.quarantined())
     fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
                quarantine.name, quarantine.step, quarantine.stage);
+  if (!world.quarantined().empty() && !allow_quarantine)
+    fmt::print(stderr, "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n", world.quarantined().size(),
+               world.scene().bodies.size());
   if (outcome.statistics.overflow)
     fmt::print(stderr, "tandem: {} steps ran again with larger buffers\n", outcome.statistics.overflow);
 }
@@ -223,10 +229,10 @@ int execute(const RunOptions &options)
   const Outcome outcome = simulate(world, options, steps);
   save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
-  print_warnings(outcome, world);
+  print_warnings(outcome, world, options.allow_quarantine);
   options.json.write(outcome_json(outcome, world, placement));
   if (world.batch_fault()) fmt::print(stderr, "tandem: {}\n", describe(*world.batch_fault()));
-  return world.batch_fault() ? 1 : 0;
+  return world.batch_fault() || (!world.quarantined().empty() && !options.allow_quarantine) ? 1 : 0;
 }
 
 } // namespace

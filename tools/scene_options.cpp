@@ -73,6 +73,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--batching", batching_, one_of("batching", batching_names()), "NAME");
   parser.add_flag("--check", check_, "prove in every step that no batch touches a moving body twice and that every contact is in one; exit status 1 if not");
   parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
+  parser.add_flag("--allow-outside-files", outside_files_, "let a scene file name files (buffers, OBJ files) outside its own folder");
   parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
 }
 
@@ -115,12 +116,12 @@ uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1,
 
 Scene SceneOptions::scene() const
 {
-  Scene scene = load_scene(scene_);
+  Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
   for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
   return scene;
 }
 
-std::string SceneOptions::typed_again() const
+std::string SceneOptions::typed_again(const std::string &broadphase) const
 {
   const Settings defaults;
   std::string text;
@@ -131,13 +132,14 @@ std::string SceneOptions::typed_again() const
   add("--substeps", substeps_, "");
   add("--iterations", iterations_, "");
   add("--solver", solver_, defaults.solver);
-  add("--broadphase", broadphase_, defaults.broadphase);
+  add("--broadphase", broadphase, defaults.broadphase);
   add("--bounds", bounds_, defaults.bounds);
   add("--midphase", midphase_, defaults.midphase);
   add("--narrowphase", narrowphase_, defaults.narrowphase);
   add("--support", support_, defaults.support);
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
   add("--batching", batching_, defaults.batching);
+  if (outside_files_) text += " --allow-outside-files";
   if (check_) text += " --check";
   if (events_) text += " --events events.json";
   if (no_specialise_) text += " --no-specialise";

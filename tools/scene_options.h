@@ -31,13 +31,13 @@ public:
   Scene scene() const;
   const std::string &scene_text() const { return scene_; }
 
-  /* The options that differ from their defaults, as they would be typed again. */
-  std::string typed_again() const;
+  /* The options that differ from their defaults, as they would be typed again; `broadphase` is the one that was used, which auto does not say. */
+  std::string typed_again(const std::string &broadphase) const;
 
 private:
   std::string scene_, on_ = "tbb", place_, steps_ = "120", step_, substeps_, iterations_;
   std::string solver_, broadphase_, bounds_, midphase_, narrowphase_, support_, support_cells_, batching_;
-  bool no_specialise_ = false, inexact_ = false, check_ = false, events_ = false;
+  bool no_specialise_ = false, inexact_ = false, check_ = false, events_ = false, outside_files_ = false;
 };
 
 } // namespace tandem

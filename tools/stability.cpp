@@ -154,13 +154,8 @@ size_t runs_at_once(const StabilityOptions &options)
   return device ? 1 : processor_count();
 }
 
-/* Whole or not at all, so that a run that is cut off leaves what it has found. */
-void save(const StabilityOptions &options, const Json &json)
-{
-  const std::string path = options.out + "/stability.json", beside = path + ".new";
-  write_file("--out", beside, json.dump(1) + "\n");
-  std::filesystem::rename(beside, path);
-}
+/* Again after each case, so that a run that is cut off leaves what it has found. */
+void save(const StabilityOptions &options, const Json &json) { write_file("--out", options.out + "/stability.json", json.dump(1) + "\n"); }
 
 /* In their fixed order: what ends before an earlier one waits for it. `told` is how many were. */
 void tell(const stability::Results &so_far, size_t &told)

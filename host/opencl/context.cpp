@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/opencl/probe.h"
 #include "minicl/floating_point.h"
 #include "shared/platform.h"
 
@@ -72,10 +73,8 @@ Candidate describe(const cl::Platform &platform, const cl::Device &device, uint3
   return candidate;
 }
 
-} // namespace
-
 /* Threads that a driver starts here inherit the floating-point environment, so it is set first. */
-std::vector<Candidate> find_candidates()
+std::vector<Candidate> ask_drivers()
 {
   const minicl::ExactFloatingPoint environment;
   cl_uint platform_count = 0;
@@ -92,6 +91,15 @@ std::vector<Candidate> find_candidates()
       candidates.push_back(describe(cl::Platform(platforms[p]), cl::Device(devices[d], true), p, d));
   }
   return candidates;
+}
+
+} // namespace
+
+std::vector<Candidate> find_candidates()
+{
+  static const std::string fault = driver_fault([] { ask_drivers(); });
+  if (!fault.empty()) throw DeviceError(fault);
+  return ask_drivers();
 }
 
 DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info), device(candidate.device)

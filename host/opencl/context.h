@@ -18,6 +18,7 @@ struct Candidate {
   bool promises_exact_division = false;
 };
 
+/* DeviceError where a driver does not survive the question (host/opencl/probe.h). */
 std::vector<Candidate> find_candidates();
 
 struct DeviceContext {

@@ -70,9 +70,18 @@ void put_best_first(std::vector<Candidate> &candidates)
   throw InputError(fmt::format("backend '{}': no OpenCL device is '{}'; there is {}", text, choice, fmt::join(titles, ", ")));
 }
 
+std::vector<Candidate> candidates_for(const std::string &text)
+{
+  try {
+    return find_candidates();
+  } catch (const DeviceError &error) {
+    throw InputError(fmt::format("backend '{}': {}", text, error.what()));
+  }
+}
+
 Candidate choose_device(const std::string &text, const std::string &choice, bool allow_inexact)
 {
-  const std::vector<Candidate> all = find_candidates();
+  const std::vector<Candidate> all = candidates_for(text);
   std::vector<Candidate> matching;
   std::copy_if(all.begin(), all.end(), std::back_inserter(matching),
                [&](const Candidate &candidate) { return matches(candidate.info, choice); });

@@ -185,10 +185,10 @@ TEST_CASE("scales of zero, and numbers that no node, material or vertex has")
       {"zero scale in a compound", {.nodes = compound + collider(0, R"("name":"Lid","scale":[1,1,0],)")}, "node 'Lid': its scale is 0 along Z"},
       {"a shape that a part lacks", {.nodes = compound + collider(7, R"("name":"Lid",)")}, "node 'Lid': collider.geometry.shape: shape 7 does not exist"},
       {"a material that a part lacks", {.nodes = compound + collider(0, R"("name":"Lid",)", R"(,"physicsMaterial":4294967295)")}, "node 'Lid': collider.physicsMaterial: material 4294967295"},
-      {"a child beyond int", {.nodes = cup("", 0, R"("children":[4294967296],)")}, "node 'Cup': children[0]: node 4294967296 does not exist"},
+      {"a child beyond int", {.nodes = cup("", 0, R"("children":[4294967296],)")}, "node 'Cup': children[0]: is 4294967296; an integer from 0 to 4294967295 is needed"},
       {"a child that the file lacks", {.nodes = cup("", 0, R"("children":[7],)")}, "node 'Cup': children[0]: node 7 does not exist; the file has 1"},
-      {"a child below 0", {.nodes = cup("", 0, R"("children":[-1],)")}, "node 'Cup': children[0]: node -1 does not exist"},
-      {"a child of the scene beyond int", {.nodes = cup(""), .more = R"(,"scenes":[{"nodes":[0,8589934592]}])"}, "scene 0: nodes[1]: node 8589934592 does not exist"},
+      {"a child below 0", {.nodes = cup("", 0, R"("children":[-1],)")}, "node 'Cup': children[0]: is -1; an integer from 0"},
+      {"a child of the scene beyond int", {.nodes = cup(""), .more = R"(,"scenes":[{"nodes":[0,8589934592]}])"}, "scenes[0].nodes[1]: is 8589934592; an integer from 0"},
   };
   for (const Line &line : lines) {
     CAPTURE(line.what);

@@ -1,5 +1,6 @@
 /* scene_test.cpp - what cannot be simulated is named; moments of inertia agree with summed volume elements. */
 #include "host/scene.h"
+#include "host/world.h"
 #include "tests/catch.h"
 
 #include <functional>
@@ -190,5 +191,70 @@ TEST_CASE("inertia agrees with summed volume elements")
   for (const Shape &shape : {box_shape(1, 2, 3), box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.7f)}) {
     Vec3 expected = summed_inertia(shape, 2.5), actual = inertia_of(shape, 2.5f);
     for (size_t axis = 0; axis < 3; ++axis) CHECK(actual[axis] == Approx(expected[axis]).epsilon(0.002));
+  }
+}
+
+TEST_CASE("numbers whose powers and sums are no floats are refused, field by field")
+{
+  const std::vector<Shape> largest{sphere_shape(1e9f),        box_shape(1e9f, 1, 1), box_shape(1, 1, 1e9f), capsule_shape(1e9f, 1),
+                                   capsule_shape(1, 1e9f), cylinder_shape(1e9f, 1), cylinder_shape(1, 1e9f), cone_shape(1e9f, 1)};
+  const auto said = [](const Shape &shape) {
+    return complaint([&](Scene &s) {
+      s.shapes[0] = shape;
+      s.bodies[0].motion = Motion::fixed;
+    });
+  };
+  for (const Shape &shape : largest) {
+    CHECK(said(shape).empty());
+    for (const float factor : {2.0f, 1e10f, 3e29f}) {
+      Shape larger = shape;
+      for (float &x : larger.size) x *= x == 1e9f ? factor : 1;
+      CHECK(said(larger).find("so that what is computed from it stays a float") != std::string::npos);
+      Child child;
+      child.shape = larger;
+      CHECK_FALSE(said(compound_shape({child})).empty());
+    }
+  }
+  const std::vector<Vec3> far{{0, 0, 0}, {0, 0, 2e9f}, {2e9f, 0, 0}, {0, 2e9f, 0}};
+  CHECK(said(hull_shape(far, "far")).find("a vertex of the hull") != std::string::npos);
+  CHECK(said(mesh_shape(far, std::vector<uint32_t>{0, 1, 2}, "far")).find("a vertex of the mesh") != std::string::npos);
+  Child child;
+  child.shape = sphere_shape(1);
+  child.position = {0, -2e9f, 0};
+  CHECK(said(compound_shape({child})).find("child 0: position is -2") != std::string::npos);
+  CHECK(complaint([](Scene &s) { s.bodies[0].position = {1e18, -1e18, 0}; }).empty());
+  const std::vector<std::function<void(Scene &)>> spoilers{
+      [](Scene &s) { s.bodies[0].position[1] = -2e18; },
+      [](Scene &s) { s.bodies[0].position[2] = 1e300; },
+      [](Scene &s) { s.bodies[0].shape_position = {2e9f, 0, 0}; },
+      [](Scene &s) { s.bodies[0].mass = 2e36f; },
+      [](Scene &s) { s.bodies[0].mass = 5e-37f; },
+      [](Scene &s) { s.bodies[0].inertia = {1, 2e36f, 1}; },
+      [](Scene &s) { s.bodies[0].inertia = {1, 1, 5e-37f}; },
+      [](Scene &s) { s.materials[0].static_friction = 2e9f; },
+      [](Scene &s) { s.materials[0].dynamic_friction = 2e9f; },
+      [](Scene &s) { s.materials[0].rolling_friction = 1e30f; },
+      [](Scene &s) { s.materials[0].spinning_friction = 3e38f; },
+  };
+  for (size_t i = 0; i < spoilers.size(); ++i) {
+    INFO("spoiler " << i);
+    CHECK_FALSE(complaint(spoilers[i]).empty());
+  }
+}
+
+TEST_CASE("the largest shapes meet what is in them")
+{
+  for (const Shape &shape : {sphere_shape(1e9f), box_shape(1e9f, 1e9f, 1e9f), capsule_shape(1e9f, 1e9f), cylinder_shape(1e9f, 1e9f)}) {
+    Scene scene;
+    scene.shapes = {shape, sphere_shape(1)};
+    Body large, small;
+    large.motion = Motion::fixed;
+    small.shape = 1;
+    scene.bodies = {large, small};
+    World world(scene, {}, Placement{"serial", {}, false});
+    world.step();
+    CHECK(world.statistics().pairs == 1);
+    CHECK(world.statistics().contacts > 0);
+    CHECK(world.quarantined().empty());
   }
 }

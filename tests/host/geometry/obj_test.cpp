@@ -67,7 +67,7 @@ TEST_CASE("obj: numbers are read to the nearest float, or its neighbour")
 TEST_CASE("obj: what is no shape is refused in one line with the file's name")
 {
   CHECK_THAT(refusal(""), ContainsSubstring("cube.obj: no vertices"));
-  CHECK_THAT(refusal("{\"not\": \"an OBJ file\"}\n"), ContainsSubstring("cube.obj: no vertices"));
+  CHECK_THAT(refusal("{\"not\": \"an OBJ file\"}\n"), ContainsSubstring("cube.obj: line 1: '{\"not\":' begins no line that is known"));
   for (const std::string face : {"f 1 2 4\n", "f 1 2 -9\n", "f 0 1 2\n"}) {
     const std::string said = refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face);
     INFO(face << said);
@@ -77,4 +77,44 @@ TEST_CASE("obj: what is no shape is refused in one line with the file's name")
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 4\n"), ContainsSubstring("a face names vertex 4, but there are 2"));
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"), ContainsSubstring("a face counts back 7 vertices before the first"));
   CHECK_THAT(complaint([] { load_obj("/no/such/file.obj"); }), ContainsSubstring("/no/such/file.obj"));
+}
+
+TEST_CASE("obj: no line is taken for what it is not")
+{
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+  for (const char *vertex : {"v nan nan nan", "v inf 0 0", "v abc", "v", "v 1", "v 1 2", "v 1 2 x", "v 1,2,3", "v 1 2 3 4 5", "v 1 2 3 4 5 6 7 8", "v 1e39 0 0", "v 1e999 0 0",
+                             "v 0x1p2 0 0", "v 1 2 3 w", "v 1.5.2 0 0", "v --1 0 0", "v 1 2 3/4"}) {
+    INFO(vertex);
+    CHECK_THAT(refusal(corners + vertex + "\nf 1 2 3\n"), ContainsSubstring("cube.obj: line 5: "));
+  }
+  for (const char *face : {"f", "f 1", "f 1 2", "f 0 1 2", "f 1 2 0", "f a b c", "f 1 2 x", "f 1.5 2 3", "f 1/ 2/ 3/", "f 1/x 2 3", "f 1/0 2 3", "f /1 2 3", "f 1/1/1/1 2 3", "f 1//  2 3",
+                           "f 1 2 5", "f 1 2 3 999999", "f 1 2 3 4 5", "f 1 2 -9", "f -5 -1 -2", "f 1 2 3 -9999999999999999999", "f 1 2 99999999999999999999", "f 1 2 3 4 2147483648",
+                           "f 1 2 4294967297", "f 1 2 3 # 4\nf 1 2 3 5", "f 1 \\\n2 9"}) {
+    INFO(face);
+    CHECK_THAT(refusal(corners + face + "\n"), ContainsSubstring("cube.obj: line "));
+  }
+  for (const char *line : {"face 1 2 3", "V 0 0 0", "F 1 2 3", "curv 0 1 1 2", "surf 0 1 0 1", "fo 1 2 3", "<html>", "solid cube"}) {
+    INFO(line);
+    CHECK_THAT(refusal(corners + line + "\n"), ContainsSubstring("begins no line that is known"));
+  }
+}
+
+TEST_CASE("obj: what is written in other ways is read all the same")
+{
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
+  const auto triangles = [&](const std::string &text) { return parse_obj(text, "cube.obj").triangles; };
+  const std::vector<Triangle> one{{0, 1, 2}};
+  CHECK(triangles(corners + "f 1 2 3\n") == one);
+  CHECK(triangles(corners + "  f\t1/1 2//1   3/1/1 # why not\r\n") == one);
+  CHECK(triangles(corners + "f 1 2 \\\n3") == one);
+  CHECK(triangles(corners + "f 1 2 \\\r\n 3") == one);
+  CHECK(triangles("f 1 2 3\n" + corners) == one); /* faces before vertices */
+  CHECK(triangles(corners + "f -4 -3 -2\nv 5 5 5\n") == one);
+  CHECK(triangles(corners + "o a\ng b c\ns off\nusemtl x\nl 1 2\np 1\nvt 0 0\nvn 0 0 1\nf 1 2 3\n#f 9 9 9\n") == one);
+  CHECK(triangles(corners + "f 1 2 4 3\n").size() == 2);
+  CHECK(triangles("f 1 2 4 3\ng later\n" + corners).size() == 2);
+  const ObjMesh colored = parse_obj("v 1 2 3 0.5\nv 1 +2 3e0 1 0 0\nv 1e-60 -1e-60 0\n", "cube.obj");
+  REQUIRE(colored.vertices.size() == 3);
+  CHECK(colored.vertices[1] == Vec3{1, 2, 3});
+  CHECK(colored.vertices[2] == Vec3{0, 0, 0});
 }

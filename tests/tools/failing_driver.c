@@ -1,0 +1,35 @@
+/* failing_driver.c - an OpenCL driver that does not survive the question for its platforms, as PoCL does not in a container without /sys.
+ * FAILING_DRIVER: abort, crash, exit or hang; anything else: it has no platform. */
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+void *clGetExtensionFunctionAddress(const char *name);
+
+/* Without the name that the loader asks for, as that is also one of the loader's own. */
+static int platforms_of(unsigned entries, void **platforms, unsigned *count)
+{
+  const char *way = getenv("FAILING_DRIVER");
+  (void)entries;
+  (void)platforms;
+  if (!way) way = "";
+  if (*way) fprintf(stderr, "the driver fails: %s\n", way);
+  if (!strcmp(way, "abort")) abort();
+  if (!strcmp(way, "crash")) raise(SIGSEGV);
+  if (!strcmp(way, "exit")) exit(3);
+  if (!strcmp(way, "hang"))
+    for (;;) sleep(1);
+  if (count) *count = 0;
+  return -1001; /* no platform */
+}
+
+static int say_nothing(void) { return -30; } /* an invalid value */
+
+/* Loaders want both of a driver before they ask it anything. */
+void *clGetExtensionFunctionAddress(const char *name)
+{
+  if (!strcmp(name, "clIcdGetPlatformIDsKHR")) return (void *)platforms_of;
+  return !strcmp(name, "clGetPlatformInfo") ? (void *)say_nothing : NULL;
+}
