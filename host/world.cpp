@@ -479,14 +479,14 @@ struct World::Implementation {
 
 World::World(const Scene &scene, const Settings &settings, const Placement &placement)
 {
-  validate(scene, scene.name);
-  validate(settings);
-  check_numbers(scene);
   const minicl::ExactFloatingPoint environment; /* what is derived from the scene rounds alike too */
   const auto told = [&](const char *why) {
     return fmt::format("scene '{}' of {} bodies, with room for {} pairs: {}", scene.name, scene.bodies.size(), first_room(scene, settings), why);
   };
   try {
+    validate(scene, scene.name);
+    validate(settings);
+    check_numbers(scene);
     implementation_ = std::make_unique<Implementation>(scene, settings, placement);
   } catch (const OutOfMemory &error) {
     throw OutOfMemory(told(error.what()));
@@ -495,10 +495,23 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
   }
 }
 
+namespace {
+
+/* What was asked of a world of so many bodies, where there was no room for the answer. */
+template <class Work> auto answer(const char *what, size_t bodies, Work work)
+{
+  return naming_what_failed([&] { return fmt::format("out of memory: {} of a world of {} bodies: its lists need more than there is", what, bodies); }, work);
+}
+
+} // namespace
+
 World::~World() = default;
 
 void World::step() { implementation_->step(); }
-void World::place(const Placement &placement) { implementation_->place(placement); }
+void World::place(const Placement &placement)
+{
+  answer("the placement", implementation_->plan.bodies, [&] { implementation_->place(placement); });
+}
 const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
@@ -510,11 +523,14 @@ Backend &World::backend_of(Kernel kernel) { return implementation_->backend_of(k
 uint32_t World::scene_body(uint32_t buffer_index) const { return implementation_->special.order.at(buffer_index); }
 void World::set_observer(Observer observer) { implementation_->launcher.set_observer(std::move(observer)); }
 
-std::vector<BodyState> World::bodies() { return download_bodies(implementation_->memory, implementation_->special.order); }
+std::vector<BodyState> World::bodies()
+{
+  return answer("the bodies", implementation_->plan.bodies, [&] { return download_bodies(implementation_->memory, implementation_->special.order); });
+}
 
 std::vector<PreciseBodyState> World::precise_bodies()
 {
-  return download_precise_bodies(implementation_->memory, implementation_->special.order);
+  return answer("the bodies", implementation_->plan.bodies, [&] { return download_precise_bodies(implementation_->memory, implementation_->special.order); });
 }
 
 void World::set_body(uint32_t body, const BodyState &state)
@@ -529,75 +545,79 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
   ++implementation_->state;
-  upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
+  answer("a body", implementation_->plan.bodies, [&] { upload_body(implementation_->memory, implementation_->index_of_body.at(body), state); });
 }
 
 std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   if (!implementation_->whole) return {};
-  return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+  return answer("the contact events", implementation_->plan.bodies,
+                [&] { return download_events(implementation_->memory, implementation_->scene, implementation_->special.order); });
 }
 
 std::vector<PairEvent> World::pair_events()
 {
   if (!implementation_->settings.pair_events) throw InputError("pair_events: there are none without Settings::pair_events");
   if (!implementation_->whole) return {};
-  return download_pair_events(implementation_->memory, implementation_->special.order);
+  return answer("the pair events", implementation_->plan.bodies, [&] { return download_pair_events(implementation_->memory, implementation_->special.order); });
 }
 
 std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return tandem::cast_rays(implementation_->query_target(), rays);
+  return answer("queries", implementation_->plan.bodies, [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
 }
 
 std::vector<bool> World::find_blocked_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return tandem::find_blocked_rays(implementation_->query_target(), rays);
+  return answer("queries", implementation_->plan.bodies, [&] { return tandem::find_blocked_rays(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<RayHit>> World::cast_rays_through(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return tandem::cast_rays_through(implementation_->query_target(), rays);
+  return answer("queries", implementation_->plan.bodies, [&] { return tandem::cast_rays_through(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<BoxHit>> World::sweep_boxes(std::span<const QueryBox> boxes)
 {
   check_boxes(boxes);
   const minicl::ExactFloatingPoint environment;
-  return tandem::sweep_boxes(implementation_->query_target(), boxes);
+  return answer("queries", implementation_->plan.bodies, [&] { return tandem::sweep_boxes(implementation_->query_target(), boxes); });
 }
 
 std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   check_sweep(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter);
+  return answer("queries", implementation_->plan.bodies, [&] { return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter); });
 }
 
 Statistics World::statistics()
 {
-  Statistics s = implementation_->statistics;
-  if (implementation_->whole) measure_contacts(implementation_->memory, s);
-  s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);
-  return s;
+  return answer("the statistics", implementation_->plan.bodies, [&] {
+    Statistics s = implementation_->statistics;
+    if (implementation_->whole) measure_contacts(implementation_->memory, s);
+    s.kinetic_energy = kinetic_energy(implementation_->memory, implementation_->scene, implementation_->special.order);
+    return s;
+  });
 }
 
 uint64_t World::body_hash()
 {
-  return hash_buffers(implementation_->memory, {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity}, implementation_->plan.bodies);
+  const std::vector<Buffer> state{Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity};
+  return answer("the hash", implementation_->plan.bodies, [&] { return hash_buffers(implementation_->memory, state, implementation_->plan.bodies); });
 }
 
 uint64_t World::state_hash()
 {
   const Implementation &world = *implementation_;
-  uint64_t hash = hash_carried(implementation_->memory, world.plan.bodies, world.scene_features);
+  uint64_t hash = answer("the hash", world.plan.bodies, [&] { return hash_carried(implementation_->memory, world.plan.bodies, world.scene_features); });
   for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }

@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
+#include "host/out_of_memory.h"
 #include "host/scene.h"
 #include "tools/command.h"
+#include "tools/failed_allocation.h"
 
 namespace tandem {
 namespace {
@@ -20,6 +22,13 @@ int complain(std::string message, int status)
   while (!message.empty() && message.back() == ' ') message.pop_back();
   fmt::print(stderr, "tandem: {}\n", message);
   return status;
+}
+
+std::string typed(int count, char **arguments)
+{
+  std::string text = "tandem";
+  for (int k = 1; k < count; ++k) text += fmt::format(" {}", arguments[k]);
+  return text;
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -75,8 +84,10 @@ int main(int count, char **arguments)
     return tandem::parse_and_execute(count, arguments);
   } catch (const tandem::InputError &error) {
     return tandem::complain(error.what(), 2);
+  } catch (const tandem::OutOfMemory &error) {
+    return tandem::complain(error.what() + tandem::failed_allocation(), 1);
   } catch (const std::bad_alloc &) {
-    return tandem::complain("out of memory", 1);
+    return tandem::complain(fmt::format("out of memory in `{}`{}", tandem::typed(count, arguments), tandem::failed_allocation()), 1);
   } catch (const std::exception &error) {
     return tandem::complain(error.what(), 1);
   }

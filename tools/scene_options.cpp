@@ -119,9 +119,12 @@ uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1,
 
 Scene SceneOptions::scene() const
 {
-  Scene scene = naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); }, [&] { return load_scene(scene_); });
-  for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
-  return scene;
+  const auto load = [&] {
+    Scene scene = load_scene(scene_);
+    for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
+    return scene;
+  };
+  return naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); }, load);
 }
 
 std::string SceneOptions::typed_again() const
