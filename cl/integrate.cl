@@ -57,12 +57,13 @@ __kernel void finish_step(__global uint *counts, uint colors, RANGE)
 }
 
 __kernel void commit_bodies(__global const row *solver_velocity, __global const row *solver_delta,
-                            __global const row *solver_orientation, __global row *body_position,
-                            __global row *body_orientation, __global row *body_velocity, RANGE)
+                            __global const row *solver_orientation, __global const row *previous_body_position,
+                            __global row *body_position, __global row *body_orientation,
+                            __global row *body_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, body_position, body_orientation,
-                     body_velocity, i);
+  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, previous_body_position, body_position,
+                     body_orientation, body_velocity, i);
 }
 
 __kernel void cache_starts(__global const uint *pair_start, __global uint *cached_start, RANGE)
@@ -97,10 +98,10 @@ __kernel void cache_impulses(__global const uint *constraint_pair, __global cons
                       constraint_friction_impulse, cached_normal_impulse, cached_friction_impulse, i);
 }
 
-__kernel void clear_cached_rolling(__global row *cached_rolling_impulse, RANGE)
+__kernel void clear_cached(__global row *rows, uint per_item, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  clear_cached_rolling_item(cached_rolling_impulse, i);
+  clear_cached_item(rows, per_item, i);
 }
 
 __kernel void cache_rolling(__global const uint *constraint_pair, __global const row *constraint_rolling,

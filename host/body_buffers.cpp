@@ -138,16 +138,40 @@ void upload_materials(Memory &memory, const Scene &scene)
   upload_all(memory, Buffer::material_rolling, rolling);
 }
 
+namespace {
+
+/* All but the traits. What can fail comes before the first change. */
+void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
+{
+  for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity}) memory.prepare_upload(buffer);
+  memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
+  memory.upload(Buffer::body_orientation, &record.orientation, sizeof(row), size_t{index} * sizeof(row));
+  memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
+}
+
+} // namespace
+
+BodyRecord read_body(Memory &memory, uint32_t index)
+{
+  const auto position = memory.read<row>(Buffer::body_position, 2, 2 * size_t{index}), velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const row orientation = memory.read<row>(Buffer::body_orientation, 1, index).front();
+  return {{position[0], position[1]}, orientation, {velocity[0], velocity[1]}, memory.read<uint32_t>(Buffer::body_traits, 1, index).front()};
+}
+
+void write_body(Memory &memory, uint32_t index, const BodyRecord &record)
+{
+  memory.prepare_upload(Buffer::body_traits);
+  write_state(memory, index, record);
+  memory.upload(Buffer::body_traits, &record.traits, sizeof record.traits, size_t{index} * sizeof record.traits);
+}
+
 void upload_body(Memory &memory, uint32_t index, const BodyState &state)
 {
   const Quat q = unit(state.orientation);
   const auto place = place_of(state.position);
   const row orientation{q[0], q[1], q[2], q[3]};
-  const float inverse_mass = memory.read<row>(Buffer::body_velocity, 1, 2 * index).front().w;
-  const row velocity[2] = {row_of_vec(state.linear_velocity, inverse_mass), row_of_vec(state.angular_velocity, 0)};
-  memory.upload(Buffer::body_position, place.data(), 2 * sizeof(row), 2 * index * sizeof(row));
-  memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
-  memory.upload(Buffer::body_velocity, velocity, 2 * sizeof(row), 2 * index * sizeof(row));
+  const float inverse_mass = memory.read<row>(Buffer::body_velocity, 1, 2 * size_t{index}).front().w;
+  write_state(memory, index, {place, orientation, {row_of_vec(state.linear_velocity, inverse_mass), row_of_vec(state.angular_velocity, 0)}, 0});
 }
 
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
@@ -186,15 +210,13 @@ bool is_finite(const BodyState &state)
 
 void quarantine_body(Memory &memory, uint32_t index)
 {
-  auto position = memory.read<row>(Buffer::body_position, 2, 2 * index);
-  for (const double x : point_of(position.data()))
-    if (!std::isfinite(x)) position = {{0, 0, 0, 0}, {0, 0, 0, 0}};
-  const row orientation{0, 0, 0, 1}, rest[2] = {};
-  const uint32_t traits = (memory.read<uint32_t>(Buffer::body_traits, 1, index).front() & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
-  memory.upload(Buffer::body_position, position.data(), 2 * sizeof(row), 2 * index * sizeof(row));
-  memory.upload(Buffer::body_orientation, &orientation, sizeof(row), index * sizeof(row));
-  memory.upload(Buffer::body_velocity, rest, 2 * sizeof(row), 2 * index * sizeof(row));
-  memory.upload(Buffer::body_traits, &traits, sizeof(uint32_t), index * sizeof(uint32_t));
+  BodyRecord record = read_body(memory, index);
+  for (const double x : point_of(record.position.data()))
+    if (!std::isfinite(x)) record.position = {};
+  record.orientation = {0, 0, 0, 1};
+  record.velocity = {};
+  record.traits = (record.traits & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
+  write_body(memory, index, record);
 }
 
 void measure_contacts(Memory &memory, Statistics &statistics)

@@ -26,6 +26,17 @@ std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std:
 
 bool is_finite(const BodyState &state);
 
+/* What the host may change of a body, as it lies in the buffers. */
+struct BodyRecord {
+  std::array<row, 2> position;
+  row orientation;
+  std::array<row, 2> velocity;
+  uint32_t traits;
+};
+BodyRecord read_body(Memory &memory, uint32_t index);
+/* Whole or, where memory or a device fails, not at all. */
+void write_body(Memory &memory, uint32_t index, const BodyRecord &record);
+
 /* Takes the body at `index` out of the simulation: fixed, at rest, in no pair, where it last was finite. */
 void quarantine_body(Memory &memory, uint32_t index);
 

@@ -66,12 +66,12 @@ HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
   HullSizes sizes;
   for (const ConvexHull *hull : distinct_hulls(scene)) {
     ++sizes.hulls;
-    sizes.vertices += static_cast<uint32_t>(hull->vertices.size());
-    sizes.faces += static_cast<uint32_t>(hull->faces.size());
-    sizes.edges += static_cast<uint32_t>(hull->edges.size());
+    sizes.vertices += hull->vertices.size();
+    sizes.faces += hull->faces.size();
+    sizes.edges += hull->edges.size();
     sizes.corners += corners_of(*hull);
     sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4) + 1;
-    sizes.links += static_cast<uint32_t>(hull->vertices.size()) + 1 + 2 * corners_of(*hull) + 12 * map_side * map_side;
+    sizes.links += hull->vertices.size() + 1 + 2 * uint64_t{corners_of(*hull)} + 12 * uint64_t{map_side} * map_side;
   }
   return sizes;
 }

@@ -15,6 +15,8 @@ class Launcher {
 public:
   virtual ~Launcher() = default;
   virtual void launch(const Launch &launch) = 0;
+  /* From here on what is launched writes the state that the next step starts from (host/carried.h). */
+  virtual void begin_commit() {}
 };
 
 class PlacedLauncher : public Launcher {
@@ -24,12 +26,18 @@ public:
 
   PlacedLauncher(Memory &memory, Choice choice) : memory_(memory), choice_(std::move(choice)) {}
   void launch(const Launch &launch) override;
+  void begin_commit() override
+  {
+    if (on_commit_) on_commit_();
+  }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
+  void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
 
 private:
   Memory &memory_;
   Choice choice_;
   Observer observer_;
+  std::function<void()> on_commit_;
   std::vector<BoundArgument> bound_;
 };
 

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <bit>
 
+#include <fmt/format.h>
+
 #include "host/primitives.h"
+#include "host/scene.h"
 #include "shared/broadphase/near_limits.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
@@ -14,6 +17,7 @@ namespace {
 
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
+  /* Bodies, pairs and what scenes hold are below 2^32 each, and rows have a few of them: 64 bits suffice for all products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
   const size_t most_sorted = std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
   switch (capacity) {
@@ -60,6 +64,14 @@ size_t bytes_of(Buffer buffer, const Sizes &sizes)
   const BufferRow &row = row_of(buffer);
   if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
   return items_of(row.capacity, sizes) * row.per_item * size_of(row.element);
+}
+
+void check_size(Buffer buffer, const Sizes &sizes)
+{
+  const uint64_t elements = uint64_t{bytes_of(buffer, sizes)} / size_of(row_of(buffer).element), most = uint64_t{1} << 32;
+  if (elements > most)
+    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or cells of cube maps are needed",
+                                 row_of(buffer).name, elements, most));
 }
 
 uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }

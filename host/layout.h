@@ -24,6 +24,9 @@ struct Sizes {
 /* 0 for a buffer whose feature the scene lacks. */
 size_t bytes_of(Buffer buffer, const Sizes &sizes);
 
+/* InputError names a buffer whose elements 32 bits cannot number, as kernels do. */
+void check_size(Buffer buffer, const Sizes &sizes);
+
 /* Leaves of a hierarchy of so many bodies: a power of two. */
 uint32_t leaves_for(uint32_t bodies);
 

@@ -6,7 +6,11 @@
 #include <cstring>
 #include <new>
 
+#include <fmt/format.h>
 #include <sys/mman.h>
+
+#include "host/faults.h"
+#include "host/out_of_memory.h"
 
 namespace tandem {
 namespace {
@@ -16,8 +20,10 @@ constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
 
 class HostStorage : public Storage {
 public:
+  const char *what() const override { return "the host's memory"; }
   void *allocate(Element, size_t bytes, void *) override
   {
+    if (faults::strikes(faults::Site::allocation) || bytes > SIZE_MAX - huge_page) throw std::bad_alloc();
     const size_t page = bytes < 2 * huge_page ? small_page : huge_page;
     const size_t rounded = (std::max<size_t>(bytes, 1) + page - 1) / page * page;
     void *memory = std::aligned_alloc(page, rounded);
@@ -26,7 +32,7 @@ public:
     std::memset(memory, 0, rounded);
     return memory;
   }
-  void release(void *handle) override { std::free(handle); }
+  void release(void *handle) noexcept override { std::free(handle); }
   void write(void *handle, size_t offset, const void *from, size_t bytes) override
   {
     std::memcpy(static_cast<char *>(handle) + offset, from, bytes);
@@ -63,22 +69,50 @@ Memory::~Memory()
 }
 
 /* Devices that work in host memory let go of it before it is freed: the host's copy is always first. */
-void Memory::release(Entry &entry)
+void Memory::release(Entry &entry) noexcept
 {
   for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
   entry.copies.clear();
 }
 
-void Memory::resize(Buffer buffer, size_t bytes, bool keep)
+void Memory::resize(Buffer buffer, size_t bytes)
 {
   Entry &entry = entries_[index_of(buffer)];
   if (bytes == entry.bytes) return;
-  const size_t kept = keep ? std::min(bytes, entry.bytes) : 0;
-  std::vector<char> contents(kept);
-  if (kept) download(buffer, contents.data(), kept);
   release(entry);
   entry.bytes = bytes;
-  if (kept) upload(buffer, contents.data(), kept);
+}
+
+/* All that can fail comes before the first change. */
+void Memory::grow(Buffer buffer, size_t bytes)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (bytes <= entry.bytes) return;
+  Entry grown{entry.element, bytes, {}};
+  if (!entry.copies.empty()) {
+    grown.copies.reserve(1);
+    grown.copies.push_back({&host_storage(), allocate(entry, bytes, host_storage(), nullptr), true});
+    try {
+      download(buffer, grown.copies.front().handle, entry.bytes);
+    } catch (...) {
+      release(grown);
+      throw;
+    }
+  }
+  release(entry);
+  entry = std::move(grown);
+}
+
+void Memory::reserve(Buffer buffer, Storage &storage)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (entry.bytes > 0) copy_in(entry, storage);
+}
+
+bool Memory::holds(Buffer buffer, const Storage &storage) const
+{
+  const std::vector<Copy> &copies = entries_[index_of(buffer)].copies;
+  return std::any_of(copies.begin(), copies.end(), [&](const Copy &copy) { return copy.storage == &storage; });
 }
 
 size_t Memory::total_bytes() const
@@ -88,16 +122,32 @@ size_t Memory::total_bytes() const
   return total;
 }
 
+void *Memory::allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory)
+{
+  const auto refusal = [&](const std::string &why) {
+    return fmt::format("out of memory: buffer {} needs {} bytes of {}, all buffers together {}{}",
+                       row_of(buffer_at(static_cast<size_t>(&entry - entries_.data()))).name, bytes, storage.what(), total_bytes(), why);
+  };
+  try {
+    return storage.allocate(entry.element, bytes, host_memory);
+  } catch (const std::bad_alloc &) {
+    throw OutOfMemory(refusal(""));
+  } catch (const std::runtime_error &error) {
+    throw OutOfMemory(refusal(fmt::format(" ({})", error.what())));
+  }
+}
+
 Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
 {
   for (Copy &copy : entry.copies)
     if (copy.storage == &storage) return copy;
+  entry.copies.reserve(entry.copies.size() + 2); /* itself, and the host's copy beside it: a handle must not be lost for want of a place */
   if (&storage != &host_storage() && storage.shares_host_memory()) {
     void *host = copy_in(entry, host_storage()).handle;
-    entry.copies.push_back({&storage, storage.allocate(entry.element, entry.bytes, host), false});
+    entry.copies.push_back({&storage, allocate(entry, entry.bytes, storage, host), false});
     return entry.copies.back();
   }
-  const Copy fresh{&storage, storage.allocate(entry.element, entry.bytes, nullptr), entry.copies.empty()};
+  const Copy fresh{&storage, allocate(entry, entry.bytes, storage, nullptr), entry.copies.empty()};
   const auto place = &storage == &host_storage() ? entry.copies.begin() : entry.copies.end();
   return *entry.copies.insert(place, fresh);
 }

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "host/kernel_list.h"
@@ -18,10 +19,12 @@ namespace tandem {
 class Storage {
 public:
   virtual ~Storage() = default;
+  virtual const char *what() const = 0; /* for messages: "the host's memory" */
   /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. Sizes and offsets
-   * are those of the host's copy, whose numbers are floats, also where a storage keeps wider ones. */
+   * are those of the host's copy, whose numbers are floats, also where a storage keeps wider ones. std::bad_alloc or
+   * std::runtime_error where there is no room. */
   virtual void *allocate(Element element, size_t bytes, void *host_memory) = 0;
-  virtual void release(void *handle) = 0;
+  virtual void release(void *handle) noexcept = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;
   virtual void read(void *handle, size_t offset, void *to, size_t bytes) = 0; /* waits */
   /* Reals of a buffer of rows or reals, as precise as this storage keeps them. */
@@ -45,12 +48,22 @@ public:
   Memory(const Memory &) = delete;
   Memory &operator=(const Memory &) = delete;
 
-  /* New contents are zero; `keep` preserves the common prefix. */
-  void resize(Buffer buffer, size_t bytes, bool keep = false);
+  /* New contents are zero. Room is made when a copy is first needed. */
+  void resize(Buffer buffer, size_t bytes);
+  /* Keeps the contents. Where there is no room (OutOfMemory) the buffer is as it was. */
+  void grow(Buffer buffer, size_t bytes);
+  /* Makes room in a storage before anything runs: OutOfMemory here leaves every content as it was. */
+  void reserve(Buffer buffer, Storage &storage);
+  /* After this uploads to the buffer cannot fail. */
+  void prepare_upload(Buffer buffer) { acquire(buffer, host_storage(), Access::inout); }
+  /* Two buffers of one kind change places. */
+  void exchange(Buffer one, Buffer other) noexcept { std::swap(entries_[index_of(one)], entries_[index_of(other)]); }
   size_t bytes(Buffer buffer) const { return entries_[index_of(buffer)].bytes; }
   size_t total_bytes() const;
+  bool holds(Buffer buffer, const Storage &storage) const; /* whether there is a copy of it */
 
-  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. */
+  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. What cannot be had leaves every content
+   * as it was: OutOfMemory, naming the buffer and its bytes, or the device's std::runtime_error. */
   void *acquire(Buffer buffer, Storage &storage, Access access);
 
   void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
@@ -78,10 +91,11 @@ private:
     std::vector<Copy> copies;
   };
   Copy &copy_in(Entry &entry, Storage &storage);
+  void *allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory);
   Copy &most_precise(Entry &entry);
   void make_valid(Entry &entry, Copy &copy);
   void wait_for_readers(Entry &entry, Storage &writer);
-  void release(Entry &entry);
+  void release(Entry &entry) noexcept;
 
   std::array<Entry, buffer_count> entries_;
 };

@@ -43,7 +43,19 @@ void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32
   upload(memory, Buffer::query_filter, filters);
 }
 
-void set_length(Memory &memory, uint32_t queries) { memory.upload(Buffer::counts, &queries, sizeof queries, COUNT_LENGTH * sizeof queries); }
+/* Kernels number the rows of queries, two of a start, with 32 bits. */
+constexpr size_t most_queries = size_t{1} << 31;
+
+void set_length(Memory &memory, size_t queries)
+{
+  const auto length = static_cast<uint32_t>(queries);
+  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
+}
+
+void check_number(size_t queries)
+{
+  if (queries > most_queries) throw InputError(fmt::format("{} queries in one batch; at most {} are possible", queries, most_queries));
+}
 
 void make_room_for_hits(Memory &memory, size_t hits)
 {
@@ -83,6 +95,8 @@ std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel w
   launch(target, count, queries);
   exclusive_scan(target.launcher, Buffer::query_found, Buffer::query_found, Buffer::scan_sums, COUNT_LENGTH, capacity);
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
+  if (starts.back() == UINT32_MAX) /* the scan saturates */
+    throw InputError(fmt::format("{} queries have {} hits or more; smaller batches are needed", queries, UINT32_MAX));
   make_room_for_hits(memory, std::max(starts.back(), 1u));
   launch(target, write, queries);
   return starts;
@@ -104,7 +118,7 @@ void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
   upload_filters(target.memory, target.scene, target.order, filters);
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_way, ways);
-  set_length(target.memory, static_cast<uint32_t>(rays.size()));
+  set_length(target.memory, rays.size());
 }
 
 void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
@@ -123,7 +137,7 @@ void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
   upload(target.memory, Buffer::query_start, starts);
   upload(target.memory, Buffer::query_way, ways);
   upload(target.memory, Buffer::query_extent, extents);
-  set_length(target.memory, static_cast<uint32_t>(boxes.size()));
+  set_length(target.memory, boxes.size());
 }
 
 /* Of a shape in the middle of its body. */
@@ -149,6 +163,7 @@ void check_swept_shape(const Shape &shape)
 
 void check_rays(std::span<const Ray> rays)
 {
+  check_number(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     const Ray &ray = rays[i];
     if (!finite(ray.origin)) refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", text(ray.origin)));
@@ -160,6 +175,7 @@ void check_rays(std::span<const Ray> rays)
 
 void check_boxes(std::span<const QueryBox> boxes)
 {
+  check_number(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
     const QueryBox &box = boxes[i];
     if (!finite(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", text(box.center)));
@@ -173,6 +189,7 @@ void check_boxes(std::span<const QueryBox> boxes)
 void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
 {
   check_swept_shape(shape);
+  check_number(poses.size());
   if (poses.size() != displacements.size())
     throw InputError(fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
@@ -270,7 +287,7 @@ std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::
   upload(memory, Buffer::query_shape, std::vector<row>{{size[0], size[1], size[2], radius_of(shape)}});
   upload(memory, Buffer::query_vertex, vertices);
   upload(memory, Buffer::query_strip, strips);
-  set_length(memory, static_cast<uint32_t>(poses.size()));
+  set_length(memory, poses.size());
   make_room_for_hits(memory, poses.size());
   launch(target, Kernel::sweep_shape, poses.size(), {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
   return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });

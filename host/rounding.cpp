@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "host/buffer_place.h"
+#include "host/carried.h"
 #include "host/compare.h"
 #include "host/launcher.h"
 #include "shared/platform.h"
@@ -130,6 +131,7 @@ public:
     /* Between steps the host may have written and buffers may have grown: each step starts from a full copy. */
     if (launch.kernel == Kernel::begin_step || !mirror_.fits(world_)) return mirror_.copy_all(world_);
     const std::vector<Buffer> written = buffers_written(launch);
+    if (launch.kernel == Kernel::commit_bodies) turn_carried(mirror_.memory()); /* as the step does just before */
     std::vector<std::vector<char>> before;
     for (const Buffer buffer : written) before.push_back(mirror_.memory().read<char>(buffer, mirror_.memory().bytes(buffer)));
     mirror_.run(launch);

@@ -104,6 +104,8 @@ void validate(const Settings &settings)
   check_name("support", settings.support, support_names());
   if (settings.support_cells < 1 || settings.support_cells > most_cells)
     throw InputError(fmt::format("support cells {}: use 1 to {}", settings.support_cells, most_cells));
+  if (settings.max_pairs < 1 || settings.max_pairs > most_pairs)
+    throw InputError(fmt::format("at most {} pairs: use 1 to {}", settings.max_pairs, most_pairs));
   check_name("batching", settings.batching, batching_names());
   check_number("contact stiffness", settings.contact_hertz, "Hz", false);
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);

@@ -7,6 +7,9 @@
 
 namespace tandem {
 
+/* Kernels number rows of pairs with 32 bits, in up to 16 planes. */
+constexpr uint32_t most_pairs = 1u << 28;
+
 /* Every choice that changes the result. Names are those of the command's options. */
 struct Settings {
   float step = 1.0f / 60.0f; /* s, > 0 */
@@ -23,6 +26,7 @@ struct Settings {
   bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool events = false;    /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
   bool pair_events = false; /* list which pairs of bodies come near, stay so and leave (World::pair_events); changes no motion */
+  uint32_t max_pairs = most_pairs; /* 1 .. most_pairs: a step that needs room for more fails, and memory never grows past them */
   bool specialise = true; /* false: every feature built and run, same bits */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */

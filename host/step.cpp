@@ -118,13 +118,15 @@ private:
     run(Kernel::finish_step, {plan().colors});
     if (has(FEATURE_EVENTS)) list_events();
     if (settings().pair_events) list_pair_events();
+    launcher().begin_commit();
     run(Kernel::commit_bodies);
     run(Kernel::cache_starts);
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
     if (has(FEATURE_TREES)) run(Kernel::cache_normals);
+    if (has(FEATURE_EVENTS)) run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
     if (has(FEATURE_ROLLING)) {
-      run(Kernel::clear_cached_rolling);
+      run(Kernel::clear_cached, {1}, {Buffer::cached_rolling_impulse});
       run(Kernel::cache_rolling);
     }
     if (const auto keep = solver_named(settings().solver).commit) keep(*this);
@@ -147,7 +149,6 @@ private:
     exclusive_scan(launcher(), Buffer::event_start, Buffer::event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
     run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_EVENTS}, {Buffer::event_start});
     run(Kernel::write_events);
-    run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
   }
 };
 

@@ -17,7 +17,11 @@ namespace {
 
 static_assert(SUBTREE_NODES == most_subtree_nodes);
 
-uint32_t count_of(size_t n) { return static_cast<uint32_t>(n); }
+uint32_t count_of(size_t n)
+{
+  if (n > UINT32_MAX) throw InputError(fmt::format("meshes and compounds: {} entries in one table; at most {} can be numbered", n, UINT32_MAX));
+  return static_cast<uint32_t>(n);
+}
 
 /* A part of a shape, with the box around it in the shape's frame. */
 struct Leaf {

@@ -17,7 +17,7 @@ namespace tandem {
 
 struct TreeSizes {
   uint32_t trees = 0, nodes = 0, leaves = 0, subtrees = 0, vertices = 0, triangles = 0;
-  uint32_t children = 0; /* of all bodies */
+  uint64_t children = 0; /* of all bodies */
 };
 
 struct TreeTables {

@@ -113,8 +113,9 @@ public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
   ~World();
 
-  /* Advances by settings.step. std::runtime_error when a device fails or memory runs out; the state is
-   * then that before the step. */
+  /* Advances by settings.step. std::runtime_error when a device fails, memory runs out (OutOfMemory: what was wanted, and for how many
+   * bodies and pairs) or more pairs are found than Settings::max_pairs: the state is then that before the step, and the world goes on from
+   * there as if there had been no attempt. Until a step succeeds there are no events and no figures of contacts. */
   void step();
 
   /* Moves kernels to other backends from the next step on; what follows keeps its bits. Buffers travel when they are first

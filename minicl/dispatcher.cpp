@@ -5,6 +5,7 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <utility>
 
@@ -13,10 +14,12 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "host/faults.h"
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
 #include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"
+#include "shared/parallel/length.h"
 #include "shared/platform.h"
 
 namespace tandem::minicl {
@@ -89,6 +92,7 @@ public:
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
+    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* as where there is no room for a task */
     const auto start = std::chrono::steady_clock::now();
     const uint32_t *const count = static_cast<const uint32_t *>(counts);
     const KernelRow &row = row_of(launch.kernel);
@@ -96,8 +100,9 @@ public:
     for (size_t i = 0; i < bound.size(); ++i)
       arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value) : bound[i].handle);
     const uint32_t first = count[launch.first], last = count[launch.last];
-    if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), (last - first + TILE - 1) / TILE);
+    if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), units_of(last - first, TILE));
     else if (last > first) run_items(launch.kernel, arguments.data(), first, last);
+    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and where there was none for the last one */
     if (!profiling_) return;
     Time &time = times_[index_of(launch.kernel)];
     time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();

@@ -8,6 +8,8 @@
 #include <new>
 #include <unordered_map>
 
+#include "host/faults.h"
+
 namespace tandem::minicl {
 namespace {
 
@@ -32,19 +34,26 @@ size_t wide_bytes(const Layout &layout) { return layout.bytes + layout.reals_end
 
 class ReferenceStorage : public Storage {
 public:
+  const char *what() const override { return "the host's memory, in double"; }
   void *allocate(Element element, size_t bytes, void *) override
   {
+    if (faults::strikes(faults::Site::allocation)) throw std::bad_alloc();
     const Layout layout = layout_of(element, bytes);
     const size_t rounded = (std::max<size_t>(wide_bytes(layout), reference_parameters.bytes) + 63) / 64 * 64;
     void *memory = std::aligned_alloc(64, rounded);
     if (!memory) throw std::bad_alloc();
     std::memset(memory, 0, rounded);
     const std::lock_guard<std::mutex> lock(mutex_);
-    layouts_[memory] = layout;
+    try {
+      layouts_[memory] = layout;
+    } catch (...) {
+      std::free(memory);
+      throw;
+    }
     return memory;
   }
 
-  void release(void *handle) override
+  void release(void *handle) noexcept override
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     layouts_.erase(handle);

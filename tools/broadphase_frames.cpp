@@ -58,7 +58,7 @@ void BroadphaseFrames::allocate()
 {
   const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan_.capacity_pairs, .cells = plan_.capacity_cells, .features = plan_.features};
   for (size_t k = 0; k < buffer_count; ++k)
-    if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes), buffer_at(k) < Buffer::bounds_sums);
+    if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes));
 }
 
 void BroadphaseFrames::upload()

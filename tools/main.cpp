@@ -15,8 +15,10 @@
 
 #include <fmt/format.h>
 
+#include "host/out_of_memory.h"
 #include "host/scene.h"
 #include "tools/command.h"
+#include "tools/failed_allocation.h"
 
 namespace tandem {
 namespace {
@@ -56,6 +58,13 @@ int with_output_written(int status)
   errno = 0;
   if (status != output_lost && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
   return status == output_lost ? 2 : status;
+}
+
+std::string typed(int count, char **arguments)
+{
+  std::string text = "tandem";
+  for (int k = 1; k < count; ++k) text += fmt::format(" {}", arguments[k]);
+  return text;
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -108,8 +117,10 @@ int guarded(int count, char **arguments)
     return parse_and_execute(count, arguments);
   } catch (const InputError &error) {
     return complain(error.what(), 2);
+  } catch (const OutOfMemory &error) {
+    return complain(error.what() + failed_allocation(), 1);
   } catch (const std::bad_alloc &) {
-    return complain("out of memory", 1);
+    return complain(fmt::format("out of memory in `{}`{}", typed(count, arguments), failed_allocation()), 1);
   } catch (const std::system_error &error) { /* fmt::print throws one where the output takes no more */
     return std::ferror(stdout) ? complain_of_output(error.code().value()) : complain(error.what(), 1);
   } catch (const std::exception &error) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/out_of_memory.h"
 #include "host/scene_catalog.h"
 
 namespace tandem {
@@ -53,6 +54,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   support_ = defaults.support;
   support_cells_ = fmt::format("{}", defaults.support_cells);
   batching_ = defaults.batching;
+  max_pairs_ = fmt::format("{}", defaults.max_pairs);
   const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
     parser.add_option(name, value, what)->type_name(type)->capture_default_str();
   };
@@ -71,6 +73,7 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--support", support_, one_of("support of hulls", support_names()), "NAME");
   option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
   option("--batching", batching_, one_of("batching", batching_names()), "NAME");
+  option("--max-pairs", max_pairs_, "room for pairs never grows past so many: a step that needs more ends the run", "N");
   parser.add_flag("--check", check_, "prove in every step that no batch touches a moving body twice and that every contact is in one; exit status 1 if not");
   parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
   parser.add_flag("--allow-outside-files", outside_files_, "let a scene file name files (buffers, OBJ files) outside its own folder");
@@ -96,6 +99,7 @@ Settings SceneOptions::settings() const
   settings.support = support_;
   settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
   settings.batching = batching_;
+  settings.max_pairs = static_cast<uint32_t>(whole_number("--max-pairs", max_pairs_, 1, most_pairs));
   settings.check = check_;
   settings.events = events_;
   settings.specialise = !no_specialise_;
@@ -116,9 +120,12 @@ uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1,
 
 Scene SceneOptions::scene() const
 {
-  Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
-  for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
-  return scene;
+  const auto load = [&] {
+    Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
+    for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
+    return scene;
+  };
+  return naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); }, load);
 }
 
 std::string SceneOptions::typed_again(const std::string &broadphase) const
@@ -139,6 +146,7 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   add("--support", support_, defaults.support);
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
   add("--batching", batching_, defaults.batching);
+  add("--max-pairs", max_pairs_, fmt::format("{}", defaults.max_pairs));
   if (outside_files_) text += " --allow-outside-files";
   if (check_) text += " --check";
   if (events_) text += " --events events.json";

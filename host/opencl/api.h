@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "host/faults.h"
+
 namespace tandem::opencl {
 
 /* A device that could not do what it was asked: out of memory, lost, ... */
@@ -21,6 +23,18 @@ struct DeviceError : std::runtime_error {
 struct BuildError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+/* The code of a call, or of a device that has no room for it where a test wants that. */
+template <class Call> cl_int code_of(faults::Site site, Call call)
+{
+  return faults::strikes(site) ? CL_OUT_OF_RESOURCES : call();
+}
+
+/* The same of calls that throw. */
+inline void fail_where_a_test_wants(faults::Site site, const char *what)
+{
+  if (faults::strikes(site)) throw cl::Error(CL_OUT_OF_RESOURCES, what);
+}
 
 /* "CL_OUT_OF_RESOURCES (-5)" */
 std::string error_name(cl_int code);

@@ -73,6 +73,12 @@ Candidate describe(const cl::Platform &platform, const cl::Device &device, uint3
   return candidate;
 }
 
+[[noreturn]] void fail_to_open(const DeviceInfo &info, const cl::Error &error)
+{
+  throw DeviceError(fmt::format("OpenCL device {} ({}) does not open: {} failed with {}", info.device_name, info.platform_name, error.what(),
+                                error_name(error.err())));
+}
+
 /* Threads that a driver starts here inherit the floating-point environment, so it is set first. */
 std::vector<Candidate> ask_drivers()
 {
@@ -102,16 +108,26 @@ std::vector<Candidate> find_candidates()
   return ask_drivers();
 }
 
+void DeviceContext::open_queue(cl_command_queue_properties properties)
+{
+  try {
+    fail_where_a_test_wants(faults::Site::allocation, "clCreateCommandQueue");
+    queue = cl::CommandQueue(context, device, properties);
+  } catch (const cl::Error &error) {
+    fail_to_open(info, error);
+  }
+}
+
 DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info), device(candidate.device)
 {
   const minicl::ExactFloatingPoint environment;
   try {
+    fail_where_a_test_wants(faults::Site::allocation, "clCreateContext");
     context = cl::Context(device);
-    queue = cl::CommandQueue(context, device, cl_command_queue_properties{0});
   } catch (const cl::Error &error) {
-    throw DeviceError(fmt::format("OpenCL device {} ({}) does not open: {}", info.device_name, info.platform_name,
-                                  error_name(error.err())));
+    fail_to_open(info, error);
   }
+  open_queue(0);
   options = "-cl-std=CL1.2";
   if (candidate.promises_exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
   /* Oclgrind 21.10 stops at a hint for optimisers that Clang leaves in what it inlined. */

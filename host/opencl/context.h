@@ -23,6 +23,8 @@ std::vector<Candidate> find_candidates();
 
 struct DeviceContext {
   explicit DeviceContext(const Candidate &candidate);
+  /* A new queue in the place of the one that is; DeviceError leaves that. */
+  void open_queue(cl_command_queue_properties properties);
 
   DeviceInfo info;
   cl::Device device;

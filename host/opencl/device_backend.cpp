@@ -68,7 +68,7 @@ public:
   {
     try {
       finish();
-    } catch (const DeviceError &) { /* a lost device has nothing left to wait for */
+    } catch (const std::exception &) { /* a lost device has nothing left to wait for */
     }
     for (const auto &[kernel, event] : pending_) clReleaseEvent(event);
   }
@@ -96,8 +96,10 @@ public:
     const size_t group_size = group_size_for(built, launch.expected);
     const size_t global_size = group_count(row_of(launch.kernel).form, launch.expected, group_size) * group_size;
     cl_event event = nullptr;
-    const cl_int code = clEnqueueNDRangeKernel(context_.queue(), built.kernel(), 1, nullptr, &global_size, &group_size,
-                                               0, nullptr, profiling_ ? &event : nullptr);
+    const cl_int code = code_of(faults::Site::launch, [&] {
+      return clEnqueueNDRangeKernel(context_.queue(), built.kernel(), 1, nullptr, &global_size, &group_size, 0, nullptr,
+                                    profiling_ ? &event : nullptr);
+    });
     if (code != CL_SUCCESS) fail(row_of(launch.kernel), "launch", code);
     if (event) keep(launch.kernel, event);
     if (++launches_ % launches_per_flush == 0) clFlush(context_.queue());
@@ -108,8 +110,7 @@ public:
     if (on == profiling_) return;
     finish();
     collect_events();
-    context_.queue = cl::CommandQueue(context_.context, context_.device,
-                                      cl_command_queue_properties{on ? CL_QUEUE_PROFILING_ENABLE : 0u});
+    context_.open_queue(on ? CL_QUEUE_PROFILING_ENABLE : 0u);
     profiling_ = on;
   }
 
@@ -134,9 +135,10 @@ private:
     if (!readable) readable = features_read(embedded); /* a search through its whole text */
     const uint32_t read = features & *readable;
     cl::Program &program = programs_[{embedded.name, read}];
-    if (!program()) program = build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read));
     BuiltKernel &built = current_->kernels[index_of(kernel)];
     try {
+      if (!program()) program = build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read));
+      fail_where_a_test_wants(faults::Site::build, "clCreateKernel");
       cl::Kernel created(program, row.name);
       const size_t wanted = group_size_ ? group_size_ : row.form == Form::group ? items_per_tile : items_per_group;
       const size_t most = created.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context_.device);
@@ -195,7 +197,7 @@ private:
   void set_if_changed(BuiltKernel &built, const KernelRow &row, cl_uint index, uint64_t identity, size_t bytes, const void *value)
   {
     if (built.arguments[index] == identity) return;
-    const cl_int code = clSetKernelArg(built.kernel(), index, bytes, value);
+    const cl_int code = code_of(faults::Site::launch, [&] { return clSetKernelArg(built.kernel(), index, bytes, value); });
     if (code != CL_SUCCESS) fail(row, fmt::format("argument {}", index).c_str(), code);
     built.arguments[index] = identity;
   }

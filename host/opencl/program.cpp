@@ -28,6 +28,7 @@ std::optional<cl::Program> build_cached(const DeviceContext &context, const std:
   const std::optional<Binary> binary = load_binary(key);
   if (!binary) return std::nullopt;
   try {
+    fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithBinary");
     cl::Program program(context.context, {context.device}, cl::Program::Binaries{*binary});
     program.build({context.device}, options.c_str());
     return program;
@@ -38,9 +39,11 @@ std::optional<cl::Program> build_cached(const DeviceContext &context, const std:
 
 cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
 {
+  fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithSource");
   cl::Program program(context.context, std::string(embedded.source));
   const cl_device_id device = context.device();
-  const cl_int result = clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr);
+  const cl_int result =
+      code_of(faults::Site::build, [&] { return clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr); });
   if (result == CL_SUCCESS) return program;
   std::string log;
   try {

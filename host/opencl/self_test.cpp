@@ -105,11 +105,13 @@ Results run_here(Inputs inputs, uint32_t count)
 
 template <class T> cl::Buffer buffer_of(const DeviceContext &context, std::vector<T> &values)
 {
+  fail_where_a_test_wants(faults::Site::allocation, "clCreateBuffer");
   return cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data());
 }
 
 template <class T> void read_back(const DeviceContext &context, const cl::Buffer &buffer, std::vector<T> &values)
 {
+  fail_where_a_test_wants(faults::Site::transfer, "clEnqueueReadBuffer");
   context.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data());
 }
 
@@ -121,6 +123,7 @@ void launch(const DeviceContext &context, const cl::Program &program, const char
   cl_uint index = 0;
   (kernel.setArg(index++, arguments), ...);
   const size_t group = std::min<size_t>(64, kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context.device));
+  fail_where_a_test_wants(faults::Site::launch, "clEnqueueNDRangeKernel");
   context.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * group), cl::NDRange(group));
 }
 
@@ -180,14 +183,20 @@ std::string one_line(std::string text)
   return text;
 }
 
-std::string tested(const Candidate &candidate)
+/* A device that could not be asked may answer the next time. */
+struct Verdict {
+  std::string difference;
+  bool is_final;
+};
+
+Verdict tested(const Candidate &candidate)
 {
   try {
-    return self_test(DeviceContext(candidate), input_count(candidate), embedded_program("self_test"));
+    return {self_test(DeviceContext(candidate), input_count(candidate), embedded_program("self_test")), true};
   } catch (const cl::Error &error) {
-    return fmt::format("{} failed with {}", error.what(), error_name(error.err()));
+    return {fmt::format("{} failed with {}", error.what(), error_name(error.err())), false};
   } catch (const std::exception &error) {
-    return one_line(error.what());
+    return {one_line(error.what()), false};
   }
 }
 
@@ -245,7 +254,9 @@ std::string self_test(const Candidate &candidate)
   const std::lock_guard<std::mutex> lock(mutex);
   const auto known = verdicts.find(candidate.device());
   if (known != verdicts.end()) return known->second;
-  return verdicts[candidate.device()] = tested(candidate);
+  const Verdict verdict = tested(candidate);
+  if (verdict.is_final) verdicts[candidate.device()] = verdict.difference;
+  return verdict.difference;
 }
 
 } // namespace tandem::opencl

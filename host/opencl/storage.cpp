@@ -15,22 +15,31 @@ size_t rounded(size_t bytes) { return std::max<size_t>((bytes + 15) / 16 * 16, 1
 
 [[noreturn]] void fail(const DeviceContext &context, const char *what, size_t bytes, cl_int code)
 {
-  throw DeviceError(fmt::format("OpenCL device {} ({}): {} of {} bytes failed: {}", context.info.device_name,
-                                context.info.platform_name, what, bytes, error_name(code)));
+  throw DeviceError(fmt::format("OpenCL device {} ({}): {} of {} bytes failed: {}", context.info.device_name, context.info.platform_name, what,
+                                bytes, error_name(code)));
+}
+
+[[noreturn]] void fail_to_wait(const DeviceContext &context, cl_int code)
+{
+  throw DeviceError(fmt::format("OpenCL device {} ({}): waiting for its work failed: {}", context.info.device_name, context.info.platform_name,
+                                error_name(code)));
 }
 
 void *map(const DeviceContext &context, cl_mem memory, size_t offset, size_t bytes, cl_map_flags flags)
 {
   cl_int code = CL_SUCCESS;
-  void *place = clEnqueueMapBuffer(context.queue(), memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
+  void *place = nullptr;
+  if (faults::strikes(faults::Site::transfer)) code = CL_MAP_FAILURE;
+  else place = clEnqueueMapBuffer(context.queue(), memory, CL_TRUE, flags, offset, bytes, 0, nullptr, nullptr, &code);
   if (code != CL_SUCCESS) fail(context, "mapping", bytes, code);
   return place;
 }
 
-void unmap(const DeviceContext &context, cl_mem memory, void *place)
+void unmap(const DeviceContext &context, cl_mem memory, void *place, size_t bytes)
 {
-  const cl_int code = clEnqueueUnmapMemObject(context.queue(), memory, place, 0, nullptr, nullptr);
-  if (code != CL_SUCCESS) fail(context, "unmapping", 0, code);
+  const cl_int code =
+      code_of(faults::Site::transfer, [&] { return clEnqueueUnmapMemObject(context.queue(), memory, place, 0, nullptr, nullptr); });
+  if (code != CL_SUCCESS) fail(context, "unmapping", bytes, code);
 }
 
 /* Both directions, through the same calls as the moves below: does the device see what the host wrote after the
@@ -45,14 +54,14 @@ bool sharing_works(const DeviceContext &context)
   for (cl_uint round = 2; round < 5; ++round) {
     std::fill_n(host, words, round);
     void *place = map(context, shared(), 0, bytes, CL_MAP_WRITE_INVALIDATE_REGION);
-    unmap(context, shared(), place);
+    unmap(context, shared(), place, bytes);
     if (place != host) return false;
     context.queue.enqueueCopyBuffer(shared, other, 0, 0, bytes);
     std::vector<cl_uint> seen(words);
     context.queue.enqueueReadBuffer(other, CL_TRUE, 0, bytes, seen.data());
     if (seen != std::vector<cl_uint>(words, round)) return false;
     context.queue.enqueueFillBuffer(shared, cl_uint{100 + round}, 0, bytes);
-    unmap(context, shared(), map(context, shared(), 0, bytes, CL_MAP_READ));
+    unmap(context, shared(), map(context, shared(), 0, bytes, CL_MAP_READ), bytes);
     context.queue.finish();
     if (!std::all_of(host, host + words, [&](cl_uint word) { return word == 100 + round; })) return false;
   }
@@ -89,11 +98,13 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
   buffer->shared_with = shares_ ? static_cast<char *>(host_memory) : nullptr;
   const cl_mem_flags sharing = buffer->shared_with ? CL_MEM_USE_HOST_PTR : 0;
   cl_int code = CL_SUCCESS;
-  buffer->memory =
-      clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
+  if (faults::strikes(faults::Site::allocation)) code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
+  else buffer->memory = clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
   if (code == CL_SUCCESS && !buffer->shared_with) {
     const cl_uint zero = 0;
-    code = clEnqueueFillBuffer(context_.queue(), buffer->memory, &zero, sizeof zero, 0, buffer->bytes, 0, nullptr, nullptr);
+    code = code_of(faults::Site::allocation, [&] {
+      return clEnqueueFillBuffer(context_.queue(), buffer->memory, &zero, sizeof zero, 0, buffer->bytes, 0, nullptr, nullptr);
+    });
     if (code != CL_SUCCESS) clReleaseMemObject(buffer->memory);
   }
   if (code != CL_SUCCESS) fail(context_, "allocating a buffer", bytes, code);
@@ -101,7 +112,7 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
 }
 
 /* The host frees shared bytes next, so no kernel may still be working in them. */
-void DeviceStorage::release(void *handle)
+void DeviceStorage::release(void *handle) noexcept
 {
   const std::unique_ptr<DeviceBuffer> buffer(static_cast<DeviceBuffer *>(handle));
   if (buffer->shared_with) finish_queue(context_);
@@ -111,7 +122,7 @@ void DeviceStorage::release(void *handle)
 /* Waits for the unmap too: a driver that keeps a copy takes the host's bytes only when it gets there. */
 void DeviceStorage::pass_ownership(const DeviceBuffer &buffer, size_t offset, size_t bytes, cl_map_flags flags)
 {
-  unmap(context_, buffer.memory, map(context_, buffer.memory, offset, bytes, flags));
+  unmap(context_, buffer.memory, map(context_, buffer.memory, offset, bytes, flags), bytes);
   wait();
 }
 
@@ -121,7 +132,9 @@ void DeviceStorage::write(void *handle, size_t offset, const void *from, size_t 
   if (bytes == 0) return;
   if (buffer.shared_with && from == buffer.shared_with + offset)
     return pass_ownership(buffer, offset, bytes, CL_MAP_WRITE_INVALIDATE_REGION);
-  const cl_int code = clEnqueueWriteBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr);
+  const cl_int code = code_of(faults::Site::transfer, [&] {
+    return clEnqueueWriteBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, from, 0, nullptr, nullptr);
+  });
   if (code != CL_SUCCESS) fail(context_, "writing", bytes, code);
 }
 
@@ -130,14 +143,16 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
   const DeviceBuffer &buffer = *static_cast<DeviceBuffer *>(handle);
   if (bytes == 0) return;
   if (buffer.shared_with && to == buffer.shared_with + offset) return pass_ownership(buffer, offset, bytes, CL_MAP_READ);
-  const cl_int code = clEnqueueReadBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr);
+  const cl_int code = code_of(faults::Site::transfer, [&] {
+    return clEnqueueReadBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr);
+  });
   if (code != CL_SUCCESS) fail(context_, "reading", bytes, code);
 }
 
 void DeviceStorage::wait()
 {
-  const cl_int code = finish_queue(context_);
-  if (code != CL_SUCCESS) fail(context_, "waiting for the work", 0, code);
+  const cl_int code = code_of(faults::Site::transfer, [&] { return finish_queue(context_); });
+  if (code != CL_SUCCESS) fail_to_wait(context_, code);
 }
 
 } // namespace tandem::opencl

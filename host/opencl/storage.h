@@ -22,8 +22,9 @@ class DeviceStorage : public Storage {
 public:
   explicit DeviceStorage(const DeviceContext &context);
 
+  const char *what() const override { return context_.info.device_name.c_str(); }
   void *allocate(Element element, size_t bytes, void *host_memory) override;
-  void release(void *handle) override;
+  void release(void *handle) noexcept override;
   void write(void *handle, size_t offset, const void *from, size_t bytes) override;
   void read(void *handle, size_t offset, void *to, size_t bytes) override;
   void wait() override;

@@ -59,6 +59,10 @@ void launch_avbd(StepLaunches &step)
   apply_restitution(step, tail);
 }
 
-void commit_avbd(StepLaunches &step) { step.run(Kernel::avbd_cache); }
+void commit_avbd(StepLaunches &step)
+{
+  step.run(Kernel::clear_cached, {2}, {Buffer::cached_penalty});
+  step.run(Kernel::avbd_cache);
+}
 
 } // namespace tandem

@@ -35,6 +35,10 @@ void launch_xpbd(StepLaunches &step)
   apply_restitution(step, tail);
 }
 
-void commit_xpbd(StepLaunches &step) { step.run(Kernel::xpbd_cache); }
+void commit_xpbd(StepLaunches &step)
+{
+  step.run(Kernel::clear_cached, {1}, {Buffer::cached_slip});
+  step.run(Kernel::xpbd_cache);
+}
 
 } // namespace tandem

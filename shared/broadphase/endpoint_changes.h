@@ -29,12 +29,15 @@ typedef struct {
 /* An end, where it stood along some axis, and where it stands. */
 typedef struct { uint end, was, is; } moved_end;
 
-/* Keys from `at` on; what does not fit is counted alone. Without room for any it is a counter. */
+/* Keys from `at` on, as many as there is room for; without keys it is a counter. */
 typedef struct { GLOBAL ulong *keys; uint at, capacity; } key_list;
 
 SHARED void add_key(key_list *list, uint one, uint other)
 {
-  if (list->at < list->capacity) list->keys[list->at] = key_of_pair(one, other);
+  if (list->keys) {
+    if (list->at >= list->capacity) return;
+    list->keys[list->at] = key_of_pair(one, other);
+  }
   list->at = list->at + 1u;
 }
 

@@ -56,7 +56,7 @@ SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], end = sweep_start[i + 1u], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
+#define VISIT(body, b) { if (to < capacity) pair_key[to++] = key_of_pair(body, b); }
   if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, grid_body(sort_value, counts, i), pair_key, to, end, capacity);
   else SYMMETRIC_SEARCH(i, VISIT)
 #undef VISIT

@@ -80,7 +80,7 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *grid_finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i], end = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
+#define VISIT(body, b) { if (to < capacity) pair_key[to++] = key_of_pair(body, b); }
   if (end - to <= FINDS_KEPT) write_kept_finds(grid_finds, i, i < boundless ? i : sort_value[i - boundless], pair_key, to, end, capacity);
   else SMALL_SEARCH(i, VISIT)
 #undef VISIT
@@ -120,7 +120,7 @@ SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i + 1u], end = share_start[2u * i + 2u], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b) { if (to < capacity) pair_key[to] = key_of_pair(body, b); ++to; }
+#define VISIT(body, b) { if (to < capacity) pair_key[to++] = key_of_pair(body, b); }
   if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, i < boundless ? i : leaf_body[i - boundless], pair_key, to, end, capacity);
   else LARGE_SEARCH(i, VISIT)
 #undef VISIT

@@ -14,6 +14,7 @@
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/near_limits.h"
 #include "shared/broadphase/pair_keys.h"
+#include "shared/parallel/length.h"
 
 SHARED uint near_capacity(GLOBAL const uint *counts) { return NEAR_PER_PAIR * counts[CAPACITY_PAIRS]; }
 
@@ -61,7 +62,7 @@ SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 {
   uint to = sweep_start[i], capacity = near_capacity(counts);
   if (to == sweep_start[i + 1u]) return; /* most: they need not look again */
-#define VISIT(a, b) { if (to < capacity) near_key[to] = key_of_pair(a, b); ++to; }
+#define VISIT(a, b) { if (to < capacity) near_key[to++] = key_of_pair(a, b); }
   NEAR_SEARCH(i, VISIT)
 #undef VISIT
 }
@@ -122,7 +123,7 @@ SHARED void merge_near_write_item(GLOBAL const uint *body_left, GLOBAL const ulo
   GLOBAL uint *start = near_start + other * (counts[COUNT_BODIES] + 1u), *partner = near_b + other * capacity;
   start[a] = to < capacity ? to : capacity;
   if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = sweep_start[a + 1u] < capacity ? sweep_start[a + 1u] : capacity;
-#define VISIT(b) { if (to < capacity) partner[to] = b; ++to; }
+#define VISIT(b) { if (to < capacity) partner[to++] = b; }
   MERGE_NEAR(a, VISIT)
 #undef VISIT
 }
@@ -162,7 +163,7 @@ SHARED void take_near_item(GLOBAL const uint *near_start, GLOBAL const uint *nea
 SHARED void keep_near_item(GLOBAL uint *counts, uint i)
 {
   (void)i;
-  uint needed = (counts[COUNT_NEAR_NEEDED] + NEAR_PER_PAIR - 1u) / NEAR_PER_PAIR;
+  uint needed = units_of(counts[COUNT_NEAR_NEEDED], NEAR_PER_PAIR);
   if (needed > counts[CAPACITY_PAIRS] && needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
   counts[COUNT_KEPT] = needed > counts[CAPACITY_PAIRS] ? 0u : 1u;
 }

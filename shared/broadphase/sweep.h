@@ -94,7 +94,7 @@ SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(a, b) { if (to < capacity) pair_key[to] = key_of_pair(a, b); ++to; }
+#define VISIT(a, b) { if (to < capacity) pair_key[to++] = key_of_pair(a, b); }
   SWEEP_SEARCH(i, VISIT)
 #undef VISIT
 }

@@ -48,8 +48,11 @@ SHARED void found_pair(const window_sweep *sweep, uint share, uint first, uint s
 {
   if (!pair_allowed(sweep->parameters, sweep->traits, sweep->filters, first, second)) return;
   uint at = sweep->tally[share];
+  if (sweep->pair_key) {
+    if (at >= sweep->counts[CAPACITY_PAIRS]) return; /* counted already: the step will run again with room for it */
+    sweep->pair_key[at] = key_of_pair(first, second);
+  }
   sweep->tally[share] = at + 1u;
-  if (sweep->pair_key && at < sweep->counts[CAPACITY_PAIRS]) sweep->pair_key[at] = key_of_pair(first, second);
 }
 
 SHARED void load_window(const window_sweep *sweep, uint place, uint item)

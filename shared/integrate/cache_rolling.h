@@ -4,12 +4,6 @@
 
 #include "shared/records.h"
 
-/* A pair that does not touch carries nothing over. */
-SHARED void clear_cached_rolling_item(GLOBAL row *cached_rolling_impulse, item_index i)
-{
-  store_row(cached_rolling_impulse, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
-}
-
 SHARED void cache_rolling_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_rolling, GLOBAL row *cached_rolling_impulse,
                                item_index i)
 {

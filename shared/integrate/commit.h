@@ -2,6 +2,8 @@
  *
  * One item gathers what went wrong into the status. Only if it is 0 do the commit kernels have a range to
  * run over, so a step that overflowed or broke has changed nothing and can be run again (design section 7).
+ * Where the device itself fails in their midst, the host goes back to the previous side of the state, which
+ * they only read (CARRIED in buffers.def).
  */
 #ifndef TANDEM_SHARED_INTEGRATE_COMMIT_H
 #define TANDEM_SHARED_INTEGRATE_COMMIT_H
@@ -55,9 +57,10 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 }
 
 SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
-                               GLOBAL row *body_position, GLOBAL row *body_orientation, GLOBAL row *body_velocity, item_index i)
+                               GLOBAL const row *previous_body_position, GLOBAL row *body_position, GLOBAL row *body_orientation,
+                               GLOBAL row *body_velocity, item_index i)
 {
-  store_place(body_position, i, moved_place(load_place(body_position, i), xyz(load_row(solver_delta, i * 2u))));
+  store_place(body_position, i, moved_place(load_place(previous_body_position, i), xyz(load_row(solver_delta, i * 2u))));
   store_row(body_orientation, i, load_row(solver_orientation, i));
   store_motion(body_velocity, i, load_motion(solver_velocity, i));
 }
@@ -79,6 +82,12 @@ SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_
   store_natural(cached_feature, i, load_natural(manifold_feature, i));
   store_row(cached_normal_impulse, i, zero);
   store_row(cached_friction_impulse, i, zero);
+}
+
+/* What only pairs with a constraint will fill: the others must not keep what an older step left. */
+SHARED void clear_cached_item(GLOBAL row *rows, uint per_item, item_index i)
+{
+  for (uint k = 0u; k < per_item; ++k) store_row(rows, i * per_item + k, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
 }
 
 /* Slots, not points, are what the next step looks for, but impulses stay with their points: slots tell them apart.

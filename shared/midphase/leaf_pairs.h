@@ -17,6 +17,7 @@
 #define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
 
 #include "shared/midphase/tree.h"
+#include "shared/parallel/length.h"
 
 /* One entry a level of either tree, and the one looked at. */
 #define TANDEM_STACK (2u * TREE_DEPTH_LIMIT + 1u)
@@ -137,8 +138,8 @@ SHARED leaf leaf_of_tree(const midphase_scene *scene, uint body, uint first_chil
 SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint body_a, leaf a, uint body_b, leaf b)
 {
   if (!filters_accept(scene->parameters, scene->filters, a.shape, b.shape)) return;
-  uint place = list->at + list->found;
-  list->found = list->found + 1u;
+  uint place = saturated_sum(list->at, list->found);
+  list->found = saturated_sum(list->found, 1u); /* two meshes may have more pairs of triangles than there are numbers */
   if (!list->writes || place >= list->end) return;
   list->pair_a[place] = body_a;
   list->pair_b[place] = body_b;

@@ -9,6 +9,14 @@
 
 #include "shared/platform.h"
 
+/* Counts stop at the largest uint instead of starting again at 0, so that what is too much stays too much. However a sum of counts is
+ * parted and ordered, it is the true one, or that largest. */
+SHARED uint saturated_sum(uint a, uint b)
+{
+  uint sum = a + b;
+  return sum < a ? 0xffffffffu : sum;
+}
+
 /* ceil(n / unit), for every n. */
 SHARED uint units_of(uint n, uint unit) { return n / unit + (n % unit != 0u ? 1u : 0u); }
 

@@ -1,4 +1,4 @@
-/* scan.h - exclusive prefix sum of uint, modulo 2^32: result[i] = values[0] + .. + values[i - 1], result[n] = total.
+/* scan.h - exclusive prefix sum of uint, at most 2^32 - 1: result[i] = values[0] + .. + values[i - 1], result[n] = total.
  *
  * Every "count, scan, write" of the pipeline stands on it: no stage appends by an atomic counter, so no order
  * depends on scheduling. Three launches for any length (reduce, then scan; Merrill and Grimshaw,
@@ -9,7 +9,7 @@
  *   scan_in_order  0        s0       s0+s1            one group: sums of all tiles before
  *   scan_tiles   | 0 a ab | ...                       one group a tile: values again, plus the tile's start
  *
- * values and result may be the same buffer.
+ * values and result may be the same buffer. A sum past 2^32 - 1 stays there: what a stage has no numbers for must not look like little.
  */
 #ifndef TANDEM_SHARED_PARALLEL_SCAN_H
 #define TANDEM_SHARED_PARALLEL_SCAN_H
@@ -38,17 +38,17 @@ SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
   FOR_EACH_ITEM(s, SMALL_STRIPS)
   {
     uint sum = 0u;
-    for (uint k = s * strip; k < (s + 1u) * strip; ++k) sum += values[k];
+    for (uint k = s * strip; k < (s + 1u) * strip; ++k) sum = saturated_sum(sum, values[k]);
     scratch[s] = sum;
   }
   FOR_EACH_ITEM(s, SMALL_STRIPS)
   {
     uint sum = 0u;
-    for (uint k = 0u; k < s; ++k) sum += scratch[k];
+    for (uint k = 0u; k < s; ++k) sum = saturated_sum(sum, scratch[k]);
     for (uint k = s * strip; k < (s + 1u) * strip; ++k) {
       const uint value = values[k];
       values[k] = sum;
-      sum += value;
+      sum = saturated_sum(sum, value);
     }
     if (s == SMALL_STRIPS - 1u) scratch[SMALL_STRIPS] = sum;
   }
@@ -63,7 +63,7 @@ SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL u
   FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
     uint sum = 0u;
-    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) sum += local_memory[SCAN_SPREAD(i)];
+    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) sum = saturated_sum(sum, local_memory[SCAN_SPREAD(i)]);
     sums[s] = sum;
   }
   scan_small(sums, SCAN_STRIPS, local_memory + SCAN_SMALL_AT);
@@ -75,11 +75,11 @@ SHARED void scan_store(GLOBAL uint *result, uint first, uint count, uint start, 
   LOCAL const uint *sums = local_memory + SCAN_SUMS_AT;
   FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
-    uint sum = start + sums[s];
+    uint sum = saturated_sum(start, sums[s]);
     for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) {
       const uint value = local_memory[SCAN_SPREAD(i)];
       local_memory[SCAN_SPREAD(i)] = sum;
-      sum += value;
+      sum = saturated_sum(sum, value);
     }
   }
   FOR_EACH_ITEM(i, count) result[first + i] = local_memory[SCAN_SPREAD(i)];
@@ -96,11 +96,11 @@ SHARED void scan_reduce_group(GLOBAL const uint *counts, GLOBAL const uint *valu
   FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
     uint sum = 0u;
-    for (uint i = s; i < count; i += SCAN_STRIPS) sum += values[first + i];
+    for (uint i = s; i < count; i += SCAN_STRIPS) sum = saturated_sum(sum, values[first + i]);
     local_memory[s] = sum;
   }
   for (uint width = SCAN_STRIPS / 2u; width > 0u; width /= 2u)
-    FOR_EACH_ITEM(s, width) local_memory[s] += local_memory[s + width];
+    FOR_EACH_ITEM(s, width) local_memory[s] = saturated_sum(local_memory[s], local_memory[s + width]);
   FOR_EACH_ITEM(s, 1u) sums[group] = local_memory[0];
 }
 
@@ -117,8 +117,8 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
   for (uint tile = 0u; tile < units_of(n, SCAN_TILE); ++tile) {
     const uint count = items_in_tile(n, SCAN_TILE, tile);
     scan_load(values, tile * SCAN_TILE, count, local_memory);
-    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] += carry[tile & 1u];
-    FOR_EACH_ITEM(s, 1u) carry[(tile + 1u) & 1u] = carry[tile & 1u] + local_memory[SCAN_SMALL_AT + SMALL_STRIPS];
+    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] = saturated_sum(local_memory[SCAN_SUMS_AT + s], carry[tile & 1u]);
+    FOR_EACH_ITEM(s, 1u) carry[(tile + 1u) & 1u] = saturated_sum(carry[tile & 1u], local_memory[SCAN_SMALL_AT + SMALL_STRIPS]);
     scan_store(result, tile * SCAN_TILE, count, 0u, local_memory);
   }
   FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];

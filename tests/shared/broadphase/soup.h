@@ -133,7 +133,7 @@ private:
     const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = pairs, .cells = plan_.capacity_cells, .features = FEATURE_FILTER};
     for (size_t b = 0; b < buffer_count; ++b) {
       const bool wanted = buffer_at(b) <= Buffer::pair_key_other;
-      if (wanted) memory_.resize(buffer_at(b), bytes_of(buffer_at(b), sizes), buffer_at(b) < Buffer::bounds_sums);
+      if (wanted) memory_.resize(buffer_at(b), bytes_of(buffer_at(b), sizes));
     }
     memory_.resize(Buffer::counts, sizeof counts_);
     memory_.upload(Buffer::counts, counts_.data(), sizeof counts_);

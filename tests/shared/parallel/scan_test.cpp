@@ -1,4 +1,8 @@
-/* Exclusive scan against std::exclusive_scan: every length at which tiles begin, every backend. */
+/* Exclusive scan against sums in 64 bits: every length at which tiles begin, every backend. */
+#include <algorithm>
+#include <bit>
+#include <numeric>
+
 #include "tests/shared/parallel/primitives.h"
 
 using namespace tandem;
@@ -7,12 +11,24 @@ namespace {
 
 constexpr uint32_t untouched = 0xabadcafeu;
 
+/* Sums past the largest number stay there. */
 std::vector<uint32_t> expected_scan(const std::vector<uint32_t> &values)
 {
-  std::vector<uint32_t> result(values.size() + 1);
-  std::exclusive_scan(values.begin(), values.end(), result.begin(), 0u);
-  if (!values.empty()) result.back() = result[values.size() - 1] + values.back();
+  std::vector<uint32_t> result{0};
+  uint64_t sum = 0;
+  for (const uint32_t value : values) {
+    sum += value;
+    result.push_back(static_cast<uint32_t>(std::min<uint64_t>(sum, UINT32_MAX)));
+  }
   return result;
+}
+
+/* Small enough for the sum of n to stay below 2^32. */
+std::vector<uint32_t> small_values(uint32_t n)
+{
+  std::vector<uint32_t> values = keys_of<uint32_t>(Distribution::random, n);
+  for (uint32_t &value : values) value >>= std::bit_width(n);
+  return values;
 }
 
 std::vector<uint32_t> scan_in_place(Primitives &primitives, const std::vector<uint32_t> &values, uint32_t capacity)
@@ -31,13 +47,30 @@ std::vector<uint32_t> scan_in_place(Primitives &primitives, const std::vector<ui
 
 } // namespace
 
-TEST_CASE("exclusive scan equals the standard library's, modulo 2^32")
+TEST_CASE("exclusive scan equals sums in 64 bits")
 {
   for (const auto &primitives : all_primitives())
     for (const uint32_t n : lengths()) {
-      const auto values = keys_of<uint32_t>(Distribution::random, n);
+      const auto values = small_values(n);
       INFO(primitives->name() << ", n = " << n);
       REQUIRE((scan_in_place(*primitives, values, n) == expected_scan(values)));
+    }
+}
+
+/* 92,683 spheres in one place have 4,295,022,903 pairs: a sum modulo 2^32 makes that 55,607. */
+TEST_CASE("sums past 2^32 stay at the largest number, however often they pass it and wherever")
+{
+  for (const auto &primitives : all_primitives())
+    for (const uint32_t n : {1u, 2u, 31u, 257u, 4095u, 4096u, 4097u, 20'000u, 92'683u, 100'003u}) {
+      std::vector<uint32_t> crowd(n);
+      std::iota(crowd.begin(), crowd.end(), 0u);
+      std::vector<uint32_t> one_large(n, 1), at_end(n, 0);
+      one_large[n / 2] = UINT32_MAX;
+      at_end[n - 1] = at_end[0] = 0x80000000u;
+      for (const auto &values : {crowd, one_large, at_end, keys_of<uint32_t>(Distribution::random, n), std::vector<uint32_t>(n, UINT32_MAX)}) {
+        INFO(primitives->name() << ", n = " << n);
+        REQUIRE((scan_in_place(*primitives, values, n) == expected_scan(values)));
+      }
     }
 }
 
@@ -70,6 +103,6 @@ TEST_CASE("a scan from one buffer to another leaves the first alone")
 TEST_CASE("exclusive scan of 20 million values: more tiles than one group takes at once")
 {
   Primitives primitives(make_backend("tbb"));
-  const auto values = keys_of<uint32_t>(Distribution::random, 20'000'000);
+  const auto values = small_values(20'000'000);
   CHECK((scan_in_place(primitives, values, 20'000'000) == expected_scan(values)));
 }

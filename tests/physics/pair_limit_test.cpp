@@ -1,0 +1,129 @@
+/* Room for pairs has a limit: a step that needs more fails whole, says so, and the world goes on. */
+#include "tests/catch.h"
+
+#include <fmt/format.h>
+
+#include "host/broadphases/broadphase.h"
+#include "host/layout.h"
+#include "host/scene_catalog.h"
+#include "host/world.h"
+#include "tests/physics/physics.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+constexpr uint32_t spheres = 40, all_pairs = spheres * (spheres - 1) / 2;
+
+/* In one place where `apart` is 0. */
+Scene crowd(double apart)
+{
+  Scene scene = empty_scene({0, 0, 0});
+  for (uint32_t i = 0; i < spheres; ++i) add_body(scene, Motion::dynamic, sphere_shape(0.5f), {apart * i, 0, 0});
+  return scene;
+}
+
+BodyState at(double x) { return {{x, 0, 0}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0}}; }
+
+Settings limited(const std::string &broadphase, uint32_t most)
+{
+  Settings settings;
+  settings.broadphase = broadphase;
+  settings.max_pairs = most;
+  return settings;
+}
+
+std::string failure_of(World &world)
+{
+  try {
+    world.step();
+  } catch (const std::runtime_error &error) {
+    return error.what();
+  }
+  return "";
+}
+
+} // namespace
+
+TEST_CASE("a step with more pairs than are allowed fails whole with every broadphase, and the world goes on")
+{
+  for (const std::string &broadphase : broadphase_names())
+    for (const char *on : {"serial", "tbb:threads=2"}) {
+      CAPTURE(broadphase, on);
+      World world(crowd(2), limited(broadphase, all_pairs / 2), Placement{on, {}, false});
+      world.step();
+      for (uint32_t body = 0; body < spheres; ++body) world.set_body(body, at(0));
+      const uint64_t before = world.state_hash();
+      const std::string message = failure_of(world);
+      INFO(message);
+      CHECK(message.find(fmt::format("{} are the most (--max-pairs", all_pairs / 2)) != std::string::npos);
+      CHECK(message.find("step 1: ") != std::string::npos);
+      CHECK(world.state_hash() == before);
+      CHECK(failure_of(world) == message);
+      for (uint32_t body = 0; body < spheres; ++body) world.set_body(body, at(2.0 * body));
+      CHECK(failure_of(world).empty());
+      CHECK(world.statistics().steps == 2);
+    }
+}
+
+TEST_CASE("as many pairs as are allowed are found, none fewer, and they change no bit")
+{
+  for (const std::string &broadphase : broadphase_names()) {
+    CAPTURE(broadphase);
+    World exact(crowd(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}), free(crowd(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
+    exact.step();
+    free.step();
+    CHECK(exact.statistics().pairs == all_pairs);
+    CHECK(exact.state_hash() == free.state_hash());
+    World one_less(crowd(0.001), limited(broadphase, all_pairs - 1), Placement{"serial", {}, false});
+    CHECK_FALSE(failure_of(one_less).empty());
+  }
+}
+
+/* The list of changes may be longer than that of the pairs: from all in one place to all in another order of neighbours. */
+TEST_CASE("a broadphase that keeps its list needs no more room for pairs than others")
+{
+  for (const char *broadphase : {"sap3", "trees", "grid"}) {
+    CAPTURE(broadphase);
+    World world(crowd(0.7), limited(broadphase, 110), Placement{"serial", {}, false});
+    world.step();
+    for (uint32_t body = 0; body < spheres; ++body) world.set_body(body, at(0.7 * (body * 17 % spheres)));
+    CHECK(failure_of(world).empty());
+    CHECK(world.statistics().pairs <= 110);
+  }
+}
+
+TEST_CASE("pairs of leaves count against the limit too")
+{
+  for (const char *midphase : {"walk", "subtrees"}) {
+    Settings settings = limited("grid", 20);
+    settings.midphase = midphase;
+    World world(load_scene("compounds:n=20"), settings, Placement{"serial", {}, false});
+    std::string message;
+    for (int k = 0; k < 120 && message.empty(); ++k) message = failure_of(world);
+    INFO(message);
+    CHECK(message.find("20 are the most") != std::string::npos);
+  }
+}
+
+TEST_CASE("a limit of pairs that makes no sense is refused")
+{
+  CHECK_THROWS_AS(World(crowd(2), limited("grid", 0)), InputError);
+  CHECK_THROWS_AS(World(crowd(2), limited("grid", most_pairs + 1)), InputError);
+}
+
+/* 12 x 256 x 256 words of cube maps a hull: 5,462 of them pass 2^32. */
+TEST_CASE("tables past what kernels can number are refused by name before they are made")
+{
+  Sizes sizes;
+  sizes.features = 0xffffffffu;
+  sizes.hulls.links = 5461u * 12u * 65536ull;
+  CHECK_NOTHROW(check_size(Buffer::hull_link, sizes));
+  sizes.hulls.links = 5462u * 12u * 65536ull;
+  CHECK_THROWS_WITH(check_size(Buffer::hull_link, sizes), Catch::Matchers::ContainsSubstring("hull_link") && Catch::Matchers::ContainsSubstring("4295491584"));
+  sizes.pairs = 1u << 28;
+  CHECK_NOTHROW(check_size(Buffer::split_point, sizes));
+  sizes.pairs = (1u << 28) + 1;
+  CHECK_THROWS_AS(check_size(Buffer::split_point, sizes), InputError);
+}
