@@ -25,11 +25,13 @@ public:
   PlacedLauncher(Memory &memory, Choice choice) : memory_(memory), choice_(std::move(choice)) {}
   void launch(const Launch &launch) override;
   void set_observer(Observer observer) { observer_ = std::move(observer); }
+  void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/debug.h */
 
 private:
   Memory &memory_;
   Choice choice_;
   Observer observer_;
+  uint64_t step_ = 0;
   std::vector<BoundArgument> bound_;
 };
 

@@ -177,7 +177,7 @@ struct World::Implementation {
 
   void step()
   {
-    current_step = statistics.steps;
+    launcher.set_step(statistics.steps);
     ++state;
     for (int repetition = 0; repetition < most_repetitions; ++repetition) {
       begin_launches();

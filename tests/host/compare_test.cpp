@@ -46,7 +46,7 @@ Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t st
   CHECK(found.differing == 1);
   CHECK(found.values[0].bits != found.values[1].bits);
   CHECK(found.breakpoint.find(row_of(kernel).name) == 0);
-  CHECK(found.breakpoint.find("current_step == " + std::to_string(step)) != std::string::npos);
+  CHECK(found.breakpoint.find("tandem::step_of_launch == " + std::to_string(step)) != std::string::npos);
   return found;
 }
 
