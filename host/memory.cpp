@@ -8,6 +8,8 @@
 
 #include <sys/mman.h>
 
+#include "host/address_sanitizer.h"
+
 namespace tandem {
 namespace {
 
@@ -24,6 +26,7 @@ public:
     if (!memory) throw std::bad_alloc();
     if (page == huge_page) madvise(memory, rounded, MADV_HUGEPAGE); /* whether it is heard is a matter of time alone */
     std::memset(memory, 0, rounded);
+    forbid_access(memory, bytes, rounded);
     return memory;
   }
   void release(void *handle) override { std::free(handle); }
