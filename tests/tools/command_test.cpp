@@ -47,12 +47,19 @@ struct Result {
   std::string out, error;
 };
 
+/* A sanitizer tree borrows this file's object and names its own command. */
+std::string program()
+{
+  const char *given = std::getenv("TANDEM_COMMAND");
+  return given ? given : TANDEM_COMMAND;
+}
+
 /* `environment` stands before the program: "A=1 B=2". */
 Result tandem(const std::string &arguments, const std::string &environment = "")
 {
   const Scratch scratch;
   const std::string error = scratch.file("error");
-  std::FILE *pipe = popen((environment + " '" TANDEM_COMMAND "' " + arguments + " 2>'" + error + "'").c_str(), "r");
+  std::FILE *pipe = popen((environment + " '" + program() + "' " + arguments + " 2>'" + error + "'").c_str(), "r");
   REQUIRE(pipe);
   std::string out;
   char buffer[4096];
@@ -233,6 +240,7 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
 
 TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")
 {
+  if (tandem("devices").out.find("Portable Computing Language") == std::string::npos) tests::skip_device("no PoCL");
   const Json json = json_of("stability --only heavy-on-light-10000 --solvers soft-step --between serial,tbb,cl:pocl");
   CHECK(json["equal"] == true);
   REQUIRE(json["cases"].size() == 1);
@@ -356,7 +364,7 @@ TEST_CASE("command: diff says equal, or where the first difference is", "[comman
   CHECK(first["ulps"] == 1);
   CHECK(first["values"].size() == 2);
   CHECK(first["bodies"].size() == 1);
-  CHECK(first["gdb"].get<std::string>().find("break integrate_velocities_item if i == 3 && tandem::current_step == 2") !=
+  CHECK(first["gdb"].get<std::string>().find("break integrate_velocities_item if i == 3 && tandem::step_of_launch == 2") !=
         std::string::npos);
 }
 
