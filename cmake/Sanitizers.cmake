@@ -13,7 +13,7 @@ if(TANDEM_SANITIZE MATCHES address)
   set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS
-      "SHELL:--param asan-stack=0" "SHELL:--param asan-instrumentation-with-call-threshold=0")
+      "--param=asan-stack=0;--param=asan-instrumentation-with-call-threshold=0")
   endif()
 elseif(TANDEM_SANITIZE MATCHES thread) # threads share the rows of lanes4.cpp as they do those of the wider two
   set_property(SOURCE minicl/lanes8.cpp minicl/lanes16.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")

@@ -84,7 +84,7 @@ TEST_CASE("a launch overwrites what other threads wrote in the one before", "[sa
 /* More bodies and pairs than a task takes, for every family of kernels that threads share. */
 TEST_CASE("several threads take part in the steps of scenes of more than a task's items", "[sanitizer]")
 {
-  for (const char *scene : {"box-grid:nx=9,ny=7,nz=9", "mixed:n=500,height=0", "spheres:n=600,height=0,restitution=0.5", "hulls-on-mesh:n=300"}) {
+  for (const char *scene : {"box-grid:nx=9,ny=7,nz=9", "mixed:n=500", "spheres:n=600,height=0,restitution=0.5", "hulls-on-mesh:n=300"}) {
     World world(load_scene(scene), {}, on("tbb:threads=4,lanes=4"));
     CAPTURE(scene);
     CHECK(threads_seen(world, 3) > 1);
@@ -107,7 +107,7 @@ TEST_CASE("one thread splits nothing")
 
 TEST_CASE("worlds that step in two threads at the same time have the bits that each has alone", "[sanitizer]")
 {
-  const Scene scene = load_scene("box-grid:nx=9,ny=5,nz=9"), other = load_scene("mixed:n=400,height=0");
+  const Scene scene = load_scene("box-grid:nx=9,ny=5,nz=9"), other = load_scene("mixed:n=400");
   World alone(scene, {}, on("serial")), other_alone(other, {}, on("serial"));
   World first(scene, {}, on("tbb:threads=2,lanes=4")), second(other, {}, on("tbb:threads=2,lanes=4"));
   uint64_t hash = 0, other_hash = 0;
