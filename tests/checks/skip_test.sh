@@ -6,11 +6,11 @@ tests=$1 tandem=$2 scripts=$3 directory=$4
 export OCL_ICD_VENDORS=/nonexistent OPENCL_VENDOR_PATH=/nonexistent TANDEM_SHARED_DATA=/nonexistent
 
 expect() { # STATUS COMMAND...
-  wanted=$1 status=0
+  wanted=$1 found=0
   shift
-  said=$("$@" 2>&1) || status=$?
-  [ "$wanted" = failed ] && [ "$status" != 0 ] && [ "$status" != 77 ] && return 0
-  [ "$status" = "$wanted" ] || { printf '%s\n%s: status %s, not %s\n' "$said" "$*" "$status" "$wanted"; exit 1; }
+  said=$("$@" 2>&1) || found=$?
+  [ "$wanted" = failed ] && [ "$found" != 0 ] && [ "$found" != 77 ] && return 0
+  [ "$found" = "$wanted" ] || { printf '%s\n%s: status %s, not %s\n' "$said" "$*" "$found" "$wanted"; exit 1; }
 }
 
 programs=$directory/programs-without-oclgrind
