@@ -20,8 +20,7 @@ elseif(TANDEM_SANITIZE MATCHES thread) # threads share the rows of lanes4.cpp as
 endif()
 set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined") # Eigen's solver: as long
 
-set(watched_tools tools/contact_problem.cpp tools/diff.cpp tools/event_file.cpp tools/image.cpp tools/later.cpp tools/output.cpp
-  tools/parallel.cpp tools/plan.cpp tools/run.cpp tools/scene_options.cpp tools/scenes.cpp)
+set(watched_tools tools/contact_problem.cpp tools/diff.cpp tools/image.cpp tools/output.cpp tools/plan.cpp tools/run.cpp tools/scene_options.cpp)
 set_source_files_properties(${watched_tools} tools/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 set(borrowed_tools)
 if(TANDEM_OBJECTS_FROM)

@@ -23,8 +23,6 @@ Buffer buffer_named(const std::string &name)
   throw InputError("no buffer is called " + name);
 }
 
-size_t size_of(Element element) { return element == Element::row ? 16 : element == Element::ulong ? 8 : 4; }
-
 /* 64 bodies: whole vectors at every width, so that none is left to the scalar kernels. */
 void step_with(const std::string &name, const std::string &backend, size_t missing)
 {
