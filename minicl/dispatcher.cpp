@@ -139,7 +139,7 @@ private:
     LaunchOrder order;
     order.launch_begins();
     arena_.execute([&, step = uint64_t{step_of_launch}] {
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) {
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) TANDEM_UNWATCHED {
         order.items_begin();
         step_of_launch = step;
         note_thread();
