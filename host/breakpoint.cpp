@@ -180,7 +180,7 @@ std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, si
   const auto iteration = iteration_that_wrote(world, launch, buffer, static_cast<uint32_t>(item));
   const std::string which = iteration ? fmt::format("{} == {} && ", iteration_name(launch.kernel), *iteration) : "";
   const char *const ending = row.form == Form::host ? "" : row.form == Form::group ? "_group" : "_item";
-  return fmt::format("{}{} if {}tandem::current_step == {}", row.name, ending, which, step);
+  return fmt::format("{}{} if {}tandem::step_of_launch == {}", row.name, ending, which, step);
 }
 
 } // namespace tandem

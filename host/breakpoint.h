@@ -21,7 +21,7 @@ size_t pair_capacity(World &world);
 /* Indices into Scene::bodies: the body of a body's row, the two of a pair's or constraint's. */
 std::vector<uint32_t> bodies_of_item(World &world, Buffer buffer, size_t item);
 
-/* "integrate_item if i == 17 && tandem::current_step == 3"; the step alone where the item that wrote
+/* "integrate_item if i == 17 && tandem::step_of_launch == 3"; the step alone where the item that wrote
  * the place is not known (scattering kernels). */
 std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, size_t item, uint64_t step);
 

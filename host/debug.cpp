@@ -3,6 +3,6 @@
 
 namespace tandem {
 
-volatile uint64_t current_step = 0;
+constinit thread_local volatile uint64_t step_of_launch = 0;
 
 } // namespace tandem

@@ -1,7 +1,8 @@
 /* debug.h - where the simulation is, for debuggers.
  *
- * `tandem diff` prints a gdb line that stops in one item of one kernel of one step; its condition reads
- * this variable, which World::step sets. Volatile, so that the compiler keeps every write.
+ * `tandem diff` prints a gdb line that stops in one item of one kernel of one step; its condition reads this variable. The launcher
+ * sets it in the thread that launches, and MiniCL in every thread that takes part, so that worlds which step at the same time do
+ * not speak for each other. Volatile, so that the compiler keeps every write.
  */
 #pragma once
 
@@ -9,6 +10,7 @@
 
 namespace tandem {
 
-extern volatile uint64_t current_step; /* steps committed before the one that runs: 0 in the first */
+/* Steps that the world of this thread's launch has committed: 0 in its first step. */
+extern constinit thread_local volatile uint64_t step_of_launch;
 
 } // namespace tandem

@@ -3,10 +3,13 @@
 
 #include <stdexcept>
 
+#include "host/debug.h"
+
 namespace tandem {
 
 void PlacedLauncher::launch(const Launch &launch)
 {
+  step_of_launch = step_;
   Backend &backend = choice_(launch.kernel);
   const KernelRow &row = row_of(launch.kernel);
   if (row.form == Form::host) {

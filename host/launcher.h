@@ -32,12 +32,14 @@ public:
   }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
   void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
+  void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/debug.h */
 
 private:
   Memory &memory_;
   Choice choice_;
   Observer observer_;
   std::function<void()> on_commit_;
+  uint64_t step_ = 0;
   std::vector<BoundArgument> bound_;
 };
 

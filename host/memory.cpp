@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sys/mman.h>
 
+#include "host/address_sanitizer.h"
 #include "host/faults.h"
 #include "host/out_of_memory.h"
 
@@ -30,6 +31,7 @@ public:
     if (!memory) throw std::bad_alloc();
     if (page == huge_page) madvise(memory, rounded, MADV_HUGEPAGE); /* whether it is heard is a matter of time alone */
     std::memset(memory, 0, rounded);
+    forbid_access(memory, bytes, rounded);
     return memory;
   }
   void release(void *handle) noexcept override { std::free(handle); }

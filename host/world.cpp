@@ -238,7 +238,7 @@ struct World::Implementation {
 
   void step()
   {
-    current_step = statistics.steps;
+    launcher.set_step(statistics.steps);
     ++state;
     const Attempt before{plan, statistics, quarantined.size()};
     try {

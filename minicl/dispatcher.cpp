@@ -2,6 +2,8 @@
 #include "minicl/dispatcher.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -14,6 +16,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "host/debug.h"
 #include "host/faults.h"
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
@@ -89,6 +92,7 @@ public:
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
   std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
+  uint32_t threads_used() const { return static_cast<uint32_t>(std::popcount(threads_seen_.load(std::memory_order_relaxed))); }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
@@ -137,15 +141,25 @@ private:
       body(begin, end);
     };
     if (threads_ == 1 || last - first <= grain) return exact(first, last);
-    launch_order::launch_begins();
-    arena_.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) {
-        launch_order::items_begin();
+    LaunchOrder order;
+    order.launch_begins();
+    arena_.execute([&, step = uint64_t{step_of_launch}] {
+      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) TANDEM_UNWATCHED {
+        order.items_begin();
+        step_of_launch = step;
+        note_thread();
         exact(range.begin(), range.end());
-        launch_order::items_end();
+        order.items_end();
       });
     });
-    launch_order::launch_ends();
+    order.launch_ends();
+  }
+
+  /* Without an order among threads, in which the thread sanitizer would then not see races. */
+  void note_thread()
+  {
+    const uint32_t bit = uint32_t{1} << (tbb::this_task_arena::current_thread_index() % 32);
+    if (!(threads_seen_.load(std::memory_order_relaxed) & bit)) threads_seen_.fetch_or(bit, std::memory_order_relaxed);
   }
 
   /* Every item once, last to first or in an order without pattern: results must not notice. */
@@ -169,6 +183,7 @@ private:
   const KernelTable &scalar_;
   const KernelTable *lanes_;
   Storage &storage_;
+  std::atomic<uint32_t> threads_seen_ = 0;
   bool profiling_ = false;
   std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };
@@ -182,5 +197,7 @@ std::unique_ptr<Backend> make_backend(const std::string &name, const Options &op
   if (filled.lanes == 0) filled.lanes = widest_lanes();
   return std::make_unique<MiniclBackend>(name, filled);
 }
+
+uint32_t threads_used(const Backend &backend) { return dynamic_cast<const MiniclBackend &>(backend).threads_used(); }
 
 } // namespace tandem::minicl

@@ -13,14 +13,6 @@
 SHARED real square_root(real x) { return real((float_lanes)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
 SHARED bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
-SHARED real load_real(const memory_real *from, natural i)
-{
-  return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
-}
-SHARED natural load_natural(const uint *from, natural i)
-{
-  return natural((uint_lanes)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
-}
 
 typedef __m512 quarter_rows; /* four records: of lanes k, k + 4, k + 8, k + 12 */
 SHARED quarter_rows load_quarter(const float *const *lanes, int k)
@@ -46,14 +38,6 @@ SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_
 SHARED real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
 SHARED bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
-SHARED real load_real(const memory_real *from, natural i)
-{
-  return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
-}
-SHARED natural load_natural(const uint *from, natural i)
-{
-  return natural((uint_lanes)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
-}
 
 typedef __m256 quarter_rows; /* two records: of lanes k and k + 4 */
 SHARED quarter_rows load_quarter(const float *const *lanes, int k)
@@ -74,6 +58,18 @@ SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_
 SHARED real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
 SHARED bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
+
+typedef __m128 quarter_rows; /* one record */
+SHARED quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
+SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
+SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
+SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
+SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
+SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
+#endif
+
+/* The address sanitizer does not look into gathers: in its builds each lane loads by itself. */
+#if TANDEM_LANES == 4 || defined(__SANITIZE_ADDRESS__)
 SHARED real load_real(const memory_real *from, natural i)
 {
   real r;
@@ -86,14 +82,24 @@ SHARED natural load_natural(const uint *from, natural i)
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }
-
-typedef __m128 quarter_rows; /* one record */
-SHARED quarter_rows load_quarter(const float *const *lanes, int k) { return _mm_load_ps(lanes[k]); }
-SHARED void store_quarter(float *const *lanes, int k, quarter_rows rows) { _mm_store_ps(lanes[k], rows); }
-SHARED quarter_rows unpack_low(quarter_rows a, quarter_rows b) { return _mm_unpacklo_ps(a, b); }
-SHARED quarter_rows unpack_high(quarter_rows a, quarter_rows b) { return _mm_unpackhi_ps(a, b); }
-SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_movelh_ps(a, b); }
-SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
+#elif TANDEM_LANES == 8
+SHARED real load_real(const memory_real *from, natural i)
+{
+  return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
+}
+SHARED natural load_natural(const uint *from, natural i)
+{
+  return natural((uint_lanes)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
+}
+#else
+SHARED real load_real(const memory_real *from, natural i)
+{
+  return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
+}
+SHARED natural load_natural(const uint *from, natural i)
+{
+  return natural((uint_lanes)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
+}
 #endif
 
 struct quarters {

@@ -8,6 +8,7 @@
 #include <new>
 #include <unordered_map>
 
+#include "host/address_sanitizer.h"
 #include "host/faults.h"
 
 namespace tandem::minicl {
@@ -39,10 +40,12 @@ public:
   {
     if (faults::strikes(faults::Site::allocation)) throw std::bad_alloc();
     const Layout layout = layout_of(element, bytes);
-    const size_t rounded = (std::max<size_t>(wide_bytes(layout), reference_parameters.bytes) + 63) / 64 * 64;
+    const size_t needed = element == Element::Parameters ? std::max(wide_bytes(layout), reference_parameters.bytes) : wide_bytes(layout);
+    const size_t rounded = (std::max<size_t>(needed, 1) + 63) / 64 * 64;
     void *memory = std::aligned_alloc(64, rounded);
     if (!memory) throw std::bad_alloc();
     std::memset(memory, 0, rounded);
+    forbid_access(memory, needed, rounded);
     const std::lock_guard<std::mutex> lock(mutex_);
     try {
       layouts_[memory] = layout;

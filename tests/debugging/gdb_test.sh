@@ -9,8 +9,8 @@ expected=$("$probe" | sed -n 's/^impulse .* bits //p')
 
 # Names of arguments, which kernels.def fixes too; names of locals change with the solver.
 seen=$(gdb -batch -nx -ex 'set confirm off' \
-  -ex 'break tandem::scalar::solve_contacts_item if i == 17 && tandem::current_step == 3' -ex run \
-  -ex 'printf "item %u of step %u\n", i, tandem::current_step' \
+  -ex 'break tandem::scalar::solve_contacts_item if i == 17 && tandem::step_of_launch == 3' -ex run \
+  -ex 'printf "item %u of step %u\n", i, tandem::step_of_launch' \
   -ex 'set $n = constraint_normal[i]' -ex 'printf "normal length %.6f\n", $n.x * $n.x + $n.y * $n.y + $n.z * $n.z' \
   -ex 'set $impulses = constraint_normal_impulse' -ex finish \
   -ex 'printf "bits 0x%x\n", *(unsigned int *)&$impulses[17].x' -ex kill "$probe" 2>&1) || true
@@ -24,4 +24,10 @@ check() {
 check "item 17 of step 3"
 check "normal length 1.000000"
 check "bits $expected"
+
+# A worker knows the step as well as the thread that launches: it would say 0 if only that one did.
+seen=$(gdb -batch -nx -ex 'set confirm off' \
+  -ex 'break tandem::scalar::compute_bounds_item if $_thread != 1 && tandem::step_of_launch >= 2' -ex run \
+  -ex 'printf "a worker after %d steps\n", tandem::step_of_launch >= 2 ? 2 : 0' -ex kill --args "$probe" threads 2>&1) || true
+check "a worker after 2 steps"
 echo "gdb and the library agree: $expected"

@@ -1,7 +1,8 @@
 /* probe.cpp - runs a small scene for gdb to stop in, and says what gdb must then see.
  *
  * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the buffer:
- * the value that a debugger sees there at the end of that item, read without one.
+ * the value that a debugger sees there at the end of that item, read without one. `probe threads` runs a scene of which
+ * several threads have a share, for gdb to ask one of them for its step.
  */
 #include <cinttypes>
 #include <cstdio>
@@ -31,10 +32,17 @@ void print_impulse(World &world)
   std::printf("impulse %.9g bits 0x%" PRIx32 "\n", static_cast<double>(impulse), bits);
 }
 
+void run_in_threads()
+{
+  World world(load_scene("box-grid:nx=9,ny=9,nz=9"), {}, Placement{"tbb:threads=2,lanes=1", {}, false});
+  for (int k = 0; k < 20; ++k) world.step();
+}
+
 } // namespace
 
-int main()
+int main(int count, char **)
 {
+  if (count > 1) return run_in_threads(), 0;
   World world(load_scene("box-grid:nx=3,ny=3,nz=3"), {}, Placement{"serial", {}, false});
   bool printed = false;
   world.set_observer([&](const Launch &launch) {

@@ -1,12 +1,11 @@
 /* contact_solver_test.cpp - frictional contact problems: closed forms, an oracle in Eigen, the published figures. */
-#include <cstdlib>
 #include <filesystem>
-#include <iostream>
 
 #include "host/contact_solver.h"
 #include "shared/problem/residual.h"
 #include "tests/catch.h"
 #include "tests/host/contact_problem.h"
+#include "tests/shared_data.h"
 
 using namespace tandem;
 namespace fs = std::filesystem;
@@ -26,16 +25,6 @@ ContactSolution solved(const ContactProblem &problem, const std::string &solver,
 void check_impulse(const std::array<double, 3> &impulse, const std::array<double, 3> &expected)
 {
   for (size_t axis = 0; axis < 3; ++axis) CHECK(impulse[axis] == Approx(expected[axis]).margin(1e-6));
-}
-
-/* An empty path where the collection is absent: TANDEM_SHARED_DATA or ../shared/data. */
-fs::path siconos()
-{
-  const char *given = std::getenv("TANDEM_SHARED_DATA");
-  const fs::path folder = fs::path(given ? given : TANDEM_SOURCE_DIR "/../shared/data") / "siconos";
-  if (fs::is_directory(folder)) return folder;
-  std::cout << "skipped: no Siconos problems in " << folder << "\n";
-  return {};
 }
 
 } // namespace
@@ -124,8 +113,7 @@ TEST_CASE("contact problem: levels keep the order of the plain pass")
 
 TEST_CASE("contact problem: Siconos's problems take the published numbers of sweeps")
 {
-  const fs::path folder = siconos();
-  if (folder.empty()) return;
+  const fs::path folder = shared_data("siconos");
   struct Figure {
     const char *file;
     double pgs, nncg;

@@ -35,9 +35,8 @@ std::unique_ptr<Backend> prepared(const opencl::Candidate &device)
 
 TEST_CASE("fill on OpenCL writes its range and nothing else")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = prepared(*device);
+  const opencl::Candidate &device = test_device();
+  const auto backend = prepared(device);
   for (const uint32_t length : {1u, 63u, 64u, 65u, 1000u, 5000u})
     for (const uint32_t expected : {0u, 1u, length, 10 * length}) {
       Memory memory;
@@ -51,11 +50,10 @@ TEST_CASE("fill on OpenCL writes its range and nothing else")
 
 TEST_CASE("any group size gives the same values on OpenCL")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
+  const opencl::Candidate &device = test_device();
   for (const char *size : {"1", "7", "32", "256"}) {
     const Environment environment("TANDEM_LOCAL_SIZE", size);
-    const auto backend = prepared(*device);
+    const auto backend = prepared(device);
     Memory memory;
     memory.resize(Buffer::primitive_a, 4000);
     run_fill(*backend, memory, 0, 999, 3, 500);
@@ -64,14 +62,13 @@ TEST_CASE("any group size gives the same values on OpenCL")
     REQUIRE(values.back() == 0);
   }
   const Environment environment("TANDEM_LOCAL_SIZE", "many");
-  REQUIRE_THROWS_AS(opencl::make_device_backend("cl", *device), InputError);
+  REQUIRE_THROWS_AS(opencl::make_device_backend("cl", device), InputError);
 }
 
 TEST_CASE("the last writer is read, whichever of host, MiniCL and OpenCL it was")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto first = prepared(*device), second = prepared(*device);
+  const opencl::Candidate &device = test_device();
+  const auto first = prepared(device), second = prepared(device);
   const auto serial = make_backend("serial");
   Memory memory;
   const uint32_t length = 20000;
@@ -96,13 +93,9 @@ TEST_CASE("the last writer is read, whichever of host, MiniCL and OpenCL it was"
 
 TEST_CASE("a device that shares the host's memory works in the host's bytes")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = prepared(*device);
-  if (!backend->storage().shares_host_memory()) {
-    WARN("this device does not share the host's memory");
-    return;
-  }
+  const opencl::Candidate &device = test_device();
+  const auto backend = prepared(device);
+  if (!backend->storage().shares_host_memory()) tests::skip("this device does not share the host's memory");
   Memory memory;
   memory.resize(Buffer::primitive_a, 4096);
   const auto *host = static_cast<const uint32_t *>(memory.acquire(Buffer::primitive_a, host_storage(), Access::in));
@@ -113,9 +106,8 @@ TEST_CASE("a device that shares the host's memory works in the host's bytes")
 
 TEST_CASE("a buffer made anew is not taken for the one it replaces")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = prepared(*device);
+  const opencl::Candidate &device = test_device();
+  const auto backend = prepared(device);
   Memory memory;
   for (uint32_t round = 1; round < 50; ++round) {
     memory.resize(Buffer::primitive_a, 4096 + 4 * (round % 3));
@@ -127,9 +119,8 @@ TEST_CASE("a buffer made anew is not taken for the one it replaces")
 
 TEST_CASE("profiling times the kernels that ran, and only those")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = prepared(*device);
+  const opencl::Candidate &device = test_device();
+  const auto backend = prepared(device);
   Memory memory;
   memory.resize(Buffer::primitive_a, 400000);
   run_fill(*backend, memory, 0, 100000, 1, 100000);
@@ -148,23 +139,21 @@ TEST_CASE("profiling times the kernels that ran, and only those")
 
 TEST_CASE("an allocation that no device can hold is refused with its size and the device's name")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = prepared(*device);
+  const opencl::Candidate &device = test_device();
+  const auto backend = prepared(device);
   try {
     Memory memory;
     backend->storage().allocate(Element::uint, size_t{1} << 52, nullptr);
     FAIL("4 PiB were allocated");
   } catch (const opencl::DeviceError &error) {
     REQUIRE(std::string(error.what()).find(std::to_string(size_t{1} << 52)) != std::string::npos);
-    REQUIRE(std::string(error.what()).find(device->info.device_name) != std::string::npos);
+    REQUIRE(std::string(error.what()).find(device.info.device_name) != std::string::npos);
   }
 }
 
 TEST_CASE("a kernel that was not prepared is not launched")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const auto backend = opencl::make_device_backend("cl", *device);
+  const opencl::Candidate &device = test_device();
+  const auto backend = opencl::make_device_backend("cl", device);
   REQUIRE_THROWS_AS(backend->run({Kernel::fill, {}, {}}, {}, nullptr), std::logic_error);
 }

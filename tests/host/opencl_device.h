@@ -1,4 +1,4 @@
-/* opencl_device.h - the OpenCL device that tests run on, and a warning where there is none. */
+/* opencl_device.h - the OpenCL device that tests run on; without one they are skipped. */
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,22 @@
 
 namespace tandem {
 
-/* The first device that passes its self-test; null (and said) without one. TANDEM_TEST_DEVICE chooses by platform. */
-inline const opencl::Candidate *test_device()
+/* The first device that passes its self-test, or null. TANDEM_TEST_DEVICE chooses by platform. */
+inline const opencl::Candidate *find_test_device()
 {
   static const std::vector<opencl::Candidate> candidates = opencl::find_candidates();
   const char *wanted = std::getenv("TANDEM_TEST_DEVICE");
   const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const opencl::Candidate &candidate) {
     return (!wanted || candidate.info.platform_name == wanted) && candidate.unusable.empty() && opencl::self_test(candidate).empty();
   });
-  if (found == candidates.end()) WARN("no OpenCL device: this test did not run");
   return found == candidates.end() ? nullptr : &*found;
+}
+
+inline const opencl::Candidate &test_device()
+{
+  const opencl::Candidate *const device = find_test_device();
+  if (!device) tests::skip_device("no OpenCL device");
+  return *device;
 }
 
 /* An environment variable for the length of a test. */

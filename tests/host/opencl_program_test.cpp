@@ -85,10 +85,9 @@ TEST_CASE("a cache directory that cannot be written fails nothing")
 
 TEST_CASE("programs come back from the cache, and from source when the cache is damaged")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
+  const opencl::Candidate &device = test_device();
   const PrivateCache cache;
-  const opencl::DeviceContext context(*device);
+  const opencl::DeviceContext context(device);
   const EmbeddedProgram &embedded = opencl::embedded_program("parallel");
   const auto has_fill = [&](const cl::Program &program) { return cl::Kernel(program, "fill")() != nullptr; };
   REQUIRE(has_fill(opencl::build_program(context, embedded)));
@@ -102,7 +101,7 @@ TEST_CASE("programs come back from the cache, and from source when the cache is 
   REQUIRE(has_fill(opencl::build_program(context, embedded)));
   REQUIRE(files::file_size(file) > 100);
 
-  if (device->info.platform_name != "rusticl") { /* which ends the program when a binary is not its own */
+  if (device.info.platform_name != "rusticl") { /* which ends the program when a binary is not its own */
     opencl::store_binary(opencl::cache_key(context, embedded, ""), some_bytes);
     REQUIRE(has_fill(opencl::build_program(context, embedded)));
     REQUIRE(files::file_size(file) > std::strlen(embedded.source) + 1000);
@@ -111,9 +110,8 @@ TEST_CASE("programs come back from the cache, and from source when the cache is 
 
 TEST_CASE("other options, another program: another place in the cache")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
-  const opencl::DeviceContext context(*device);
+  const opencl::Candidate &device = test_device();
+  const opencl::DeviceContext context(device);
   const EmbeddedProgram changed{"parallel", "__kernel void fill() {}"};
   const std::string plain = opencl::cache_key(context, opencl::embedded_program("parallel"), "");
   REQUIRE(plain != opencl::cache_key(context, opencl::embedded_program("parallel"), "-D FEATURES=1"));
@@ -122,10 +120,9 @@ TEST_CASE("other options, another program: another place in the cache")
 
 TEST_CASE("a program that does not compile is shown with file and line")
 {
-  const opencl::Candidate *device = test_device();
-  if (!device) return;
+  const opencl::Candidate &device = test_device();
   const PrivateCache cache;
-  const opencl::DeviceContext context(*device);
+  const opencl::DeviceContext context(device);
   const EmbeddedProgram broken{"broken", "#line 1 \"cl/broken.cl\"\n\n#line 41 \"shared/math.h\"\n\nfloat f(float x) { return y; }\n"};
   try {
     opencl::build_program(context, broken);
@@ -134,7 +131,7 @@ TEST_CASE("a program that does not compile is shown with file and line")
     const std::string message = error.what();
     INFO(message);
     REQUIRE(message.find("cl/broken.cl") != std::string::npos);
-    if (device->info.platform_name != "Oclgrind") /* which counts lines from the start of the whole text */
+    if (device.info.platform_name != "Oclgrind") /* which counts lines from the start of the whole text */
       REQUIRE(message.find("shared/math.h:42") != std::string::npos);
     REQUIRE(message.find("'y'") != std::string::npos);
   }

@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/backend.h"
+#include "host/debug.h"
+#include "host/scene_catalog.h"
+#include "host/world.h"
+#include "minicl/dispatcher.h"
 
 using namespace tandem;
 
@@ -31,6 +36,22 @@ bool all_equal(const std::vector<uint32_t> &values, uint32_t first, uint32_t las
   return std::all_of(values.begin() + first, values.begin() + last, [&](uint32_t v) { return v == value; });
 }
 
+Placement on(const std::string &backend) { return {backend, {}, false}; }
+
+uint64_t hash_after(World &world, uint64_t steps)
+{
+  while (world.statistics().steps < steps) world.step();
+  return world.state_hash();
+}
+
+/* A worker may come late to short launches, so a scene goes on until one has come. */
+uint32_t threads_seen(World &world, uint64_t least_steps)
+{
+  const auto seen = [&] { return minicl::threads_used(world.backend_of(Kernel::compute_bounds)); };
+  for (uint64_t k = 0; k < least_steps || (seen() < 2 && k < 300); ++k) world.step();
+  return seen();
+}
+
 } // namespace
 
 TEST_CASE("every item of a range is written and none outside it", "[sanitizer]")
@@ -52,10 +73,63 @@ TEST_CASE("every item of a range is written and none outside it", "[sanitizer]")
 
 TEST_CASE("a launch overwrites what other threads wrote in the one before", "[sanitizer]")
 {
-  const std::unique_ptr<Backend> backend = make_backend("tbb:threads=4");
+  const std::unique_ptr<Backend> backend = make_backend("tbb:threads=4,lanes=4");
   std::vector<uint32_t> values(20000, 0u);
   for (uint32_t round = 1; round <= 50; ++round) {
     fill(*backend, values, round, 20000u - 7u * round, round);
     CHECK(all_equal(values, round, 20000u - 7u * round, round));
   }
+}
+
+/* More bodies and pairs than a task takes, for every family of kernels that threads share. */
+TEST_CASE("several threads take part in the steps of scenes of more than a task's items", "[sanitizer]")
+{
+  for (const char *scene : {"box-grid:nx=9,ny=7,nz=9", "mixed:n=500", "spheres:n=600,height=0,restitution=0.5", "hulls-on-mesh:n=300"}) {
+    World world(load_scene(scene), {}, on("tbb:threads=4,lanes=4"));
+    CAPTURE(scene);
+    CHECK(threads_seen(world, 3) > 1);
+  }
+  for (const char *solver : {"pgs", "nncg", "jacobi", "xpbd", "avbd"}) {
+    Settings settings;
+    settings.solver = solver;
+    World world(load_scene("box-grid:nx=9,ny=5,nz=9"), settings, on("tbb:threads=4,lanes=4"));
+    CAPTURE(solver);
+    CHECK(threads_seen(world, 2) > 1);
+  }
+}
+
+TEST_CASE("one thread splits nothing")
+{
+  World alone(load_scene("box-grid:nx=9,ny=7,nz=9"), {}, on("tbb:threads=1"));
+  alone.step();
+  CHECK(minicl::threads_used(alone.backend_of(Kernel::compute_bounds)) == 0);
+}
+
+TEST_CASE("worlds that step in two threads at the same time have the bits that each has alone", "[sanitizer]")
+{
+  const Scene scene = load_scene("box-grid:nx=9,ny=5,nz=9"), other = load_scene("mixed:n=400");
+  World alone(scene, {}, on("serial")), other_alone(other, {}, on("serial"));
+  World first(scene, {}, on("tbb:threads=2,lanes=4")), second(other, {}, on("tbb:threads=2,lanes=4"));
+  uint64_t hash = 0, other_hash = 0;
+  std::thread one([&] { hash = hash_after(first, 6); }), two([&] { other_hash = hash_after(second, 6); });
+  one.join();
+  two.join();
+  CHECK(hash == hash_after(alone, 6));
+  CHECK(other_hash == hash_after(other_alone, 6));
+}
+
+/* What a debugger's condition reads: while a launch of one world is looked at, another world steps in another thread. */
+TEST_CASE("the step that a thread tells a debugger is that of its own world", "[sanitizer]")
+{
+  const Scene scene = load_scene("box-grid:nx=2,ny=2,nz=2");
+  World world(scene, {}, on("tbb:threads=2"));
+  for (int k = 0; k < 2; ++k) world.step();
+  uint64_t launches = 0, right = 0;
+  world.set_observer([&](const Launch &) {
+    if (launches++ == 0) std::thread([&] { World(scene, {}, on("serial")).step(); }).join();
+    right += step_of_launch == 2;
+  });
+  world.step();
+  CHECK(launches > 10);
+  CHECK(right == launches);
 }

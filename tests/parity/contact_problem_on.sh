@@ -3,6 +3,7 @@
 # residuals and impulses to the last digit, and no complaint of Oclgrind, which watches every access.
 set -eu
 tandem=$1 problem=$2 device=$3 directory=$4
+. "$(dirname "$0")/absent.sh"
 
 solve() { # SOLVER BACKEND [COMMAND BEFORE TANDEM...]
   solver=$1 backend=$2
@@ -12,10 +13,10 @@ solve() { # SOLVER BACKEND [COMMAND BEFORE TANDEM...]
 }
 
 if [ "$device" = rusticl ]; then
-  "$tandem" devices | grep -q rusticl || { echo "skipped: no rusticl"; exit 77; }
+  "$tandem" devices | grep -q rusticl || absent rusticl
   log= watch=env
 else
-  command -v oclgrind > /dev/null || { echo "skipped: no oclgrind"; exit 77; }
+  command -v oclgrind > /dev/null || absent oclgrind
   log=$(mktemp "$directory/oclgrind.XXXXXX") watch="oclgrind --log $log --data-races --check-api"
 fi
 for solver in pgs nncg jacobi; do

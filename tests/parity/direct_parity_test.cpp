@@ -37,7 +37,7 @@ TEST_CASE("parity on CPU: the solver direct")
 
 TEST_CASE("parity on OpenCL: the solver direct")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   Settings settings = settings_for("direct");
   settings.specialise = false; /* one build for all scenes */
   for (const std::string &scene : direct_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 12, settings);
@@ -54,7 +54,7 @@ TEST_CASE("parity on CPU: a stage of the host stays there wherever it is placed,
 
 TEST_CASE("parity on OpenCL: islands solved on the host between stages on a device")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   const uint64_t expected = state_after("mixed:n=20", "serial", 8, settings_for("direct"));
   World world(load_scene("mixed:n=20"), settings_for("direct"), Placement{"tbb", {{"setup", "cl:pocl"}, {"integrate", "cl:pocl"}}, false});
   for (int k = 0; k < 8; ++k) world.step();

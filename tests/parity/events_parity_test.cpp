@@ -66,7 +66,7 @@ TEST_CASE("parity on CPU: the list of events is one on every backend")
 
 TEST_CASE("parity on OpenCL: events and triggers")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   require_parity(triggers(), {"serial", "cl:pocl"}, 60, with_all());
   require_same_events("cl:pocl");
 }

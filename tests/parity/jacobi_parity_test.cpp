@@ -36,7 +36,7 @@ TEST_CASE("parity on CPU: a list of more than a thousand") { require_parity(phys
 
 TEST_CASE("parity on OpenCL: jacobi and the tail")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   const std::vector<std::string> backends = {"serial", "cl:pocl"};
   require_parity("mixed:n=60", backends, 15, all_features(settings_for("jacobi")));
   require_parity(physics_tests::laden_slab(35), backends, 3, all_features(settings_for("jacobi")));

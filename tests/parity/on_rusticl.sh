@@ -3,5 +3,6 @@
 set -eu
 tandem=$1
 shift
-"$tandem" devices | grep -q rusticl || { echo "skipped: no rusticl"; exit 77; }
+. "$(dirname "$0")/absent.sh"
+"$tandem" devices | grep -q rusticl || absent rusticl
 exec "$tandem" diff "$@" --between serial,cl:rusticl

@@ -22,13 +22,13 @@ Settings all_features()
 
 TEST_CASE("parity on OpenCL: every scene")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
 }
 
 TEST_CASE("parity on OpenCL: every broadphase")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const std::string &broadphase : broadphase_names()) {
     Settings settings = all_features();
     settings.broadphase = broadphase;
@@ -41,7 +41,7 @@ TEST_CASE("parity on OpenCL: every broadphase")
 
 TEST_CASE("parity on OpenCL: every batching")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const std::string &batching : batching_names()) {
     Settings settings = all_features();
     settings.batching = batching;
@@ -52,7 +52,7 @@ TEST_CASE("parity on OpenCL: every batching")
 
 TEST_CASE("parity on OpenCL: every narrowphase")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const std::string &narrowphase : narrowphase_names()) {
     Settings settings = all_features();
     settings.narrowphase = narrowphase;
@@ -64,7 +64,7 @@ TEST_CASE("parity on OpenCL: every narrowphase")
 
 TEST_CASE("parity on OpenCL: trees by subtrees")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   Settings settings = all_features();
   settings.midphase = "subtrees";
   require_parity(few_trees(), {"serial", "cl:pocl"}, 20, settings);
@@ -73,7 +73,7 @@ TEST_CASE("parity on OpenCL: trees by subtrees")
 /* Groups smaller and larger than the pairs, subtrees and nodes of a phase. The other stages, which take long to build, stay on the CPU. */
 TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   ComparisonRequest request;
   request.settings.midphase = "subtrees";
   request.backends = {"serial", "cl:pocl"};
@@ -92,7 +92,7 @@ TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
 /* More bodies than a tile has items, so that groups of every size stride over several tiles. */
 TEST_CASE("parity on OpenCL: every size of work-groups")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const char *size : {"1", "7", "32", "256"}) {
     const Environment local_size("TANDEM_LOCAL_SIZE", size);
     CAPTURE(size);

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "host/compare.h"
-#include "host/opencl/device.h"
 #include "host/scene_catalog.h"
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
+#include "tests/host/pocl.h"
 
 namespace tandem::parity {
 
@@ -42,18 +42,6 @@ inline std::vector<std::string> cpu_backends()
       if (lanes == 1 || minicl::lanes_table(lanes))
         backends.push_back(std::string("tbb:threads=") + threads + ",lanes=" + std::to_string(lanes));
   return backends;
-}
-
-/* False, and said, without PoCL. */
-inline bool has_pocl()
-{
-  static const bool found = [] {
-    for (const opencl::DeviceInfo &device : opencl::list_devices())
-      if (device.supported && device.platform_name == "Portable Computing Language") return true;
-    return false;
-  }();
-  if (!found) WARN("no PoCL: this test did not run");
-  return found;
 }
 
 inline std::string describe(const Difference &difference)

@@ -55,7 +55,7 @@ TEST_CASE("parity on CPU: kernels placed at random in each frame", "[sanitizer]"
 
 TEST_CASE("parity on OpenCL: kernels placed at random in each frame")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 30, 1);
   require_same_states("box-grid:nx=4,ny=4,nz=4", {"serial", "tbb", "cl:pocl"}, 30, 2);
   require_same_states(every_shape(), {"serial", "tbb", "cl:pocl"}, 30, 3);

@@ -23,7 +23,7 @@ TEST_CASE("parity of position solvers on CPU", "[sanitizer]")
 
 TEST_CASE("parity on OpenCL: position solvers")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
   Settings settings = settings_for(name);
   settings.specialise = false;

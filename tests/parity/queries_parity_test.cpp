@@ -103,6 +103,6 @@ TEST_CASE("parity on CPU: threads share queries", "[sanitizer]") { require_equal
 
 TEST_CASE("parity on OpenCL: queries")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40"}) require_equal_answers(scene, {"cl:pocl"}, 300, 2);
 }

@@ -107,7 +107,7 @@ TEST_CASE("parity on CPU: pgs and nncg with all features built in")
 
 TEST_CASE("parity on OpenCL: pgs, nncg and rolling friction")
 {
-  if (!has_pocl()) return;
+  require_pocl();
   for (const char *solver : {"pgs", "nncg", "soft-step"}) {
     Settings settings = settings_of(solver, 1, 4);
     settings.specialise = false;

@@ -19,7 +19,8 @@ void require_same_state_on_pocl(const std::string &scene, const std::string &nar
   Settings settings;
   settings.narrowphase = narrowphase;
   settings.support = support;
-  if (has_pocl()) require_same_state(scene, "cl:pocl", 20, settings);
+  require_pocl();
+  require_same_state(scene, "cl:pocl", 20, settings);
 }
 
 } // namespace

@@ -23,7 +23,8 @@ if [ "$1" = --self-test ]; then
   exit 0
 fi
 
-command -v oclgrind > /dev/null || { echo "skipped: no oclgrind"; exit 77; }
+. "$(dirname "$0")/absent.sh"
+command -v oclgrind > /dev/null || absent oclgrind
 tandem=$1
 log=$(mktemp "$2/oclgrind.XXXXXX")
 shift 2

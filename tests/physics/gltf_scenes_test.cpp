@@ -1,6 +1,6 @@
 /* The scenes that come with the glTF physics extensions do what their tables say: one row a scene, closed forms where there are any.
  *
- * They lie beside the source, not in it (tests/host/gltf_scenes.h); without them the tests are skipped with a word. */
+ * They lie beside the source, not in it (tests/host/gltf_scenes.h); without them the tests are skipped. */
 #include "tests/catch.h"
 
 #include <fmt/format.h>
@@ -246,7 +246,7 @@ Scene pair_of_shapes(size_t below, size_t above)
 
 TEST_CASE("glTF's own scenes of filters, materials and motions do what their tables say", "[physics]")
 {
-  if (gltf_scenes().empty()) return;
+  gltf_scenes();
   for (const Row &row : rows) {
     CAPTURE(row.scene, row.says);
     Course course(scene_of(row.scene));
@@ -256,7 +256,7 @@ TEST_CASE("glTF's own scenes of filters, materials and motions do what their tab
 
 TEST_CASE("glTF's own pairs of shapes: the upper body stays on the lower one", "[physics]")
 {
-  if (gltf_scenes().empty()) return;
+  gltf_scenes();
   for (size_t below = 0; below < 6; ++below)
     for (size_t above = 0; above < 6; ++above) {
       CAPTURE(below, above);
@@ -280,14 +280,15 @@ std::vector<Scene> all_scenes()
 
 TEST_CASE("glTF's own scenes have the same bits on one thread and on several with lanes")
 {
-  if (gltf_scenes().empty()) return;
+  gltf_scenes();
   for (const Scene &scene : all_scenes()) parity::require_parity(scene, {"serial", "tbb:threads=2,lanes=8"}, 90);
 }
 
 /* All of them with TANDEM_ALL_GLTF_SCENES set. One build of all features serves them all. */
 TEST_CASE("parity on OpenCL: glTF's own scenes")
 {
-  if (gltf_scenes().empty() || !parity::has_pocl()) return;
+  gltf_scenes();
+  parity::require_pocl();
   Settings settings;
   settings.specialise = false;
   const std::vector<Scene> scenes = all_scenes();

@@ -1,5 +1,6 @@
 # The tests of a sanitizer tree (presets asan and tsan): the Catch2 tests tagged [sanitizer], among them scenes large
-# enough that kernels are split over several threads. Drivers of OpenCL are not instrumented: left out.
+# enough that kernels are split over several threads; whole files of tests of what reads files and of the command; and faults that
+# must be seen. Drivers of OpenCL are not instrumented: left out.
 set(launcher)
 if(TANDEM_SANITIZE MATCHES thread)
   # The thread sanitizer of some compilers cannot place its shadow memory under strong address randomisation.
@@ -10,7 +11,51 @@ if(TANDEM_SANITIZE MATCHES thread)
 endif()
 
 function(sanitizer_test name)
-  tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900 COMMAND ${launcher} ${ARGN})
+  tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900
+    ENVIRONMENT TANDEM_COMMAND=$<TARGET_FILE:tandem_command> OCL_ICD_VENDORS=/nonexistent OPENCL_VENDOR_PATH=/nonexistent
+    COMMAND ${launcher} ${ARGN})
+  set_property(TEST sanitizer.${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION CI=unset:) # which would ask for these drivers
 endfunction()
 
 sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
+
+add_executable(tandem_planted sanitizers/planted.cpp)
+target_link_libraries(tandem_planted PRIVATE tandem)
+set_target_properties(tandem_planted PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/build-tools)
+add_dependencies(tandem_tests tandem_planted) # one target builds what the tests run
+
+# sanitizer_sees(name regex arguments...): a report that matches, whatever the exit status.
+function(sanitizer_sees name report)
+  sanitizer_test(sees.${name} $<TARGET_FILE:tandem_planted> ${ARGN})
+  set_tests_properties(sanitizer.sees.${name} PROPERTIES PASS_REGULAR_EXPRESSION "${report}" FAIL_REGULAR_EXPRESSION "nothing was seen")
+endfunction()
+
+if(TANDEM_SANITIZE MATCHES address)
+  # Whole files of tests (Catch2's tag of a file), of which the command's run the instrumented program.
+  foreach(file IN LISTS reader_tests)
+    sanitizer_test(${file} $<TARGET_FILE:tandem_tests> ${fail_without_tests} --filenames-as-tags "[#${file}]")
+  endforeach()
+
+  # By one element. Each width is seen in its own kernels, of which whole vectors are gathered.
+  function(sees_overruns name kernels backend)
+    foreach(buffer body_velocity bounds counts)
+      sanitizer_sees(overrun.${name}.${buffer} "ERROR: AddressSanitizer" overrun ${buffer} ${backend})
+    endforeach()
+    sanitizer_sees(overrun.${name} "run_items<tandem::${kernels}::" overrun body_orientation ${backend})
+    sanitizer_test(exact.${name} $<TARGET_FILE:tandem_planted> exact body_orientation ${backend})
+  endfunction()
+  file(STRINGS /proc/cpuinfo processor REGEX "^flags" LIMIT_COUNT 1)
+  sees_overruns(serial scalar serial)
+  sees_overruns(backward backward serial:order=backward)
+  sees_overruns(reference reference reference:threads=1)
+  sees_overruns(lanes4 lanes4 tbb:threads=2,lanes=4)
+  if(processor MATCHES " avx2 ")
+    sees_overruns(lanes8 lanes8 tbb:threads=2,lanes=8)
+  endif()
+  if(processor MATCHES " avx512dq ")
+    sees_overruns(lanes16 lanes16 tbb:threads=2,lanes=16)
+  endif()
+else()
+  sanitizer_sees(race "#0 fill_item" race)
+  sanitizer_test(no-race $<TARGET_FILE:tandem_planted> no-race)
+endif()

@@ -114,7 +114,7 @@ TEST_CASE("every moving body lists its constraints in order", "[sanitizer]")
 
 TEST_CASE("bodies list the same constraints on OpenCL")
 {
-  if (!parity::has_pocl()) return;
+  parity::require_pocl();
   for (const uint32_t first_color : {0u, COLOR_TAIL}) {
     const Graph graph = random_graph(3000, 9000, true, 4);
     CHECK((on_backend("cl:pocl", graph, first_color) == by_hand(graph, first_color == 0 ? 0 : graph.tail)));

@@ -131,7 +131,7 @@ TEST_CASE("broadphases that keep something are right among many", "[motion]")
 
 TEST_CASE("broadphases on OpenCL that keep something are right in each step of motion", "[motion]")
 {
-  if (!parity::has_pocl()) return;
+  parity::require_pocl();
   SoupRunner runner(make_backend("cl:pocl"));
   for (const char *broadphase : keeping) {
     check_motion(runner, broadphase, 2, 0.1, 0, 20);

@@ -173,7 +173,7 @@ TEST_CASE("broadphases find the pairs of fifty thousand boxes")
 
 TEST_CASE("broadphases on OpenCL find the pairs of the oracle in any soup")
 {
-  if (!parity::has_pocl()) return;
+  parity::require_pocl();
   SoupRunner runner(make_backend("cl:pocl"));
   Random random(79);
   for (const Kind &kind : kinds)
