@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
 
 namespace tandem {
@@ -15,7 +16,7 @@ namespace {
 /* Mass from 1,000 kg / m^3 of a ball of that radius, centre and axes from the shape. */
 void finish(Scene &scene, Body &body, double radius)
 {
-  body.mass = float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
+  body.mass = round_to_float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
   take_mass_properties(scene, body);
 }
 
@@ -71,7 +72,7 @@ Scene rolling(const SceneValues &v)
   Body &ramp = add_body(scene, add_shape(scene, half_space_shape()));
   ramp.name = "ramp";
   ramp.motion = Motion::fixed;
-  ramp.orientation = {0, 0, float(std::sin(-angle / 2)), float(std::cos(-angle / 2))};
+  ramp.orientation = {0, 0, round_to_float(std::sin(-angle / 2)), round_to_float(std::cos(-angle / 2))};
   const Shape round[] = {sphere_shape(0.3f), cylinder_shape(0.3f, 0.4f), cylinder_shape(0.3f, 0.05f), capsule_shape(0.3f, 0.4f)};
   const char *names[] = {"ball", "cylinder", "disc", "capsule"};
   for (size_t k = 0; k < 4; ++k) {
@@ -92,7 +93,7 @@ Scene thin_wall(const SceneValues &v)
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
   scene.gravity = {0, 0, 0};
-  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), float(wall_side), float(wall_side))));
+  Body &wall = add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2), round_to_float(wall_side), round_to_float(wall_side))));
   wall.name = "wall";
   wall.motion = Motion::fixed;
   const auto first = uint32_t(scene.shapes.size());
@@ -113,8 +114,8 @@ Scene thin_wall(const SceneValues &v)
     const double lean = random.uniform(0, number(v, "angle")) * 3.14159265358979 / 180, about = random.uniform(0, 6.2831853);
     const double speed = number(v, "speed"), spin = random.uniform(0, number(v, "spin"));
     const Vec3 axis = direction(random);
-    body.linear_velocity = {float(speed * std::cos(lean)), float(speed * std::sin(lean) * std::cos(about)), float(speed * std::sin(lean) * std::sin(about))};
-    body.angular_velocity = {float(spin * axis[0]), float(spin * axis[1]), float(spin * axis[2])};
+    body.linear_velocity = {round_to_float(speed * std::cos(lean)), round_to_float(speed * std::sin(lean) * std::cos(about)), round_to_float(speed * std::sin(lean) * std::sin(about))};
+    body.angular_velocity = {round_to_float(spin * axis[0]), round_to_float(spin * axis[1]), round_to_float(spin * axis[2])};
     body.orientation = random.orientation();
     body.continuous = true;
     body.filter_group = 2;
@@ -132,7 +133,7 @@ Scene bullet_stack(const SceneValues &v)
   add_ground(scene);
   const float half = 0.1f, radius = 0.01f;
   const int64_t height = whole(v, "height"), rows = whole(v, "rows");
-  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
+  Body &wall = add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
   wall.name = "wall";
   wall.motion = Motion::fixed;
   const uint32_t box = add_shape(scene, box_shape(half, half, half));
@@ -143,7 +144,7 @@ Scene bullet_stack(const SceneValues &v)
   Body &bullet = add_body(scene, add_shape(scene, sphere_shape(radius)), {-2 - 2.2 * double(half) * double(rows), aim, 0.01}, 0.05f);
   bullet.name = "bullet";
   bullet.continuous = true;
-  bullet.linear_velocity = {float(number(v, "speed")), 0, 0};
+  bullet.linear_velocity = {round_to_float(number(v, "speed")), 0, 0};
   return scene;
 }
 

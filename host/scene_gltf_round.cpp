@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/round_to_float.h"
+
 namespace tandem {
 namespace {
 
@@ -13,13 +15,13 @@ void add_circle(std::vector<Vec3> &points, double radius, double y)
 {
   for (int k = 0; k < segments; ++k) {
     const double angle = 2 * std::numbers::pi * k / segments;
-    points.push_back({float(radius * std::cos(angle)), float(y), float(radius * std::sin(angle))});
+    points.push_back({round_to_float(radius * std::cos(angle)), round_to_float(y), round_to_float(radius * std::sin(angle))});
   }
 }
 
 void add_ball(std::vector<Vec3> &points, double radius, double y)
 {
-  for (double pole : {-radius, radius}) points.push_back({0, float(y + pole), 0});
+  for (double pole : {-radius, radius}) points.push_back({0, round_to_float(y + pole), 0});
   for (int ring = 1; ring < segments / 2; ++ring) {
     const double angle = 2 * std::numbers::pi * ring / segments;
     add_circle(points, radius * std::sin(angle), y - radius * std::cos(angle));

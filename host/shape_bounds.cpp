@@ -6,13 +6,14 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
 
 Double3 double3(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 double length(const Double3 &v) { return std::hypot(v[0], v[1], v[2]); }
-float outward(double x) { return std::nextafter(float(x), HUGE_VALF); }
+float outward(double x) { return std::nextafter(round_to_float(x), HUGE_VALF); }
 
 /* Where a shape stands in a body. Columns x y z: its axes. */
 struct Frame {
@@ -124,7 +125,7 @@ ShapeBox box_around(const Shape &shape, const Vec3 &position, const Quat &orient
     }
   ShapeBox box;
   for (size_t k = 0; k < 3; ++k) {
-    box.center[k] = float(0.5 * (low[k] + high[k]));
+    box.center[k] = round_to_float(0.5 * (low[k] + high[k]));
     box.half_extents[k] = outward(std::max(high[k] - double{box.center[k]}, double{box.center[k]} - low[k]));
   }
   return box;

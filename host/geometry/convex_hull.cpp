@@ -11,6 +11,7 @@
 #include "host/geometry/mass_properties.h"
 #include "host/geometry/qhull.h"
 #include "host/geometry/vector.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -255,7 +256,7 @@ ConvexHull translated(const ConvexHull &hull, const Double3 &offset)
 {
   ConvexHull result = hull;
   for (Vec3 &v : result.vertices)
-    for (size_t axis = 0; axis < 3; ++axis) v[axis] = float(v[axis] + offset[axis]);
+    for (size_t axis = 0; axis < 3; ++axis) v[axis] = round_to_float(v[axis] + offset[axis]);
   result.tolerance = std::max(hull.tolerance, hull_tolerance_of(result.vertices));
   fit_planes(result);
   result.centroid = hull_mass(result).center;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "host/geometry/vector.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -26,7 +27,7 @@ template <size_t n> std::array<float, n> without_residue(const std::array<double
   double largest = 0;
   for (double x : values) largest = std::max(largest, std::abs(x));
   std::array<float, n> result;
-  for (size_t i = 0; i < n; ++i) result[i] = std::abs(values[i]) <= 1e-14 * largest ? 0.0f : float(values[i]);
+  for (size_t i = 0; i < n; ++i) result[i] = std::abs(values[i]) <= 1e-14 * largest ? 0.0f : round_to_float(values[i]);
   return result;
 }
 
@@ -127,7 +128,7 @@ std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &positi
   const Eigen::Quaterniond turn = quaternion_of(widened(orientation));
   for (const Vec3 &p : points) {
     const Vector at = turn * vector_of(p) + vector_of(position);
-    placed.push_back({float(at.x()), float(at.y()), float(at.z())});
+    placed.push_back({round_to_float(at.x()), round_to_float(at.y()), round_to_float(at.z())});
   }
   return placed;
 }
@@ -157,15 +158,15 @@ Vec3 inertia_of(const Shape &shape, float mass)
   switch (shape.type) {
   case ShapeType::half_space: return {0, 0, 0};
   case ShapeType::sphere: {
-    const float moment = float(0.4 * m * x * x);
+    const float moment = round_to_float(0.4 * m * x * x);
     return {moment, moment, moment};
   }
-  case ShapeType::box: return {float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))};
+  case ShapeType::box: return {round_to_float(m / 3 * (y * y + z * z)), round_to_float(m / 3 * (x * x + z * z)), round_to_float(m / 3 * (x * x + y * y))};
   default: break;
   }
   const PrincipalFrame frame = principal_frame_of(shape);
   Vec3 moments;
-  for (size_t axis = 0; axis < 3; ++axis) moments[axis] = float(frame.moments[axis] * (m / frame.mass));
+  for (size_t axis = 0; axis < 3; ++axis) moments[axis] = round_to_float(frame.moments[axis] * (m / frame.mass));
   return moments;
 }
 
