@@ -7,7 +7,6 @@ find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
-find_package(Qhull REQUIRED)
 find_package(tinyobjloader REQUIRED)
 find_package(PNG REQUIRED)
 

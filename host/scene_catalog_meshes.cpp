@@ -7,6 +7,7 @@
 #include "host/geometry/shape_mass.h"
 #include "host/round_to_float.h"
 #include "host/scene_builders.h"
+#include "host/trigonometry.h"
 
 namespace tandem {
 
@@ -31,7 +32,7 @@ Shape bowl(double half_side, uint32_t columns)
   for (uint32_t i = 0; i < columns * columns; ++i) {
     const double x = (i % columns) * spacing - half_side, z = (i / columns) * spacing - half_side;
     const double rim = std::max(0.0, std::max(std::abs(x), std::abs(z)) / half_side - 0.875) * 8;
-    heights.push_back(round_to_float(0.4 * std::sin(1.1 * x) * std::cos(0.9 * z) + 0.5 * half_side * rim * rim));
+    heights.push_back(round_to_float(0.4 * sine_cosine(1.1 * x).sine * sine_cosine(0.9 * z).cosine + 0.5 * half_side * rim * rim));
   }
   return height_field_shape(heights, columns, round_to_float(spacing), round_to_float(spacing), "bowl");
 }
@@ -47,7 +48,8 @@ Scene hulls_on_mesh(const SceneValues &v)
   ground.name = "bowl";
   ground.motion = Motion::fixed;
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    Body &body = add_body(scene, random.below(16), grid.place(i, 0.05, random));
+    const uint32_t shape = random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+    Body &body = add_body(scene, shape, grid.place(i, 0.05, random));
     body.orientation = random.orientation();
     finish(scene, body, 1000);
   }
@@ -86,9 +88,10 @@ Shape ring()
 {
   std::vector<Child> children;
   for (int k = 0; k < 8; ++k) {
-    const double angle = k * 3.14159265358979 / 4, half = 0.5 * angle;
-    Child child = part(capsule_shape(0.08f, 0.16f), {round_to_float(0.38 * std::cos(angle)), 0, round_to_float(0.38 * std::sin(angle))});
-    const double s = std::sin(half), c = std::cos(half), root = std::sqrt(0.5); /* about y by -angle, after y onto z */
+    const double angle = k * 3.14159265358979 / 4;
+    const SineCosine whole = sine_cosine(angle), half = sine_cosine(0.5 * angle);
+    Child child = part(capsule_shape(0.08f, 0.16f), {round_to_float(0.38 * whole.cosine), 0, round_to_float(0.38 * whole.sine)});
+    const double s = half.sine, c = half.cosine, root = std::sqrt(0.5); /* about y by -angle, after y onto z */
     child.orientation = {round_to_float(root * c), round_to_float(-root * s), round_to_float(root * s), round_to_float(root * c)};
     children.push_back(child);
   }

@@ -32,7 +32,6 @@ build  need catch2                the test framework
 build  need libcli11-dev          the command line of `tandem`
 build  need nlohmann-json3-dev    scene files and --json
 build  need libtinygltf-dev       glTF scenes and animations
-build  need libqhull-dev          convex hulls of points
 build  need libtinyobjloader-dev  Wavefront OBJ files of shapes
 build  need libpng-dev            pictures of scenes
 build  need libspdlog-dev         log messages
