@@ -39,7 +39,7 @@ struct Plane {
 struct Face {
   std::array<uint32_t, 3> corners, neighbours; /* across the edges from each corner to the next */
   Plane plane;
-  double least_height; /* what counts as above, times the normal's length */
+  double normal_length;
   std::vector<uint32_t> above;
   bool removed = false;
 };
@@ -112,22 +112,19 @@ private:
   uint32_t add_face(const std::array<uint32_t, 3> &corners, const std::array<uint32_t, 3> &neighbours)
   {
     const Plane plane(places_[corners[0]], places_[corners[1]], places_[corners[2]]);
-    faces_.push_back({corners, neighbours, plane, within_ * plane.vector().norm(), {}});
+    faces_.push_back({corners, neighbours, plane, plane.vector().norm(), {}});
     return static_cast<uint32_t>(faces_.size() - 1);
   }
 
-  bool is_above(const Face &face, uint32_t point) const
-  {
-    const Wide height = face.plane.height(places_[point]);
-    return height > 0 && (within_ == 0 || static_cast<double>(height) > face.least_height);
-  }
+  /* From the face's plane, in units of the grid: rounded, and positive exactly where the point is above. */
+  double distance(const Face &face, uint32_t point) const { return static_cast<double>(face.plane.height(places_[point])) / face.normal_length; }
 
   /* Each goes to the first face since `first` that it is above; what is above none is done with. */
   void share_out(const std::vector<uint32_t> &points, size_t first)
   {
     for (const uint32_t point : points)
       for (size_t face = first; face < faces_.size(); ++face)
-        if (is_above(faces_[face], point)) {
+        if (distance(faces_[face], point) > within_) {
           faces_[face].above.push_back(point);
           break;
         }

@@ -21,7 +21,8 @@ constexpr double hull_grid = 0x1p-41;
 Vector on_hull_grid(const Vector &point);
 
 /* Triangles, some of which may lie in one plane; a point strictly inside or on a face is no corner unless it became one on the way.
- * Points that lie above a face by no more than `within` do not become corners. Empty where all points lie in a plane. */
+ * Points that are at some moment above no face near them by more than `within` are passed over for good, so that flat regions stay
+ * free of points that roundings put a little outside; with 0 the hull is exact. Empty where all points lie in a plane. */
 std::vector<Polygon> hull_triangles(const std::vector<Vector> &points, double within);
 
 } // namespace tandem

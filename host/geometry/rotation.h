@@ -5,8 +5,6 @@
 
 namespace tandem {
 
-using Rotation = std::array<double, 4>; /* x y z w, unit length */
-
 inline Rotation unit(const Rotation &q)
 {
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);

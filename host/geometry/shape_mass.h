@@ -15,7 +15,6 @@
 #pragma once
 
 #include "host/geometry/mass_properties.h"
-#include "host/geometry/rotation.h"
 
 namespace tandem {
 
