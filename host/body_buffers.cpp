@@ -131,7 +131,7 @@ void upload_materials(Memory &memory, const Scene &scene)
 {
   std::vector<row> rows, rolling;
   for (const Material &material : scene.materials) {
-    const float rules = static_cast<float>(static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine));
+    const float rules = static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
     rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
     rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
   }
