@@ -18,7 +18,8 @@ END
 
 install_option=
 sanitizers="asan tsan"
-compilers="golden-o0 golden-o1 golden-o3 golden-native golden-clang golden-aarch64"
+all_compilers="golden-o0 golden-o1 golden-o3 golden-clang golden-aarch64"
+compilers=$all_compilers
 while [ $# -gt 0 ]; do
   case $1 in
     --no-install) install_option=--no-install ;;
@@ -48,7 +49,7 @@ is_possible() {
   esac
 }
 
-for preset in golden-o0 golden-o1 golden-o3 golden-native golden-clang golden-aarch64; do
+for preset in $all_compilers; do
   rm -rf "build/$preset/bin" # what is not built now is skipped, not passed
 done
 for preset in $compilers; do

@@ -102,7 +102,7 @@ int compare(const std::string &path, const std::string &backend)
     if (is_comment(line)) continue;
     const Row wanted = row_of_line(line), found = computed(wanted, backend);
     const bool equal = wanted.bodies == found.bodies && wanted.state == found.state && wanted.events == found.events;
-    std::cout << (equal ? "equal      " : "DIFFERENT  ") << text_of(found) << '\n';
+    std::cout << (equal ? "equal      " : "DIFFERENT  ") << text_of(found) << std::endl;
     if (!equal) std::cout << "  wanted   " << text_of(wanted) << '\n';
     ++rows;
     different += !equal;
