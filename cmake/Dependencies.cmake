@@ -5,12 +5,13 @@ find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
-find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
-find_package(Qhull REQUIRED)
 find_package(tinyobjloader REQUIRED)
-find_package(PNG REQUIRED)
+
+if(TANDEM_BUILD_COMMAND)
+  find_package(CLI11 REQUIRED)
+  find_package(PNG REQUIRED)
+endif()
 
 add_library(tandem_dependencies INTERFACE)
-target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog CLI11::CLI11
-  TinyGLTF::TinyGLTF)
+target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog TinyGLTF::TinyGLTF)

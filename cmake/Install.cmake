@@ -8,7 +8,7 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 install(DIRECTORY host shared minicl DESTINATION ${TANDEM_INCLUDE_DIR}
   FILES_MATCHING PATTERN "*.h" PATTERN "*.def"
   PATTERN host/opencl EXCLUDE PATTERN host/json_reader.h EXCLUDE
-  PATTERN host/scene_gltf_*.h EXCLUDE PATTERN host/scene_json_shapes.h EXCLUDE PATTERN host/geometry/vector.h EXCLUDE) # these need other libraries' headers; no interface does
+  PATTERN host/scene_gltf_*.h EXCLUDE PATTERN host/scene_json_shapes.h EXCLUDE) # these need other libraries' headers; no interface does
 install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir})
 if(TARGET tandem_command)

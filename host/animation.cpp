@@ -11,6 +11,7 @@
 
 #include "host/animation_geometry.h"
 #include "host/output_file.h"
+#include "host/round_to_float.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,7 @@ Quat normalized(const Quat &q)
 {
   double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (!(length > 0)) return {0, 0, 0, 1};
-  return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
+  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length), round_to_float(q[3] / length)};
 }
 
 std::string text(std::span<const float> values) { return fmt::format("[{}]", fmt::join(values, ",")); }
@@ -173,7 +174,7 @@ float half_space_reach(const Scene &scene)
   float reach = 25;
   for (const Body &body : scene.bodies)
     if (scene.shapes[body.shape].type != ShapeType::half_space)
-      for (double x : body.position) reach = std::max(reach, float(std::abs(x)));
+      for (double x : body.position) reach = std::max(reach, round_to_float(std::abs(x)));
   return 2 * reach;
 }
 
@@ -448,11 +449,11 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
                                  positions.size(), orientations.size(), r.bodies.size()));
   if (r.finished) throw std::logic_error("a frame after finish()");
   if (r.added++ % r.stride != 0) return;
-  if (!std::isfinite(time) || (!r.times.empty() && !(float(time) > r.times.back())))
+  if (!std::isfinite(time) || (!r.times.empty() && !(round_to_float(time) > r.times.back())))
     throw InputError(
         fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
   bool first = r.times.empty();
-  r.times.push_back(float(time));
+  r.times.push_back(round_to_float(time));
   /* Half is left to the JSON, whose size is not known before the end. */
   if (r.pose_bytes(r.moving.size()) > most_bytes / 2)
     throw InputError(

@@ -3,6 +3,7 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/shape_mass.h"
+#include "host/round_to_float.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ Vec3 unit_normal(const Vec3 &a, const Vec3 &b, const Vec3 &c)
     v[k] = double(c[k]) - a[k];
   }
   const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0], length = std::hypot(x, y, z);
-  return {float(x / length), float(y / length), float(z / length)};
+  return {round_to_float(x / length), round_to_float(y / length), round_to_float(z / length)};
 }
 
 constexpr double pi = 3.14159265358979323846;
@@ -68,8 +69,8 @@ DisplayMesh sphere_mesh()
   for (int ring = 0; ring <= rings; ++ring)
     for (int segment = 0; segment <= segments; ++segment) {
       double polar = pi * ring / rings, azimuth = 2 * pi * segment / segments;
-      Vec3 point{float(std::sin(polar) * std::cos(azimuth)), float(std::cos(polar)),
-                 float(std::sin(polar) * std::sin(azimuth))};
+      Vec3 point{round_to_float(std::sin(polar) * std::cos(azimuth)), round_to_float(std::cos(polar)),
+                 round_to_float(std::sin(polar) * std::sin(azimuth))};
       mesh.positions.push_back(point);
       mesh.normals.push_back(point);
     }
@@ -103,8 +104,8 @@ DisplayMesh revolved(const std::vector<Ring> &rings)
   for (const Ring &ring : rings)
     for (int segment = 0; segment <= segments; ++segment) {
       const double azimuth = 2 * pi * segment / segments, x = std::cos(azimuth), z = std::sin(azimuth);
-      mesh.positions.push_back({float(ring.radius * x), float(ring.y), float(ring.radius * z)});
-      mesh.normals.push_back({float(ring.across * x), float(ring.along), float(ring.across * z)});
+      mesh.positions.push_back({round_to_float(ring.radius * x), round_to_float(ring.y), round_to_float(ring.radius * z)});
+      mesh.normals.push_back({round_to_float(ring.across * x), round_to_float(ring.along), round_to_float(ring.across * z)});
     }
   const auto vertex = [](size_t ring, int segment) { return uint32_t(ring * (segments + 1) + size_t(segment)); };
   for (size_t ring = 0; ring + 1 < rings.size(); ++ring) {
@@ -158,7 +159,7 @@ DisplayMesh hull_mesh(const ConvexHull &hull)
     const Double3 &n = hull.planes[face].normal;
     for (uint32_t corner : hull.faces[face]) {
       mesh.positions.push_back(hull.vertices[corner]);
-      mesh.normals.push_back({float(n[0]), float(n[1]), float(n[2])});
+      mesh.normals.push_back({round_to_float(n[0]), round_to_float(n[1]), round_to_float(n[2])});
     }
     for (uint32_t i = 2; i < hull.faces[face].size(); ++i) mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
   }

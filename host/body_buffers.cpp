@@ -8,6 +8,7 @@
 #include "host/geometry/shape_mass.h"
 #include "host/hash.h"
 #include "host/hull_buffers.h"
+#include "host/round_to_float.h"
 #include "host/shape_bounds.h"
 #include "host/specialise.h"
 #include "host/tree_tables.h"
@@ -51,7 +52,7 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
       const ShapePlace place = place_of_child(body, child);
       const auto &[x, y, z] = place.position;
       const auto &[qx, qy, qz, qw] = place.orientation;
-      placed.push_back({&body, &child.shape, {float(x), float(y), float(z)}, {float(qx), float(qy), float(qz), float(qw)}, child.material.value_or(body.material), filter_of(body, child), 0});
+      placed.push_back({&body, &child.shape, {round_to_float(x), round_to_float(y), round_to_float(z)}, {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)}, child.material.value_or(body.material), filter_of(body, child), 0});
     }
   }
   return placed;
@@ -72,15 +73,15 @@ Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion ==
 
 std::array<row, 2> place_of(const Point &p)
 {
-  const row high{float(p[0]), float(p[1]), float(p[2]), 0};
-  return {high, {float(p[0] - double{high.x}), float(p[1] - double{high.y}), float(p[2] - double{high.z}), 0}};
+  const row high{round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
+  return {high, {round_to_float(p[0] - double{high.x}), round_to_float(p[1] - double{high.y}), round_to_float(p[2] - double{high.z}), 0}};
 }
 
 Quat unit(const Quat &q)
 {
   const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (std::abs(length - 1) < 1e-6) return q;
-  return {float(q[0] / length), float(q[1] / length), float(q[2] / length), float(q[3] / length)};
+  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length), round_to_float(q[3] / length)};
 }
 
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
@@ -130,7 +131,7 @@ void upload_materials(Memory &memory, const Scene &scene)
 {
   std::vector<row> rows, rolling;
   for (const Material &material : scene.materials) {
-    const float rules = static_cast<float>(static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine));
+    const float rules = static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
     rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
     rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
   }
@@ -204,7 +205,7 @@ std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std:
 
 bool is_finite(const BodyState &state)
 {
-  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(float(x)); }); };
+  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); }); };
   return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) && finite(state.angular_velocity);
 }
 

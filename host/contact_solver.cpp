@@ -11,6 +11,7 @@
 
 #include "host/launcher.h"
 #include "host/primitives.h"
+#include "host/round_to_float.h"
 #include "host/scene.h"
 #include "shared/problem/residual.h"
 
@@ -79,10 +80,10 @@ private:
     std::vector<float> blocks, free;
     for (const std::array<double, 9> &block : problem.blocks)
       for (size_t axis = 0; axis < 3; ++axis)
-        for (size_t k = 0; k < 4; ++k) blocks.push_back(k < 3 ? static_cast<float>(block[3 * axis + k]) : 0.0f);
+        for (size_t k = 0; k < 4; ++k) blocks.push_back(k < 3 ? round_to_float(block[3 * axis + k]) : 0.0f);
     for (size_t i = 0; i < contacts_; ++i) {
-      for (const double velocity : problem.free_velocity[i]) free.push_back(static_cast<float>(velocity));
-      free.push_back(static_cast<float>(problem.friction[i]));
+      for (const double velocity : problem.free_velocity[i]) free.push_back(round_to_float(velocity));
+      free.push_back(round_to_float(problem.friction[i]));
     }
     std::vector<uint32_t> counts(COUNT_TOTAL);
     counts[COUNT_ONE] = 1;

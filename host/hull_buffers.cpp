@@ -6,6 +6,7 @@
 #include "host/buffer_upload.h"
 #include "host/geometry/convex_hull.h"
 #include "host/hull_strips.h"
+#include "host/round_to_float.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -45,7 +46,7 @@ struct Tables {
       headers.push_back(word);
     for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
     for (const HullPlane &p : hull.planes)
-      planes.push_back({float(p.normal[0]), float(p.normal[1]), float(p.normal[2]), float(p.distance)});
+      planes.push_back({round_to_float(p.normal[0]), round_to_float(p.normal[1]), round_to_float(p.normal[2]), round_to_float(p.distance)});
     for (const auto &face : hull.faces) {
       face_starts.push_back(size(corners));
       corners.insert(corners.end(), face.begin(), face.end());

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "host/round_to_float.h"
+
 namespace tandem {
 namespace {
 
@@ -131,7 +133,7 @@ template <class Real> Real JsonValue::number_of() const
   }
   if (!value_->is_number()) fail(fmt::format("is {}; a number is needed", shown(*value_)));
   const auto result = value_->get<double>();
-  if (!std::isfinite(float(result))) fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
+  if (!std::isfinite(round_to_float(result))) fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
   return Real(result);
 }
 

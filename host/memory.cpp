@@ -12,6 +12,7 @@
 #include "host/address_sanitizer.h"
 #include "host/faults.h"
 #include "host/out_of_memory.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -234,7 +235,8 @@ void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t
   Entry &entry = entries_[index_of(buffer)];
   Copy &wide = most_precise(entry);
   if (!wide.storage->keeps_doubles()) {
-    const std::vector<float> rounded(from, from + count);
+    std::vector<float> rounded(count);
+    std::transform(from, from + count, rounded.begin(), [](double x) { return round_to_float(x); });
     return upload(buffer, rounded.data(), count * sizeof(float), first * sizeof(float));
   }
   wide.storage->write_reals(wide.handle, first, from, count);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/round_to_float.h"
 #include "host/specialise.h"
 
 namespace tandem {
@@ -20,7 +21,7 @@ SoftContact soft_contact(double hertz, double damping_ratio, double h)
   if (hertz == 0) return {0, 1, 0};
   const double omega = 2 * M_PI * hertz;
   const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
-  return {static_cast<float>(omega / a1), static_cast<float>(a2 * a3), static_cast<float>(a3)};
+  return {round_to_float(omega / a1), round_to_float(a2 * a3), round_to_float(a3)};
 }
 
 /* Cells of two-stage batching are four bodies wide: more than the largest where sizes are much alike, so that cells of one
@@ -42,8 +43,8 @@ Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t 
   const SoftContact against_fixed = soft_contact(2 * hertz, settings.contact_damping_ratio, h);
   Parameters p{};
   p.step = settings.step;
-  p.substep = static_cast<float>(h);
-  p.inverse_substep = static_cast<float>(1 / h);
+  p.substep = round_to_float(h);
+  p.inverse_substep = round_to_float(1 / h);
   p.gravity_x = scene.gravity[0];
   p.gravity_y = scene.gravity[1];
   p.gravity_z = scene.gravity[2];

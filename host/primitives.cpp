@@ -28,8 +28,8 @@ static_assert(SCAN_TILE >= TILE && SORT_TILE >= TILE && SORT_DIGITS <= SORT_TILE
 
 void scan_words(Launcher &launcher, Buffer in, Buffer out, Buffer sums, const Extent &extent)
 {
-  const auto [length, unit, per_unit, capacity] = extent;
-  const uint32_t tiles = units(capacity, SCAN_TILE);
+  const uint32_t length = extent.length, unit = extent.unit, per_unit = extent.per_unit; /* a lambda may not capture parts of a whole */
+  const uint32_t tiles = units(extent.capacity, SCAN_TILE);
   const auto in_order = [&](Buffer from, Buffer to, uint32_t block) {
     launcher.launch({Kernel::scan_in_order, {from, to, out}, {length, unit, per_unit, block}, COUNT_ZERO, COUNT_ONE, 1});
   };

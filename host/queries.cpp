@@ -11,6 +11,7 @@
 #include "host/geometry/convex_hull.h"
 #include "host/hull_strips.h"
 #include "host/primitives.h"
+#include "host/round_to_float.h"
 #include "host/shape_bounds.h"
 #include "shared/platform.h"
 
@@ -21,10 +22,10 @@ namespace {
 
 template <class Vector> bool finite(const Vector &v)
 {
-  return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(static_cast<float>(x)); });
+  return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
 }
 template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
-double length(const Vec3 &v) { return std::hypot(double{v[0]}, double{v[1]}, double{v[2]}); }
+double length(const Vec3 &v) { return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]); }
 
 /* Squares of lengths are taken in float. */
 constexpr double shortest = 1e-15, longest = 1e15;

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host/round_to_float.h"
+
 namespace tandem {
 
 class Random {
@@ -42,7 +44,7 @@ public:
       }
       if (length_squared > 1 || length_squared < 0.01) continue;
       double scale = 1 / std::sqrt(length_squared);
-      return {float(q[0] * scale), float(q[1] * scale), float(q[2] * scale), float(q[3] * scale)};
+      return {round_to_float(q[0] * scale), round_to_float(q[1] * scale), round_to_float(q[2] * scale), round_to_float(q[3] * scale)};
     }
   }
 

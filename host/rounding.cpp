@@ -14,6 +14,7 @@
 #include "host/carried.h"
 #include "host/compare.h"
 #include "host/launcher.h"
+#include "host/round_to_float.h"
 #include "shared/platform.h"
 #include "shared/counts.h"
 
@@ -61,7 +62,7 @@ public:
     }
     if (std::abs(exact) > boundless) return;
     const double distance = std::abs(value - exact);
-    ulps_.push_back(static_cast<float>(ulps_from(value, exact)));
+    ulps_.push_back(round_to_float(ulps_from(value, exact)));
     launch_distance_ = std::max(launch_distance_, distance);
     launch_largest_ = std::max(launch_largest_, std::abs(exact));
     row_.max_absolute = std::max(row_.max_absolute, distance);

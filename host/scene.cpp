@@ -7,6 +7,7 @@
 
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/round_to_float.h"
 #include "shared/body_codes.h"
 
 #include <algorithm>
@@ -26,7 +27,10 @@ constexpr float longest = 1e9f, most_friction = 1e9f, heaviest = 1e36f, lightest
   throw InputError(fmt::format("{}: {}: {}", where, what, why));
 }
 
-template <class Vector> bool finite(const Vector &v) { return std::isfinite(float(v[0])) && std::isfinite(float(v[1])) && std::isfinite(float(v[2])); }
+template <class Vector> bool finite(const Vector &v)
+{
+  return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
+}
 
 template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 

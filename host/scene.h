@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "host/round_to_float.h"
+
 namespace tandem {
 
 /* Bad use or bad input: one line that says what is wrong, where, and what would be right.
@@ -27,7 +29,7 @@ using Vec3 = std::array<float, 3>;
 using Point = std::array<double, 3>; /* of the world, m: a float is 6 cm apart from the next 1,000 km away */
 using Quat = std::array<float, 4>;  /* x y z w, unit length */
 
-inline Vec3 rounded(const Point &p) { return {float(p[0]), float(p[1]), float(p[2])}; }
+inline Vec3 rounded(const Point &p) { return {round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2])}; }
 
 enum class ShapeType : uint32_t { sphere = 0, box = 1, half_space = 2, capsule = 3, cylinder = 4, hull = 5, mesh = 6, compound = 8 };
 

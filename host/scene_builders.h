@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/random.h"
+#include "host/round_to_float.h"
 #include "host/scene_catalog.h"
 
 namespace tandem::scene_builders {
@@ -64,17 +65,17 @@ struct CellGrid {
     double z = (double(within / side) - 0.5 * double(side - 1)) * cell;
     double dx = random.uniform(-jitter, jitter), dy = random.uniform(-jitter, jitter),
            dz = random.uniform(-jitter, jitter);
-    return {float(x + dx), float(bottom + double(layer) * cell + dy), float(z + dz)};
+    return {round_to_float(x + dx), round_to_float(bottom + double(layer) * cell + dy), round_to_float(z + dz)};
   }
 };
 
 /* Four static boxes around |x|, |z| <= inner, as high as a third of the yard's width. */
 inline void add_walls(Scene &scene, double inner)
 {
-  float half_height = float(inner / 3), thick = 0.5f, far = float(inner) + thick;
+  float half_height = round_to_float(inner / 3), thick = 0.5f, far = round_to_float(inner) + thick;
   auto first = uint32_t(scene.shapes.size());
-  scene.shapes.push_back(box_shape(thick, half_height, float(inner) + 2 * thick));
-  scene.shapes.push_back(box_shape(float(inner) + 2 * thick, half_height, thick));
+  scene.shapes.push_back(box_shape(thick, half_height, round_to_float(inner) + 2 * thick));
+  scene.shapes.push_back(box_shape(round_to_float(inner) + 2 * thick, half_height, thick));
   for (int side = 0; side < 4; ++side) {
     Body &wall = add_body(scene, first + (side >= 2), {0, half_height, 0});
     wall.name = "wall";
@@ -88,14 +89,14 @@ inline Vec3 direction(Random &random)
 {
   for (;;) {
     const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
-    if (length > 0.1 && length < 1) return {float(x / length), float(y / length), float(z / length)};
+    if (length > 0.1 && length < 1) return {round_to_float(x / length), round_to_float(y / length), round_to_float(z / length)};
   }
 }
 
 /* A stone: points of an ellipsoid of half a metre and less. */
 inline Shape stone(int64_t points, Random &random)
 {
-  const Vec3 size{float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5)), float(random.uniform(0.25, 0.5))};
+  const Vec3 size{round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5))};
   std::vector<Vec3> cloud;
   for (int64_t i = 0; i < points; ++i) {
     const Vec3 at = direction(random);

@@ -2,6 +2,7 @@
 #include "host/scene_catalog.h"
 
 #include "host/random.h"
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
 #include "host/scene_catalog_closed_forms.h"
 #include "host/scene_catalog_meshes.h"
@@ -50,7 +51,7 @@ Scene box_grid(const SceneValues &v)
       for (int64_t k = 0; k < nz; ++k) {
         double shift = double((j + 1) & 1);
         double x = shift + double(i - nx / 2) * 2.2, y = double(1 + 2 * j), z = shift + double(k - nz / 2) * 2.2;
-        add_body(scene, 1, {float(x), float(y), float(z)});
+        add_body(scene, 1, {round_to_float(x), round_to_float(y), round_to_float(z)});
       }
   return scene;
 }
@@ -63,7 +64,7 @@ Scene falling_boxes(const SceneValues &v)
   double half = number(v, "half_extent"), radius = half * std::sqrt(3.0), jitter = 0.25 * half;
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
-  scene.shapes = {box_shape(float(half), float(half), float(half))};
+  scene.shapes = {box_shape(round_to_float(half), round_to_float(half), round_to_float(half))};
   add_ground(scene);
   /* Twice as high as wide, so that the boxes fall on each other and pile up. */
   int64_t side = 1;
@@ -84,13 +85,13 @@ Scene box_stack(const SceneValues &v)
   double half = number(v, "half_extent"), pitch = 2 * half + number(v, "gap");
   int64_t side = square_side(n, height);
   Scene scene;
-  scene.shapes = {box_shape(float(half), float(half), float(half))};
+  scene.shapes = {box_shape(round_to_float(half), round_to_float(half), round_to_float(half))};
   add_ground(scene);
   for (int64_t i = 0; i < n; ++i) {
     int64_t column = i / height, level = i % height;
     double x = (double(column % side) - 0.5 * double(side - 1)) * pitch;
     double z = (double(column / side) - 0.5 * double(side - 1)) * pitch;
-    add_body(scene, 0, {float(x), float(half * double(1 + 2 * level)), float(z)}, float(number(v, "mass")));
+    add_body(scene, 0, {round_to_float(x), round_to_float(half * double(1 + 2 * level)), round_to_float(z)}, round_to_float(number(v, "mass")));
   }
   return scene;
 }
@@ -104,12 +105,12 @@ Scene pyramid(const SceneValues &v)
   int64_t rows = whole(v, "rows");
   double half = number(v, "half_extent"), pitch = 2 * half + number(v, "gap");
   Scene scene;
-  scene.shapes = {box_shape(float(half), float(half), float(half))};
+  scene.shapes = {box_shape(round_to_float(half), round_to_float(half), round_to_float(half))};
   add_ground(scene);
   for (int64_t row = 0; row < rows; ++row)
     for (int64_t i = 0; i < rows - row; ++i) {
       double x = (double(i) - 0.5 * double(rows - row - 1)) * pitch;
-      add_body(scene, 0, {float(x), float(half * double(1 + 2 * row)), 0});
+      add_body(scene, 0, {round_to_float(x), round_to_float(half * double(1 + 2 * row)), 0});
     }
   return scene;
 }
@@ -122,8 +123,8 @@ Scene spheres(const SceneValues &v)
   double radius = number(v, "radius"), jitter = number(v, "jitter") * radius;
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
-  scene.materials[0].restitution = float(number(v, "restitution"));
-  scene.shapes = {sphere_shape(float(radius))};
+  scene.materials[0].restitution = round_to_float(number(v, "restitution"));
+  scene.shapes = {sphere_shape(round_to_float(radius))};
   add_ground(scene);
   const int64_t side = cube_side(n);
   CellGrid grid{side, 2 * (radius + jitter) * 1.001, number(v, "height") + radius + jitter};
@@ -180,7 +181,7 @@ Scene mixed(const SceneValues &v)
   for (int64_t i = 0; i < n; ++i) {
     uint32_t shape = random.below(movable), material = random.below(uint32_t(scene.materials.size()));
     double density = random.uniform(200, 2000);
-    Body &body = add_body(scene, shape, grid.place(i, jitter, random), float(density * volume(scene.shapes[shape])));
+    Body &body = add_body(scene, shape, grid.place(i, jitter, random), round_to_float(density * volume(scene.shapes[shape])));
     body.material = material;
     body.orientation = random.orientation();
   }

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "host/random.h"
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
 
 namespace tandem {
@@ -31,9 +32,9 @@ Scene free_flight(const SceneValues &v)
   const double spin = number(v, "spin");
   const uint32_t box = add_shape(scene, box_shape(0.2f, 0.3f, 0.5f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    Body &body = add_body(scene, box, {float(4 * (i % 100)), 0, float(4 * (i / 100))});
-    body.linear_velocity = {float(random.uniform(-0.5, 0.5)), float(random.uniform(3, 8)), float(random.uniform(-0.5, 0.5))};
-    body.angular_velocity = {float(spin * random.uniform(-1, 1)), float(spin * random.uniform(-1, 1)), float(spin * random.uniform(-1, 1))};
+    Body &body = add_body(scene, box, {double(4 * (i % 100)), 0, double(4 * (i / 100))});
+    body.linear_velocity = {round_to_float(random.uniform(-0.5, 0.5)), round_to_float(random.uniform(3, 8)), round_to_float(random.uniform(-0.5, 0.5))};
+    body.angular_velocity = {round_to_float(spin * random.uniform(-1, 1)), round_to_float(spin * random.uniform(-1, 1)), round_to_float(spin * random.uniform(-1, 1))};
     body.orientation = random.orientation();
   }
   return scene;
@@ -44,14 +45,14 @@ Scene free_flight(const SceneValues &v)
 Vec3 uphill_normal(double slope)
 {
   const double length = std::sqrt(1 + slope * slope);
-  return {float(slope / length), float(1 / length), 0}; /* down the slope is +x */
+  return {round_to_float(slope / length), round_to_float(1 / length), 0}; /* down the slope is +x */
 }
 
 /* About -z by the angle of the slope; half angles from the tangent. */
 Quat slope_turn(double slope)
 {
   const double cosine = 1 / std::sqrt(1 + slope * slope);
-  return {0, 0, float(-std::sqrt((1 - cosine) / 2)), float(std::sqrt((1 + cosine) / 2))};
+  return {0, 0, round_to_float(-std::sqrt((1 - cosine) / 2)), round_to_float(std::sqrt((1 + cosine) / 2))};
 }
 
 uint64_t two_bodies(const SceneValues &) { return 2; }
@@ -60,11 +61,11 @@ Scene incline(const SceneValues &v)
 {
   const double slope = number(v, "slope"), half = number(v, "half_extent");
   Scene scene;
-  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(number(v, "friction"));
+  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = round_to_float(number(v, "friction"));
   add_ground(scene).orientation = slope_turn(slope);
-  Body &box = add_body(scene, add_shape(scene, box_shape(float(half), float(half), float(half))));
+  Body &box = add_body(scene, add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half))));
   const Vec3 normal = uphill_normal(slope);
-  for (int k = 0; k < 3; ++k) box.position[k] = float(half * normal[k]);
+  for (int k = 0; k < 3; ++k) box.position[k] = round_to_float(half * normal[k]);
   box.orientation = slope_turn(slope);
   return scene;
 }
@@ -76,13 +77,13 @@ Scene bounce(const SceneValues &v)
   const double radius = number(v, "radius"), height = number(v, "height");
   const int64_t n = whole(v, "n");
   Scene scene;
-  scene.materials[0].restitution = float(number(v, "restitution"));
+  scene.materials[0].restitution = round_to_float(number(v, "restitution"));
   add_ground(scene);
-  const uint32_t ball = add_shape(scene, sphere_shape(float(radius)));
+  const uint32_t ball = add_shape(scene, sphere_shape(round_to_float(radius)));
   for (int64_t i = 0; i < n; ++i) {
     /* Not all alike: impacts fall everywhere within a time step. */
     const double own = height * (1 + 0.5 * double(i) / double(n));
-    add_body(scene, ball, {float(4 * radius * double(i % 1000)), float(radius + own), float(4 * radius * double(i / 1000))});
+    add_body(scene, ball, {round_to_float(4 * radius * double(i % 1000)), round_to_float(radius + own), round_to_float(4 * radius * double(i / 1000))});
   }
   return scene;
 }
@@ -95,8 +96,8 @@ Scene mass_ratio(const SceneValues &v)
   Scene scene;
   add_ground(scene);
   double mass = 1;
-  const uint32_t box = add_shape(scene, box_shape(float(half), float(half), float(half)));
-  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio) add_body(scene, box, {0, float(half * double(2 * i + 1)), 0}, float(mass));
+  const uint32_t box = add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half)));
+  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio) add_body(scene, box, {0, round_to_float(half * double(2 * i + 1)), 0}, round_to_float(mass));
   return scene;
 }
 

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "host/geometry/shape_mass.h"
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
+#include "host/trigonometry.h"
 
 namespace tandem {
 
@@ -17,7 +19,7 @@ namespace {
 void finish(Scene &scene, Body &body, double density)
 {
   take_mass_properties(scene, body);
-  body.mass = float(density * mass_properties_of(scene.shapes[body.shape]).mass);
+  body.mass = round_to_float(density * mass_properties_of(scene.shapes[body.shape]).mass);
 }
 
 /* --- hulls-on-mesh: stones in a hilly bowl ----------------------------------------------------------------- */
@@ -30,9 +32,9 @@ Shape bowl(double half_side, uint32_t columns)
   for (uint32_t i = 0; i < columns * columns; ++i) {
     const double x = (i % columns) * spacing - half_side, z = (i / columns) * spacing - half_side;
     const double rim = std::max(0.0, std::max(std::abs(x), std::abs(z)) / half_side - 0.875) * 8;
-    heights.push_back(float(0.4 * std::sin(1.1 * x) * std::cos(0.9 * z) + 0.5 * half_side * rim * rim));
+    heights.push_back(round_to_float(0.4 * sine_cosine(1.1 * x).sine * sine_cosine(0.9 * z).cosine + 0.5 * half_side * rim * rim));
   }
-  return height_field_shape(heights, columns, float(spacing), float(spacing), "bowl");
+  return height_field_shape(heights, columns, round_to_float(spacing), round_to_float(spacing), "bowl");
 }
 
 Scene hulls_on_mesh(const SceneValues &v)
@@ -46,7 +48,8 @@ Scene hulls_on_mesh(const SceneValues &v)
   ground.name = "bowl";
   ground.motion = Motion::fixed;
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    Body &body = add_body(scene, random.below(16), grid.place(i, 0.05, random));
+    const uint32_t shape = random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+    Body &body = add_body(scene, shape, grid.place(i, 0.05, random));
     body.orientation = random.orientation();
     finish(scene, body, 1000);
   }
@@ -85,10 +88,11 @@ Shape ring()
 {
   std::vector<Child> children;
   for (int k = 0; k < 8; ++k) {
-    const double angle = k * 3.14159265358979 / 4, half = 0.5 * angle;
-    Child child = part(capsule_shape(0.08f, 0.16f), {float(0.38 * std::cos(angle)), 0, float(0.38 * std::sin(angle))});
-    const double s = std::sin(half), c = std::cos(half), root = std::sqrt(0.5); /* about y by -angle, after y onto z */
-    child.orientation = {float(root * c), float(-root * s), float(root * s), float(root * c)};
+    const double angle = k * 3.14159265358979 / 4;
+    const SineCosine whole = sine_cosine(angle), half = sine_cosine(0.5 * angle);
+    Child child = part(capsule_shape(0.08f, 0.16f), {round_to_float(0.38 * whole.cosine), 0, round_to_float(0.38 * whole.sine)});
+    const double s = half.sine, c = half.cosine, root = std::sqrt(0.5); /* about y by -angle, after y onto z */
+    child.orientation = {round_to_float(root * c), round_to_float(-root * s), round_to_float(root * s), round_to_float(root * c)};
     children.push_back(child);
   }
   return compound_shape(std::move(children));
@@ -122,7 +126,7 @@ Shape flat_mesh(double length, double width, double spacing, Random &random)
     const uint32_t column = i % columns, row = i / columns;
     const bool inside = column > 0 && row > 0 && column + 1 < columns && row + 1 < rows;
     const double jitter = inside ? 0.2 * spacing : 0; /* no triangle turns over */
-    vertices.push_back({float(column * spacing + random.uniform(-jitter, jitter)), 0, float((row - 0.5 * (rows - 1)) * spacing + random.uniform(-jitter, jitter))});
+    vertices.push_back({round_to_float(column * spacing + random.uniform(-jitter, jitter)), 0, round_to_float((row - 0.5 * (rows - 1)) * spacing + random.uniform(-jitter, jitter))});
     if (column + 1 < columns && row + 1 < rows) indices.insert(indices.end(), {i, i + columns, i + 1, i + 1, i + columns, i + columns + 1});
   }
   return mesh_shape(vertices, indices, "floor");
@@ -132,7 +136,7 @@ Scene mesh_slide(const SceneValues &v)
 {
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
-  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(number(v, "friction"));
+  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = round_to_float(number(v, "friction"));
   const double speed = number(v, "speed");
   Body &floor = add_body(scene, add_shape(scene, flat_mesh(5 + 5 * speed, 10, 0.4, random)), {-2, 0, 0});
   floor.name = "floor";
@@ -145,7 +149,7 @@ Scene mesh_slide(const SceneValues &v)
     if (sliders[k].type == ShapeType::sphere) body.position[1] = 0.3;
     if (sliders[k].type == ShapeType::capsule) body.orientation = {0.70710678f, 0, 0, 0.70710678f};
     if (sliders[k].type == ShapeType::capsule) body.position[1] = 0.2;
-    body.linear_velocity = {float(speed), 0, 0};
+    body.linear_velocity = {round_to_float(speed), 0, 0};
     take_mass_properties(scene, body);
   }
   return scene;

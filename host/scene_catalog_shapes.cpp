@@ -4,7 +4,9 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
+#include "host/trigonometry.h"
 
 namespace tandem {
 
@@ -15,7 +17,7 @@ namespace {
 /* Mass from 1,000 kg / m^3 of a ball of that radius, centre and axes from the shape. */
 void finish(Scene &scene, Body &body, double radius)
 {
-  body.mass = float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
+  body.mass = round_to_float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
   take_mass_properties(scene, body);
 }
 
@@ -33,7 +35,8 @@ Scene convex_hulls(const SceneValues &v)
   add_ground(scene);
   add_walls(scene, 0.5 * grid.cell * double(grid.side) + 0.5);
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    Body &body = add_body(scene, random.below(kinds_of_stone), grid.place(i, jitter, random));
+    const uint32_t shape = random.below(kinds_of_stone); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+    Body &body = add_body(scene, shape, grid.place(i, jitter, random));
     body.orientation = random.orientation();
     finish(scene, body, 0.35);
   }
@@ -66,12 +69,14 @@ Scene shapes(const SceneValues &v)
 
 Scene rolling(const SceneValues &v)
 {
-  const double angle = number(v, "angle") * 3.14159265358979 / 180, sine = std::sin(angle), cosine = std::cos(angle);
+  const double angle = number(v, "angle") * 3.14159265358979 / 180;
+  const auto [sine, cosine] = sine_cosine(angle);
+  const SineCosine half = sine_cosine(0.5 * angle);
   Scene scene;
   Body &ramp = add_body(scene, add_shape(scene, half_space_shape()));
   ramp.name = "ramp";
   ramp.motion = Motion::fixed;
-  ramp.orientation = {0, 0, float(std::sin(-angle / 2)), float(std::cos(-angle / 2))};
+  ramp.orientation = {0, 0, round_to_float(-half.sine), round_to_float(half.cosine)};
   const Shape round[] = {sphere_shape(0.3f), cylinder_shape(0.3f, 0.4f), cylinder_shape(0.3f, 0.05f), capsule_shape(0.3f, 0.4f)};
   const char *names[] = {"ball", "cylinder", "disc", "capsule"};
   for (size_t k = 0; k < 4; ++k) {
@@ -92,7 +97,7 @@ Scene thin_wall(const SceneValues &v)
   Random random(uint64_t(whole(v, "seed")));
   Scene scene;
   scene.gravity = {0, 0, 0};
-  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), float(wall_side), float(wall_side))));
+  Body &wall = add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2), round_to_float(wall_side), round_to_float(wall_side))));
   wall.name = "wall";
   wall.motion = Motion::fixed;
   const auto first = uint32_t(scene.shapes.size());
@@ -110,11 +115,12 @@ Scene thin_wall(const SceneValues &v)
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     const Point place{-0.2 - random.uniform(0, 2), 0.2 * double(i % side - side / 2), 0.2 * double(i / side - side / 2)};
     Body &body = add_body(scene, first + uint32_t(i) % kinds, place);
-    const double lean = random.uniform(0, number(v, "angle")) * 3.14159265358979 / 180, about = random.uniform(0, 6.2831853);
+    const SineCosine lean = sine_cosine(random.uniform(0, number(v, "angle")) * 3.14159265358979 / 180);
+    const SineCosine about = sine_cosine(random.uniform(0, 6.2831853));
     const double speed = number(v, "speed"), spin = random.uniform(0, number(v, "spin"));
     const Vec3 axis = direction(random);
-    body.linear_velocity = {float(speed * std::cos(lean)), float(speed * std::sin(lean) * std::cos(about)), float(speed * std::sin(lean) * std::sin(about))};
-    body.angular_velocity = {float(spin * axis[0]), float(spin * axis[1]), float(spin * axis[2])};
+    body.linear_velocity = {round_to_float(speed * lean.cosine), round_to_float(speed * lean.sine * about.cosine), round_to_float(speed * lean.sine * about.sine)};
+    body.angular_velocity = {round_to_float(spin * axis[0]), round_to_float(spin * axis[1]), round_to_float(spin * axis[2])};
     body.orientation = random.orientation();
     body.continuous = true;
     body.filter_group = 2;
@@ -132,7 +138,7 @@ Scene bullet_stack(const SceneValues &v)
   add_ground(scene);
   const float half = 0.1f, radius = 0.01f;
   const int64_t height = whole(v, "height"), rows = whole(v, "rows");
-  Body &wall = add_body(scene, add_shape(scene, box_shape(float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
+  Body &wall = add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
   wall.name = "wall";
   wall.motion = Motion::fixed;
   const uint32_t box = add_shape(scene, box_shape(half, half, half));
@@ -143,7 +149,7 @@ Scene bullet_stack(const SceneValues &v)
   Body &bullet = add_body(scene, add_shape(scene, sphere_shape(radius)), {-2 - 2.2 * double(half) * double(rows), aim, 0.01}, 0.05f);
   bullet.name = "bullet";
   bullet.continuous = true;
-  bullet.linear_velocity = {float(number(v, "speed")), 0, 0};
+  bullet.linear_velocity = {round_to_float(number(v, "speed")), 0, 0};
   return scene;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
 
 namespace tandem {
@@ -16,14 +17,14 @@ namespace {
 Scene on_ground(double friction)
 {
   Scene scene;
-  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(friction);
+  scene.materials[0].static_friction = scene.materials[0].dynamic_friction = round_to_float(friction);
   add_ground(scene);
   return scene;
 }
 
 Body &add(Scene &scene, uint32_t shape, double x, double y, double z, double mass = 1)
 {
-  return add_body(scene, shape, {float(x), float(y), float(z)}, float(mass));
+  return add_body(scene, shape, {round_to_float(x), round_to_float(y), round_to_float(z)}, round_to_float(mass));
 }
 
 /* Sine and cosine of the angle with the given tangent, and of its half. */
@@ -58,15 +59,15 @@ Scene card_house(const SceneValues &v)
   const Slope lean(number(v, "lean"));
   const double reach = L * lean.sine + t * lean.cosine, rise = L * lean.cosine + t * lean.sine, pitch = 4 * reach + gap;
   Scene scene = on_ground(number(v, "friction"));
-  const uint32_t card = add_shape(scene, box_shape(float(t), float(L), float(depth)));
-  const uint32_t flat = add_shape(scene, box_shape(float(pitch / 2 - gap / 4), float(t), float(depth)));
+  const uint32_t card = add_shape(scene, box_shape(round_to_float(t), round_to_float(L), round_to_float(depth)));
+  const uint32_t flat = add_shape(scene, box_shape(round_to_float(pitch / 2 - gap / 4), round_to_float(t), round_to_float(depth)));
   for (int64_t storey = 0; storey < storeys; ++storey) {
     const double floor = double(storey) * 2 * (rise + t);
     const int64_t pairs = storeys - storey;
     for (int64_t i = 0; i < pairs; ++i) {
       const double x = (double(i) - 0.5 * double(pairs - 1)) * pitch;
-      add(scene, card, x - reach, floor + rise, 0).orientation = {0, 0, float(-lean.half_sine), float(lean.half_cosine)};
-      add(scene, card, x + reach, floor + rise, 0).orientation = {0, 0, float(lean.half_sine), float(lean.half_cosine)};
+      add(scene, card, x - reach, floor + rise, 0).orientation = {0, 0, round_to_float(-lean.half_sine), round_to_float(lean.half_cosine)};
+      add(scene, card, x + reach, floor + rise, 0).orientation = {0, 0, round_to_float(lean.half_sine), round_to_float(lean.half_cosine)};
       if (i > 0) add(scene, flat, x - 0.5 * pitch, floor + 2 * rise + t, 0);
     }
   }
@@ -83,7 +84,7 @@ Scene arch(const SceneValues &v)
   const int64_t courses = whole(v, "courses");
   const double length = 0.5, height = 0.2, overhang = number(v, "overhang");
   Scene scene = on_ground(0.6);
-  const uint32_t block = add_shape(scene, box_shape(float(length), float(height), 0.4f));
+  const uint32_t block = add_shape(scene, box_shape(round_to_float(length), round_to_float(height), 0.4f));
   const double top = length + 0.3, bottom = top + overhang * double(courses - 1); /* of centres, from the middle */
   for (int64_t k = 0; k < courses; ++k)
     for (double side : {-1.0, 1.0}) add(scene, block, side * (bottom - overhang * double(k)), height * double(1 + 2 * k), 0);
@@ -99,8 +100,8 @@ Scene tower(const SceneValues &v)
 {
   const double half_width = 0.25, half_height = 0.15, gap = 0.004;
   Scene scene = on_ground(0.6);
-  const uint32_t along_x = add_shape(scene, box_shape(float(3 * half_width), float(half_height), float(half_width - gap)));
-  const uint32_t along_z = add_shape(scene, box_shape(float(half_width - gap), float(half_height), float(3 * half_width)));
+  const uint32_t along_x = add_shape(scene, box_shape(round_to_float(3 * half_width), round_to_float(half_height), round_to_float(half_width - gap)));
+  const uint32_t along_z = add_shape(scene, box_shape(round_to_float(half_width - gap), round_to_float(half_height), round_to_float(3 * half_width)));
   for (int64_t level = 0; level < whole(v, "levels"); ++level)
     for (int side = -1; side <= 1; ++side) {
       const double across = 2 * half_width * side, y = half_height * double(1 + 2 * level);
@@ -116,11 +117,11 @@ Scene dominoes(const SceneValues &v)
 {
   const double half_height = 0.5, half_thickness = 0.06, pitch = number(v, "pitch"), push = number(v, "push");
   Scene scene = on_ground(0.6);
-  const uint32_t domino = add_shape(scene, box_shape(float(half_thickness), float(half_height), 0.25f));
+  const uint32_t domino = add_shape(scene, box_shape(round_to_float(half_thickness), round_to_float(half_height), 0.25f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) add(scene, domino, pitch * double(i), half_height, 0);
   /* Turning about its far lower edge. */
-  scene.bodies[1].angular_velocity = {0, 0, float(-push)};
-  scene.bodies[1].linear_velocity = {float(push * half_height), float(push * half_thickness), 0};
+  scene.bodies[1].angular_velocity = {0, 0, round_to_float(-push)};
+  scene.bodies[1].linear_velocity = {round_to_float(push * half_height), round_to_float(push * half_thickness), 0};
   return scene;
 }
 
@@ -137,15 +138,15 @@ Scene wall(const SceneValues &v)
   const int64_t rows = whole(v, "rows"), length = whole(v, "length");
   const double half_length = 0.4, half_height = 0.2, half_depth = 0.2, gap = 0.005, radius = 0.4;
   Scene scene = on_ground(0.6);
-  const uint32_t brick = add_shape(scene, box_shape(float(half_length), float(half_height), float(half_depth)));
-  const uint32_t ball = add_shape(scene, sphere_shape(float(radius)));
+  const uint32_t brick = add_shape(scene, box_shape(round_to_float(half_length), round_to_float(half_height), round_to_float(half_depth)));
+  const uint32_t ball = add_shape(scene, sphere_shape(round_to_float(radius)));
   for (int64_t row = 0; row < rows; ++row) {
     const int64_t bricks = length - row % 2;
     for (int64_t i = 0; i < bricks; ++i)
       add(scene, brick, (double(i) - 0.5 * double(bricks - 1)) * (2 * half_length + gap), half_height * double(1 + 2 * row), 0);
   }
   const double middle = std::max(radius, half_height * double(rows));
-  add(scene, ball, 0, middle, -number(v, "distance"), number(v, "ball_mass")).linear_velocity = {0, 0, float(number(v, "ball_speed"))};
+  add(scene, ball, 0, middle, -number(v, "distance"), number(v, "ball_mass")).linear_velocity = {0, 0, round_to_float(number(v, "ball_speed"))};
   scene.bodies.back().name = "ball";
   return scene;
 }
@@ -159,21 +160,21 @@ Scene tops(const SceneValues &v)
   const double half = number(v, "half_extent"), distance = half * std::sqrt(3.0), spin = number(v, "spin");
   const Slope lean(number(v, "lean"));
   Scene scene = on_ground(1);
-  const uint32_t cube = add_shape(scene, box_shape(float(half), float(half), float(half)));
+  const uint32_t cube = add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half)));
   /* A turn about (-1, 0, 1) takes the diagonal (1, 1, 1) to y, one about -z then leans it towards x. */
   const Slope upright(std::sqrt(2.0));
   const double s = upright.half_sine / std::sqrt(2.0), c = upright.half_cosine;
   const double ls = -lean.half_sine, lc = lean.half_cosine;
   /* (0, 0, ls, lc) times (-s, 0, s, c). */
-  const Quat orientation{float(lc * -s), float(ls * -s), float(ls * c + lc * s), float(lc * c - ls * s)};
+  const Quat orientation{round_to_float(lc * -s), round_to_float(ls * -s), round_to_float(ls * c + lc * s), round_to_float(lc * c - ls * s)};
   const double axis[3] = {lean.sine, lean.cosine, 0};
   for (int64_t i = 0; i < n; ++i) {
     Body &body = add(scene, cube, (double(i) - 0.5 * double(n - 1)) * 6 * half + distance * axis[0], distance * axis[1], 0);
     body.orientation = orientation;
     const double precession = steady_precession(half, spin, number(v, "lean"), 10);
     const double around = std::isfinite(precession) ? precession : 0, along = spin - around * lean.cosine;
-    body.angular_velocity = {float(along * axis[0]), float(along * axis[1] + around), 0};
-    body.linear_velocity = {0, 0, float(-around * distance * axis[0])}; /* (0, W, 0) x r */
+    body.angular_velocity = {round_to_float(along * axis[0]), round_to_float(along * axis[1] + around), 0};
+    body.linear_velocity = {0, 0, round_to_float(-around * distance * axis[0])}; /* (0, W, 0) x r */
   }
   return scene;
 }

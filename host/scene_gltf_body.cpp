@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "host/geometry/shape_mass.h"
+#include "host/round_to_float.h"
 #include "host/scene_gltf_materials.h"
 #include "host/scene_gltf_motion.h"
 
@@ -33,7 +34,7 @@ std::string identity_of(const Shape &shape)
 void set_frame(const RigidPlace &frame, Body &body)
 {
   body.position = frame.position;
-  for (size_t i = 0; i < 4; ++i) body.orientation[i] = float(frame.orientation[i]);
+  for (size_t i = 0; i < 4; ++i) body.orientation[i] = round_to_float(frame.orientation[i]);
 }
 
 } // namespace
@@ -123,8 +124,8 @@ void GltfBodies::place_together(const BodyNodes &nodes, Body &body)
     const Rotation orientation = product(back, collider.orientation);
     Child child;
     child.shape = collider.shape;
-    for (size_t axis = 0; axis < 3; ++axis) child.position[axis] = float(position[axis]);
-    for (size_t i = 0; i < 4; ++i) child.orientation[i] = float(orientation[i]);
+    for (size_t axis = 0; axis < 3; ++axis) child.position[axis] = round_to_float(position[axis]);
+    for (size_t i = 0; i < 4; ++i) child.orientation[i] = round_to_float(orientation[i]);
     child.material = collider.material;
     child.filter_group = collider.filter.group;
     child.filter_mask = collider.filter.mask;

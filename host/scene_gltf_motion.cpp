@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/geometry/shape_mass.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -29,7 +30,7 @@ Vec3 turned_to_world(const Transform &world, const Vec3 &local, bool spin)
     const double *column = world.column[j], length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
     for (size_t row = 0; row < 3; ++row) turned[row] += sign * column[row] / length * double(local[j]);
   }
-  return {float(turned[0]), float(turned[1]), float(turned[2])};
+  return {round_to_float(turned[0]), round_to_float(turned[1]), round_to_float(turned[2])};
 }
 
 void read_velocities(const JsonValue &motion, const Transform &world, Body &body)
@@ -133,7 +134,7 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   if (is_plane(scene, body)) motion.fail("a plane that moves freely is not supported yet");
   std::optional<JsonValue> mass = motion.find("mass");
   if (mass) body.mass = mass->number();
-  else require_volume(motion, [&] { body.mass = float(default_density * mass_properties_of(scene.shapes[body.shape]).mass); });
+  else require_volume(motion, [&] { body.mass = round_to_float(default_density * mass_properties_of(scene.shapes[body.shape]).mass); });
 }
 
 } // namespace tandem

@@ -1,8 +1,10 @@
 /* scene_gltf_round.cpp - see scene_gltf_round.h. */
 #include "host/scene_gltf_round.h"
 
-#include <cmath>
 #include <numbers>
+
+#include "host/round_to_float.h"
+#include "host/trigonometry.h"
 
 namespace tandem {
 namespace {
@@ -12,17 +14,17 @@ constexpr int segments = 24; /* of a circle */
 void add_circle(std::vector<Vec3> &points, double radius, double y)
 {
   for (int k = 0; k < segments; ++k) {
-    const double angle = 2 * std::numbers::pi * k / segments;
-    points.push_back({float(radius * std::cos(angle)), float(y), float(radius * std::sin(angle))});
+    const auto [sine, cosine] = sine_cosine(2 * std::numbers::pi * k / segments);
+    points.push_back({round_to_float(radius * cosine), round_to_float(y), round_to_float(radius * sine)});
   }
 }
 
 void add_ball(std::vector<Vec3> &points, double radius, double y)
 {
-  for (double pole : {-radius, radius}) points.push_back({0, float(y + pole), 0});
+  for (double pole : {-radius, radius}) points.push_back({0, round_to_float(y + pole), 0});
   for (int ring = 1; ring < segments / 2; ++ring) {
-    const double angle = 2 * std::numbers::pi * ring / segments;
-    add_circle(points, radius * std::sin(angle), y - radius * std::cos(angle));
+    const auto [sine, cosine] = sine_cosine(2 * std::numbers::pi * ring / segments);
+    add_circle(points, radius * sine, y - radius * cosine);
   }
 }
 

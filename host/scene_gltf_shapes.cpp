@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "host/geometry/mass_properties.h"
+#include "host/round_to_float.h"
 #include "host/scene_gltf_mesh.h"
 #include "host/scene_gltf_round.h"
 
@@ -114,7 +115,7 @@ bool is_surface_of(const ConvexHull &hull, const TriangleMesh &mesh)
 std::vector<Vec3> scaled_vertices(const GltfMesh &mesh, const std::array<double, 3> &scale)
 {
   std::vector<Vec3> vertices;
-  for (const Double3 &v : mesh.vertices) vertices.push_back({float(v[0] * scale[0]), float(v[1] * scale[1]), float(v[2] * scale[2])});
+  for (const Double3 &v : mesh.vertices) vertices.push_back({round_to_float(v[0] * scale[0]), round_to_float(v[1] * scale[1]), round_to_float(v[2] * scale[2])});
   return vertices;
 }
 
@@ -173,7 +174,7 @@ GltfShape GltfShapes::read(const JsonValue &geometry, const std::array<double, 3
   const auto found = known_.find(use);
   if (found != known_.end()) return found->second;
   GltfShape result;
-  if (use.source == 0) result = read_implicit(geometry, use.index, {float(std::abs(scale[0])), float(scale[1]), float(scale[2])});
+  if (use.source == 0) result = read_implicit(geometry, use.index, {round_to_float(std::abs(scale[0])), round_to_float(scale[1]), round_to_float(scale[2])});
   else
     result.shape = solid_of(use.source == 1 ? meshes_.of_node(use.index, geometry) : meshes_.of_mesh(use.index, geometry), scale, use.hull_asked, geometry);
   return known_.emplace(use, std::move(result)).first->second;

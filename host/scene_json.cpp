@@ -5,6 +5,7 @@
 #include "host/json_numbers.h"
 #include "host/json_reader.h"
 #include "host/output_file.h"
+#include "host/round_to_float.h"
 #include "host/scene_json_shapes.h"
 
 #include <algorithm>
@@ -111,7 +112,7 @@ void take_density(const JsonValue &json, Scene &scene, Body &body)
   if (!(density.number() > 0)) density.fail(fmt::format("is {}; a number above 0 is needed", density.number()));
   try {
     take_mass_properties(scene, body);
-    body.mass = float(double(density.number()) * mass_properties_of(shape).mass);
+    body.mass = round_to_float(double(density.number()) * mass_properties_of(shape).mass);
   } catch (const InputError &error) { /* a mesh without volume */
     density.fail(error.what());
   }

@@ -20,6 +20,7 @@
 #include <cmath>
 
 #include "host/random.h"
+#include "host/round_to_float.h"
 #include "host/scene_builders.h"
 
 namespace tandem {
@@ -29,7 +30,7 @@ using namespace scene_builders;
 namespace {
 
 /* Of shape 0. */
-void add_box(Scene &scene, double x, double y, double z) { add_body(scene, 0, {float(x), float(y), float(z)}); }
+void add_box(Scene &scene, double x, double y, double z) { add_body(scene, 0, {round_to_float(x), round_to_float(y), round_to_float(z)}); }
 
 uint64_t value_of(const SceneValues &values, const char *name) { return uint64_t(values.find(name)->second); }
 
@@ -46,7 +47,7 @@ Scene pyramid_2d(const SceneValues &values)
   const uint64_t n = value_of(values, "n");
   const double half = values.find("half_extent")->second, middle = double(whole_flanks(n)) / 2;
   Scene scene;
-  scene.shapes = {box_shape(float(half), float(half), float(half))};
+  scene.shapes = {box_shape(round_to_float(half), round_to_float(half), round_to_float(half))};
   add_ground(scene);
   for (uint64_t flank = 0, placed = 0; placed < n; ++flank)
     for (uint64_t row = 0; row <= flank && placed < n; ++row, ++placed)

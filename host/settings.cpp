@@ -92,7 +92,8 @@ void validate(const Settings &settings)
     throw InputError(fmt::format("time step {} s: use a number of seconds above 0, at most {}", settings.step, longest_step));
   check_count("substeps", settings.substeps);
   check_count("iterations", settings.iterations);
-  if (settings.step / static_cast<float>(settings.substeps) < 1e-9f)
+  const float substeps = settings.substeps;
+  if (settings.step / substeps < 1e-9f)
     throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, settings.substeps));
   check_name("solver", settings.solver, solver_names());
   std::vector<std::string> broadphases = broadphase_names();

@@ -6,13 +6,14 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
 
 Double3 double3(const Vec3 &v) { return {v[0], v[1], v[2]}; }
-double length(const Double3 &v) { return std::hypot(v[0], v[1], v[2]); }
-float outward(double x) { return std::nextafter(float(x), HUGE_VALF); }
+double length(const Double3 &v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); } /* hypot differs between libraries */
+float outward(double x) { return std::nextafter(round_to_float(x), HUGE_VALF); }
 
 /* Where a shape stands in a body. Columns x y z: its axes. */
 struct Frame {
@@ -21,7 +22,7 @@ struct Frame {
 
 Frame frame_of(const Vec3 &position, const Quat &orientation)
 {
-  const double a = orientation[0], b = orientation[1], c = orientation[2], d = orientation[3]; /* of floats hypot is a float */
+  const double a = orientation[0], b = orientation[1], c = orientation[2], d = orientation[3];
   const double norm = std::sqrt(a * a + b * b + c * c + d * d), x = a / norm, y = b / norm, z = c / norm, w = d / norm;
   return {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
           {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
@@ -98,7 +99,7 @@ double farthest(const Round &round)
   if (!round.disc) return length(round.center) + round.radius;
   const double along = round.center[0] * round.axis[0] + round.center[1] * round.axis[1] + round.center[2] * round.axis[2];
   const double across = std::sqrt(std::max(0.0, length(round.center) * length(round.center) - along * along));
-  return std::hypot(along, across + round.radius);
+  return length({along, across + round.radius, 0});
 }
 
 Vec3 extents_about_origin(const std::vector<Vec3> &points)
@@ -124,7 +125,7 @@ ShapeBox box_around(const Shape &shape, const Vec3 &position, const Quat &orient
     }
   ShapeBox box;
   for (size_t k = 0; k < 3; ++k) {
-    box.center[k] = float(0.5 * (low[k] + high[k]));
+    box.center[k] = round_to_float(0.5 * (low[k] + high[k]));
     box.half_extents[k] = outward(std::max(high[k] - double{box.center[k]}, double{box.center[k]} - low[k]));
   }
   return box;
@@ -138,7 +139,7 @@ float bounding_radius(const Scene &scene, const Body &body)
   const bool centred = body.shape_position == Vec3{0, 0, 0};
   if (shape.type == ShapeType::half_space) return 0;
   if (shape.type == ShapeType::sphere && centred) return shape.size[0];
-  if (shape.type == ShapeType::box && centred) return std::hypot(shape.size[0], shape.size[1], shape.size[2]);
+  if (shape.type == ShapeType::box && centred) return round_to_float(length(double3(shape.size)));
   double radius = 0;
   for (const Round &round : rounds_of(shape, body.shape_position, body.shape_orientation)) radius = std::max(radius, farthest(round));
   return outward(radius);

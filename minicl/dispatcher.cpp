@@ -18,6 +18,7 @@
 
 #include "host/debug.h"
 #include "host/faults.h"
+#include "host/scene.h"
 #include "minicl/floating_point.h"
 #include "minicl/kernel_table.h"
 #include "minicl/reference_storage.h"
@@ -29,7 +30,7 @@ namespace tandem::minicl {
 
 uint32_t widest_lanes()
 {
-#if defined(__x86_64__)
+#if defined(__x86_64__) && !defined(TANDEM_PORTABLE_KERNELS_ONLY)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512bw"))
     return 16;
@@ -43,8 +44,10 @@ const KernelTable *lanes_table(uint32_t lanes)
   if (lanes > widest_lanes()) return nullptr;
   switch (lanes) {
   case 4: return &lanes4_kernels;
+#if !defined(TANDEM_PORTABLE_KERNELS_ONLY)
   case 8: return &lanes8_kernels;
   case 16: return &lanes16_kernels;
+#endif
   default: return nullptr;
   }
 }
@@ -69,11 +72,23 @@ void allow_threads(size_t threads)
 }
 
 /* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
-const KernelTable &scalar_table(const Options &options)
+const KernelTable &scalar_table([[maybe_unused]] const Options &options)
 {
+#if defined(TANDEM_PORTABLE_KERNELS_ONLY)
+  return scalar_kernels;
+#else
   if (options.reference) return reference_kernels;
   if (options.order != Backend::Order::forward) return backward_kernels;
   return options.lanes >= 8 && widest_lanes() >= 8 ? scalar_avx2_kernels : scalar_kernels;
+#endif
+}
+
+Storage &storage_for([[maybe_unused]] const Options &options)
+{
+#if !defined(TANDEM_PORTABLE_KERNELS_ONLY)
+  if (options.reference) return reference_storage();
+#endif
+  return host_storage();
 }
 
 class MiniclBackend : public Backend {
@@ -81,7 +96,7 @@ public:
   MiniclBackend(const std::string &name, const Options &options)
       : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
         scalar_(scalar_table(options)),
-        lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(options.reference ? reference_storage() : host_storage())
+        lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(storage_for(options))
   {
     allow_threads(options.threads);
   }
@@ -192,6 +207,10 @@ private:
 
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options)
 {
+#if defined(TANDEM_PORTABLE_KERNELS_ONLY)
+  if (options.reference || options.order != Backend::Order::forward)
+    throw InputError(name + ": this build has kernels neither in double nor in reverse; one without TANDEM_PORTABLE_KERNELS_ONLY has");
+#endif
   Options filled = options;
   if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());
   if (filled.lanes == 0) filled.lanes = widest_lanes();

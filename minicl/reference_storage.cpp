@@ -10,6 +10,7 @@
 
 #include "host/address_sanitizer.h"
 #include "host/faults.h"
+#include "host/round_to_float.h"
 
 namespace tandem::minicl {
 namespace {
@@ -81,7 +82,7 @@ public:
     const Layout layout = layout_at(handle);
     const size_t reals = reals_in(layout, offset, bytes);
     for (size_t i = 0; i < reals; ++i) {
-      const auto value = static_cast<float>(static_cast<const double *>(handle)[offset / sizeof(float) + i]);
+      const float value = round_to_float(static_cast<const double *>(handle)[offset / sizeof(float) + i]);
       std::memcpy(static_cast<char *>(to) + i * sizeof value, &value, sizeof value);
     }
     const size_t done = reals * sizeof(float);

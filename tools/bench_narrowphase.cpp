@@ -35,12 +35,21 @@ using Maker = std::function<Shape(Random &)>;
 
 float size_of(Random &random) { return float(random.uniform(0.25, 0.5)); }
 Shape ball(Random &random) { return sphere_shape(size_of(random)); }
-Shape box(Random &random) { return box_shape(size_of(random), size_of(random), size_of(random)); }
-Shape capsule(Random &random) { return capsule_shape(0.6f * size_of(random), size_of(random)); }
-Shape cylinder(Random &random) { return cylinder_shape(size_of(random), size_of(random)); }
+Vec3 sizes_of(Random &random) { return {size_of(random), size_of(random), size_of(random)}; } /* in this order, which arguments have not */
+Shape box(Random &random) { return {ShapeType::box, sizes_of(random)}; }
+Shape capsule(Random &random)
+{
+  const float radius = 0.6f * size_of(random);
+  return capsule_shape(radius, size_of(random));
+}
+Shape cylinder(Random &random)
+{
+  const float radius = size_of(random);
+  return cylinder_shape(radius, size_of(random));
+}
 Shape hull32(Random &random)
 {
-  const Vec3 size{size_of(random), size_of(random), size_of(random)};
+  const Vec3 size = sizes_of(random);
   std::vector<Vec3> points;
   while (points.size() < 32) {
     const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);

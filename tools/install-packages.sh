@@ -12,6 +12,7 @@ Installs the missing packages of each GROUP with apt-get (through sudo unless ro
   build          what compiling Tandem needs
   opencl         an OpenCL device for machines without a GPU
   tests          what the tests need besides
+  aarch64        what builds and runs the golden hashes for AArch64
   bullet         what tandem_bullet_bench needs besides
   --no-install   install nothing; if a needed package is missing, print the apt-get line and exit with status 2
   --list         print the packages of the groups and stop
@@ -32,7 +33,6 @@ build  need catch2                the test framework
 build  need libcli11-dev          the command line of `tandem`
 build  need nlohmann-json3-dev    scene files and --json
 build  need libtinygltf-dev       glTF scenes and animations
-build  need libqhull-dev          convex hulls of points
 build  need libtinyobjloader-dev  Wavefront OBJ files of shapes
 build  need libpng-dev            pictures of scenes
 build  need libspdlog-dev         log messages
@@ -45,6 +45,14 @@ tests  want mesa-opencl-icd       rusticl: a second OpenCL device for parity
 tests  want oclgrind              an OpenCL simulator that reports races and bad accesses
 tests  want libccd-dev           an outside oracle of overlaps
 tests  want ccache                rebuilds only what changed
+aarch64 want g++-aarch64-linux-gnu     compiles for AArch64
+aarch64 want qemu-user-static          runs what was compiled for AArch64
+aarch64 want libtbb-dev:arm64          and its libraries, as for the library itself
+aarch64 want ocl-icd-opencl-dev:arm64  the same
+aarch64 want libtinygltf-dev:arm64     the same
+aarch64 want libtinyobjloader-dev:arm64  the same
+aarch64 want libspdlog-dev:arm64       the same
+aarch64 want libfmt-dev:arm64          the same
 bullet need libbullet-dev         Bullet, whose broadphase is timed beside ours
 END
 }
@@ -101,6 +109,15 @@ install_names() {
   apt install --no-install-recommends $1
 }
 
+# Debian holds all architectures in one archive. Where the lists of another cannot be had (Ubuntu keeps them elsewhere), it is forgotten.
+add_architecture() {
+  ! dpkg --print-foreign-architectures | grep -qx "$1" || return 0
+  as_root dpkg --add-architecture "$1"
+  apt update && updated=yes && return 0
+  as_root dpkg --remove-architecture "$1"
+  return 1
+}
+
 install=yes
 list=no
 groups=
@@ -109,11 +126,11 @@ for argument in "$@"; do
     --no-install) install=no ;;
     --list) list=yes ;;
     --help | -h) usage; exit 0 ;;
-    build | opencl | tests | bullet) groups="$groups $argument" ;;
+    build | opencl | tests | aarch64 | bullet) groups="$groups $argument" ;;
     *) fail "unknown argument '$argument'; see --help" ;;
   esac
 done
-[ -n "$groups" ] || fail "name at least one group: build, opencl, tests or bullet"
+[ -n "$groups" ] || fail "name at least one group: build, opencl, tests, aarch64 or bullet"
 
 if [ "$list" = yes ]; then
   packages | awk -v groups="$groups " 'index(groups, " " $1 " ") { print $3 }' | sort -u
@@ -156,6 +173,14 @@ updated=no
 if [ -n "$needed_names" ]; then
   install_names "$needed_names" || fail "apt-get could not install: $needed_names"
 fi
+case $wanted_names in
+  *:arm64*)
+    if ! add_architecture arm64; then
+      echo "install-packages.sh: no packages of arm64 here; going on without them"
+      wanted_names=$(echo "$wanted_names" | tr ' ' '\n' | { grep -v ':arm64$' || true; })
+    fi
+    ;;
+esac
 for name in $wanted_names; do
   install_names "$name" || echo "install-packages.sh: no package $name here; going on without it"
 done

@@ -1,26 +1,30 @@
 #!/bin/sh
 # run-tests.sh - every check of the project on a bare machine; CTest's own summary is the last thing printed.
 #
-# The sanitizer trees take the objects of tools and of most tests from the release tree, and instrument the library; their tests are
-# entries of the one CTest run in the release tree at the end. With CI=true a missing OpenCL device fails, where else it is skipped.
+# The sanitizer trees take the objects of tools and of most tests from the release tree, and instrument the library; their tests, and
+# those of the trees of other compilers, are entries of the one CTest run in the release tree at the end. With CI=true a missing OpenCL device fails, where else it is skipped.
 set -eu
 
 usage() {
   cat <<'END'
-Usage: tools/run-tests.sh [--no-install] [--without-sanitizers] [-- CTEST-OPTION...]
-Installs the missing packages, builds the presets `release` (warnings are errors), `asan` and `tsan`, and runs CTest.
+Usage: tools/run-tests.sh [--no-install] [--without-sanitizers] [--without-compilers] [-- CTEST-OPTION...]
+Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and runs CTest.
   --no-install           install nothing; if a package is missing, say which and exit with status 2
   --without-sanitizers   leave out the sanitizer builds and their tests
+  --without-compilers    leave out the trees that compare hashes between compilers, their options and processors
   -- CTEST-OPTION...     handed to CTest, e.g. -- -R parity
 END
 }
 
 install_option=
 sanitizers="asan tsan"
+all_compilers="golden-o0 golden-o1 golden-o3 golden-clang golden-aarch64"
+compilers=$all_compilers
 while [ $# -gt 0 ]; do
   case $1 in
     --no-install) install_option=--no-install ;;
     --without-sanitizers) sanitizers= ;;
+    --without-compilers) compilers= ;;
     --help | -h) usage; exit 0 ;;
     --) shift; break ;;
     *) echo "run-tests.sh: unknown option '$1'; see --help" >&2; exit 2 ;;
@@ -31,7 +35,32 @@ cd "$(dirname "$0")/.."
 jobs=$(nproc)
 
 # shellcheck disable=SC2086 # an empty option must vanish
-tools/install-packages.sh $install_option build tests
+tools/install-packages.sh $install_option build tests ${compilers:+aarch64}
+
+# What these trees need is wanted, not needed: a compiler, and for another processor its libraries.
+is_possible() {
+  case $1 in
+    golden-clang) command -v clang++ >/dev/null ;;
+    golden-aarch64)
+      for package in $(tools/install-packages.sh --list aarch64); do
+        case $(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null) in ii*) ;; *) return 1 ;; esac
+      done
+      ;;
+  esac
+}
+
+for preset in $all_compilers; do
+  rm -rf "build/$preset/bin" # what is not built now is skipped, not passed
+done
+for preset in $compilers; do
+  printf '\n== %s\n' "$preset"
+  if ! is_possible "$preset"; then
+    echo "not possible here; its test will be skipped"
+    continue
+  fi
+  cmake --preset "$preset"
+  cmake --build --preset "$preset" -j "$jobs"
+done
 
 printf '\n== release\n'
 cmake --preset release -DTANDEM_BUILD_TESTS=ON -DTANDEM_WARNINGS_AS_ERRORS=ON "-DTANDEM_SANITIZER_TREES=$(echo "$sanitizers" | tr ' ' ';')"

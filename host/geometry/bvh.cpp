@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <numeric>
 
+#include "host/round_to_float.h"
+
 namespace tandem {
 namespace {
 
@@ -47,7 +49,7 @@ Quantisation quantisation_of(const Bounds &whole, const std::string &where)
   for (size_t axis = 0; axis < 3; ++axis) {
     result.origin[axis] = whole.lower[axis];
     if (side(whole, axis) == 0) continue;
-    result.step[axis] = std::max(float(side(whole, axis) / most_q), std::numeric_limits<float>::min());
+    result.step[axis] = std::max(round_to_float(side(whole, axis) / most_q), std::numeric_limits<float>::min());
     while (result.coordinate(axis, most_q) < whole.upper[axis]) result.step[axis] = std::nextafter(result.step[axis], INFINITY);
     if (!std::isfinite(result.coordinate(axis, most_q)))
       throw InputError(fmt::format("{}: boxes from {} to {} are wider than floats can tell", where, whole.lower[axis], whole.upper[axis]));

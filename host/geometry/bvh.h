@@ -26,7 +26,7 @@ struct Quantisation {
 
   float coordinate(size_t axis, uint16_t q) const
   {
-    const float offset = float(q) * step[axis];
+    const float whole = q, offset = whole * step[axis];
     return origin[axis] + offset;
   }
 };

@@ -9,8 +9,8 @@
 
 #include "host/geometry/face_merger.h"
 #include "host/geometry/mass_properties.h"
-#include "host/geometry/qhull.h"
-#include "host/geometry/vector.h"
+#include "host/geometry/quickhull.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -22,8 +22,8 @@ double longest_side(const Bounds &bounds)
   return longest;
 }
 
-/* About the centre of their bounds and of size 1: Qhull's bounds of rounding grow with the distance from the origin. A power of
- * two scales without rounding. */
+/* About the centre of their bounds, of a size from 1/2 to 1, and on the grid on which hulls are decided. A power of two scales
+ * without rounding. */
 struct Normalised {
   std::vector<Vector> points;
   double scale;
@@ -33,8 +33,10 @@ Normalised normalised(std::span<const Vec3> points)
 {
   const Bounds bounds = bounds_of(points);
   const Vector center = (vector_of(bounds.lower) + vector_of(bounds.upper)) / 2;
-  Normalised result{{}, std::exp2(-std::ceil(std::log2(longest_side(bounds))))};
-  for (const Vec3 &p : points) result.points.push_back((vector_of(p) - center) * result.scale);
+  int exponent;
+  std::frexp(longest_side(bounds), &exponent);
+  Normalised result{{}, std::ldexp(1.0, -exponent)};
+  for (const Vec3 &p : points) result.points.push_back(on_hull_grid((vector_of(p) - center) * result.scale));
   return result;
 }
 
@@ -88,11 +90,11 @@ std::vector<uint32_t> true_corners(const std::vector<Polygon> &faces)
 }
 
 /* Faces of the hull of the points in `kept`, whose indices they bear. */
-std::vector<Polygon> faces_of(const std::vector<Vector> &points, const std::vector<uint32_t> &kept, double merge_within, const std::string &where)
+std::vector<Polygon> faces_of(const std::vector<Vector> &points, const std::vector<uint32_t> &kept, double within)
 {
-  std::vector<Double3> chosen;
-  for (uint32_t index : kept) chosen.push_back(array_of(points[index]));
-  std::vector<Polygon> faces = qhull_faces(chosen, merge_within, where);
+  std::vector<Vector> chosen;
+  for (uint32_t index : kept) chosen.push_back(points[index]);
+  std::vector<Polygon> faces = hull_triangles(chosen, within);
   for (Polygon &face : faces)
     for (uint32_t &corner : face) corner = kept[corner];
   return faces;
@@ -151,22 +153,20 @@ private:
   size_t visit_ = 0;
 };
 
-/* Few faces within `tolerance` of the hull of the points in `kept`. Qhull merges first, which rids flat regions of points that roundings
- * put a little outside; then its exact hull of the rest is merged by our rules, until no point is left out. Empty where too little
- * remains: the hull is hardly thicker than the tolerance. */
-std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<uint32_t> kept, double tolerance, const std::string &where)
-try {
-  kept = named_by(faces_of(points, kept, tolerance, where));
+/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull passes over points that roundings put a little outside
+ * of flat regions; then the exact hull of the rest is merged, until no point is left out. Empty where too little remains: the hull is
+ * hardly thicker than the tolerance. */
+std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<uint32_t> kept, double tolerance)
+{
+  kept = named_by(faces_of(points, kept, tolerance));
   while (kept.size() >= 4) {
-    const std::vector<Polygon> exact = faces_of(points, kept, 0, where);
-    if (!is_closed_surface(exact)) return {};
+    const std::vector<Polygon> exact = faces_of(points, kept, 0);
+    if (exact.empty()) return {};
     std::vector<Polygon> merged = merged_faces(points, exact, tolerance);
     std::vector<uint32_t> corners = true_corners(merged);
     if (corners.size() == named_by(exact).size()) return merged;
     kept = std::move(corners);
   }
-  return {};
-} catch (const InputError &) {
   return {};
 }
 
@@ -189,10 +189,10 @@ std::vector<Polygon> find_faces(const std::vector<Vector> &points, double tolera
 {
   std::vector<uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0u);
-  const std::vector<Polygon> exact = faces_of(points, all, 0, where);
-  if (is_closed_surface(exact))
+  const std::vector<Polygon> exact = faces_of(points, all, 0);
+  if (!exact.empty())
     for (double within : {tolerance, tolerance / 4, tolerance / 16, tolerance / 64, tolerance / 1024, 0.0}) {
-      std::vector<Polygon> faces = simplified(points, named_by(exact), within, where);
+      std::vector<Polygon> faces = simplified(points, named_by(exact), within);
       if (!faces.empty() && farthest_outside(points, exact, faces) <= hull_outside * tolerance) return faces;
     }
   throw InputError(fmt::format("{}: no convex hull of these {} points: roundings leave its surface open", where, points.size()));
@@ -255,7 +255,7 @@ ConvexHull translated(const ConvexHull &hull, const Double3 &offset)
 {
   ConvexHull result = hull;
   for (Vec3 &v : result.vertices)
-    for (size_t axis = 0; axis < 3; ++axis) v[axis] = float(v[axis] + offset[axis]);
+    for (size_t axis = 0; axis < 3; ++axis) v[axis] = round_to_float(v[axis] + offset[axis]);
   result.tolerance = std::max(hull.tolerance, hull_tolerance_of(result.vertices));
   fit_planes(result);
   result.centroid = hull_mass(result).center;

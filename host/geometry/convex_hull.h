@@ -1,7 +1,7 @@
 /* convex_hull.h - the convex hull of points, as polygons with planes and edges.
  *
- * Qhull (Barber, Dobkin, Huhdanpaa: The quickhull algorithm for convex hulls, 1996) finds the hull in double; this file makes of
- * it what contact generation wants: few, large faces. A cylinder's cap is one polygon, not a fan, so that a manifold has its rim
+ * host/geometry/quickhull.h finds the hull in whole numbers, exactly; this file makes of it what contact generation wants: few,
+ * large faces. A cylinder's cap is one polygon, not a fan, so that a manifold has its rim
  * and no contact appears at an edge that is not there.
  *
  *       exact hull                faces within the tolerance of one plane are joined, largest agreement first, as long as the
@@ -10,7 +10,7 @@
  *      |  \ |      |    |         V - E + F = 2.
  *      +----+      +----+
  *
- * The result depends on the points and their order alone: vertices stand in the order of the input, faces start at their
+ * The result depends on the points and their order alone, to the bit on every machine: vertices stand in the order of the input, faces start at their
  * smallest vertex and are sorted, and so are edges. Meant for hulls of up to some ten thousand vertices, which take a second.
  */
 #pragma once

@@ -119,7 +119,7 @@ private:
 
 Vector newell_normal(const std::vector<Vector> &points, const Polygon &polygon)
 {
-  Vector sum = Vector::Zero();
+  Vector sum;
   const Vector &base = points[polygon[0]];
   for (size_t i = 2; i < polygon.size(); ++i) sum += (points[polygon[i - 1]] - base).cross(points[polygon[i]] - base);
   return sum;

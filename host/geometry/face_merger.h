@@ -10,8 +10,7 @@
  */
 #pragma once
 
-#include "host/geometry/qhull.h"
-#include "host/geometry/vector.h"
+#include "host/geometry/quickhull.h"
 
 namespace tandem {
 

@@ -17,6 +17,7 @@
 namespace tandem {
 
 using Double3 = std::array<double, 3>;
+using Rotation = std::array<double, 4>;  /* x y z w, unit length */
 using Triangle = std::array<uint32_t, 3>; /* indices of vertices, counter-clockwise seen from outside */
 
 /* Axis-aligned: all x with lower <= x <= upper. */

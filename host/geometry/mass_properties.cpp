@@ -1,32 +1,28 @@
 /* mass_properties.cpp - see mass_properties.h. */
 #include "host/geometry/mass_properties.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
-#include "host/geometry/vector.h"
+#include "host/geometry/rotation.h"
 
 namespace tandem {
 namespace {
 
-using Matrix = Eigen::Matrix3d;
+Matrix matrix_of(const SymmetricMatrix &m) { return {{{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}}; }
 
-Matrix matrix_of(const SymmetricMatrix &m)
-{
-  Matrix result;
-  result << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz;
-  return result;
-}
-
-SymmetricMatrix symmetric(const Matrix &m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}; }
+SymmetricMatrix symmetric(const Matrix &m) { return {m.at[0][0], m.at[1][1], m.at[2][2], m.at[0][1], m.at[0][2], m.at[1][2]}; }
 
 /* The inertia tensor of a point mass, and of a covariance (the integral of x x^T dm). */
-Matrix inertia_of_covariance(const Matrix &covariance) { return covariance.trace() * Matrix::Identity() - covariance; }
-Matrix inertia_of_point(const Vector &at) { return inertia_of_covariance(at * at.transpose()); }
+Matrix inertia_of_covariance(const Matrix &covariance)
+{
+  const double trace = covariance.trace();
+  return Matrix::diagonal(trace, trace, trace) - covariance;
+}
+Matrix inertia_of_point(const Vector &at) { return inertia_of_covariance(Matrix::outer(at, at)); }
 
 /* A slice of a solid of revolution: y from `from` to `to` seen from `origin`; squared_radius is a polynomial of second degree. */
 template <class SquaredRadius> MassProperties slice(double origin, double from, double to, const SquaredRadius &squared_radius)
@@ -62,24 +58,64 @@ MassProperties conical_slice(double from, double to, double radius_from, double 
 
 Vector center_of(std::span<const Vec3> vertices)
 {
-  Vector sum = Vector::Zero();
+  Vector sum;
   const Vector base = vector_of(vertices[0]);
   for (const Vec3 &v : vertices) sum += vector_of(v) - base;
   return base + sum / double(vertices.size());
 }
 
-Eigen::Quaterniond quaternion_of(const std::array<double, 4> &q) { return {q[3], q[0], q[1], q[2]}; }
+/* Of a symmetric matrix: moments ascending, and the axis of each. */
+struct Eigensystem {
+  std::array<double, 3> moments;
+  std::array<Vector, 3> axes;
+};
 
-/* Columns: an axis of the principal frame each, of unit length. The best of the 24 ways to name them x y z, right-handed. */
-Matrix named_least_turned(const Matrix &axes)
+/* Turns x and y so that the matrix has no entry at p, q (Jacobi's rotation). */
+void rotate_away(Matrix &m, Matrix &axes, int p, int q)
 {
-  static constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
-  Matrix best = Matrix::Identity();
+  const double slope = (m.at[q][q] - m.at[p][p]) / (2 * m.at[p][q]);
+  const double tangent = (slope < 0 ? -1 : 1) / (std::abs(slope) + std::sqrt(slope * slope + 1));
+  const double cosine = 1 / std::sqrt(tangent * tangent + 1), sine = tangent * cosine;
+  Matrix turn = Matrix::diagonal(1, 1, 1);
+  turn.at[p][p] = turn.at[q][q] = cosine;
+  turn.at[p][q] = sine;
+  turn.at[q][p] = -sine;
+  m = turn.transposed() * m * turn;
+  m.at[p][q] = m.at[q][p] = 0;
+  axes = axes * turn;
+}
+
+/* Jacobi's method, which finds small moments beside large ones, too; it converges with the square of what is left. */
+Eigensystem eigensystem_of(Matrix m)
+{
+  constexpr int most_sweeps = 30;
+  constexpr double negligible = 0x1p-60;
+  Matrix axes = Matrix::diagonal(1, 1, 1);
+  bool changed = true;
+  for (int sweep = 0; sweep < most_sweeps && changed; ++sweep) {
+    changed = false;
+    for (const auto &[p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}})
+      if (std::abs(m.at[p][q]) > negligible * (std::abs(m.at[p][p]) + std::abs(m.at[q][q]))) {
+        rotate_away(m, axes, p, q);
+        changed = true;
+      }
+  }
+  std::array<int, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return m.at[i][i] < m.at[j][j]; });
+  const auto &[low, middle, high] = order;
+  return {{m.at[low][low], m.at[middle][middle], m.at[high][high]}, {axes.column(low), axes.column(middle), axes.column(high)}};
+}
+
+/* Axes of the principal frame, of unit length. The best of the 24 ways to name them x y z, right-handed. */
+Matrix named_least_turned(const std::array<Vector, 3> &axes)
+{
+  static constexpr size_t orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
+  Matrix best = Matrix::diagonal(1, 1, 1);
   double best_trace = -4; /* a rotation by a has the trace 1 + 2 cos a */
   for (const auto &order : orders)
     for (int signs = 0; signs < 8; ++signs) {
-      Matrix candidate;
-      for (int i = 0; i < 3; ++i) candidate.col(i) = axes.col(order[i]) * ((signs >> i & 1) ? -1 : 1);
+      const auto column = [&](int i) { return (signs >> i & 1 ? -1.0 : 1.0) * axes[order[i]]; };
+      const Matrix candidate = Matrix::of_columns(column(0), column(1), column(2));
       if (candidate.determinant() < 0 || candidate.trace() <= best_trace + 1e-9) continue; /* of equals, the first */
       best_trace = candidate.trace();
       best = candidate;
@@ -90,23 +126,21 @@ Matrix named_least_turned(const Matrix &axes)
 /* Two moments are equal: the third's axis alone is given. The smallest turn that brings an axis of the shape there. */
 Matrix turned_onto(const Vector &axis)
 {
-  int nearest = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(axis[i]) > std::abs(axis[nearest])) nearest = i;
-  const Vector target = axis[nearest] < 0 ? Vector(-axis) : axis;
-  return Eigen::Quaterniond::FromTwoVectors(Vector(Vector::Unit(nearest)), target).toRotationMatrix();
+  const double size[3] = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
+  const int nearest = size[1] > size[0] ? (size[2] > size[1] ? 2 : 1) : (size[2] > size[0] ? 2 : 0);
+  const Vector from(nearest == 0, nearest == 1, nearest == 2), to = axis.dot(from) < 0 ? -axis : axis, about = from.cross(to);
+  return rotation_matrix(unit(Rotation{about.x, about.y, about.z, 1 + from.dot(to)}));
 }
 
 Matrix least_turned_frame(const Matrix &inertia)
 {
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(inertia);
-  const Vector moments = solver.eigenvalues(); /* ascending */
+  const auto [moments, axes] = eigensystem_of(inertia);
   const double equal = principal_tolerance * moments[2];
   const bool lower_equal = moments[1] - moments[0] <= equal, upper_equal = moments[2] - moments[1] <= equal;
-  if (lower_equal && upper_equal) return Matrix::Identity();
-  if (lower_equal) return turned_onto(solver.eigenvectors().col(2));
-  if (upper_equal) return turned_onto(solver.eigenvectors().col(0));
-  return named_least_turned(solver.eigenvectors());
+  if (lower_equal && upper_equal) return Matrix::diagonal(1, 1, 1);
+  if (lower_equal) return turned_onto(axes[2]);
+  if (upper_equal) return turned_onto(axes[0]);
+  return named_least_turned(axes);
 }
 
 } // namespace
@@ -149,15 +183,15 @@ MassProperties polyhedron_mass(std::span<const Vec3> vertices, std::span<const T
 {
   const Vector origin = center_of(vertices);
   double volume = 0;
-  Vector first = Vector::Zero();
-  Matrix second = Matrix::Zero();
+  Vector first;
+  Matrix second;
   for (const Triangle &t : triangles) {
     const Vector a = vector_of(vertices[t[0]]) - origin, b = vector_of(vertices[t[1]]) - origin, c = vector_of(vertices[t[2]]) - origin;
     const Vector sum = a + b + c;
     const double part = a.dot(b.cross(c)) / 6;
     volume += part;
     first += part / 4 * sum;
-    second += part / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    second = second + part / 20 * (Matrix::outer(a, a) + Matrix::outer(b, b) + Matrix::outer(c, c) + Matrix::outer(sum, sum));
   }
   if (volume == 0) return {};
   const Vector center = first / volume;
@@ -186,37 +220,34 @@ MassProperties mesh_mass(const TriangleMesh &mesh, const std::string &where)
 
 MassProperties with_mass(const MassProperties &shape, double mass)
 {
-  return {mass, shape.center, symmetric(matrix_of(shape.inertia) * (mass / shape.mass))};
+  return {mass, shape.center, symmetric(mass / shape.mass * matrix_of(shape.inertia))};
 }
 
 MassProperties placed(const MassProperties &shape, const std::array<double, 4> &rotation, const Double3 &position)
 {
-  const Matrix turn = quaternion_of(rotation).toRotationMatrix();
-  return {shape.mass, array_of(turn * vector_of(shape.center) + vector_of(position)),
-          symmetric(turn * matrix_of(shape.inertia) * turn.transpose())};
+  const Matrix turn = rotation_matrix(rotation);
+  return {shape.mass, array_of(turn * vector_of(shape.center) + vector_of(position)), symmetric(turn * matrix_of(shape.inertia) * turn.transposed())};
 }
 
 MassProperties compound_mass(std::span<const MassProperties> parts)
 {
   MassProperties sum;
-  Vector center = Vector::Zero();
+  Vector center;
   for (const MassProperties &part : parts) {
     sum.mass += part.mass;
     center += part.mass * vector_of(part.center);
   }
-  center /= sum.mass;
-  Matrix inertia = Matrix::Zero();
+  center = center / sum.mass;
+  Matrix inertia;
   for (const MassProperties &part : parts)
-    inertia += matrix_of(part.inertia) + part.mass * inertia_of_point(vector_of(part.center) - center);
+    inertia = inertia + (matrix_of(part.inertia) + part.mass * inertia_of_point(vector_of(part.center) - center));
   return {sum.mass, array_of(center), symmetric(inertia)};
 }
 
 PrincipalAxes principal_axes(const SymmetricMatrix &inertia)
 {
-  const Matrix tensor = matrix_of(inertia), frame = least_turned_frame(tensor);
-  Eigen::Quaterniond rotation(frame);
-  if (rotation.w() < 0) rotation.coeffs() = -rotation.coeffs();
-  return {array_of(Vector((frame.transpose() * tensor * frame).diagonal())), {rotation.x(), rotation.y(), rotation.z(), rotation.w()}};
+  const Matrix tensor = matrix_of(inertia), frame = least_turned_frame(tensor), diagonal = frame.transposed() * tensor * frame;
+  return {{diagonal.at[0][0], diagonal.at[1][1], diagonal.at[2][2]}, rotation_of(frame)};
 }
 
 } // namespace tandem

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/geometry/triangle_mesh.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -32,7 +33,7 @@ Shape height_field_shape(std::span<const float> heights, uint32_t columns, float
   std::vector<uint32_t> indices;
   for (size_t i = 0; i < heights.size(); ++i) {
     const double x = double(i % columns) - 0.5 * (columns - 1), z = double(i / columns) - 0.5 * double(rows - 1);
-    vertices.push_back({float(x * spacing_x), heights[i], float(z * spacing_z)});
+    vertices.push_back({round_to_float(x * spacing_x), heights[i], round_to_float(z * spacing_z)});
     if (i % columns + 1 < columns && i / columns + 1 < rows) add_cell(indices, static_cast<uint32_t>(i), columns);
   }
   return mesh_shape(vertices, indices, where);

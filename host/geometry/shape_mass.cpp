@@ -5,7 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "host/geometry/vector.h"
+#include "host/geometry/rotation.h"
+#include "host/round_to_float.h"
 
 namespace tandem {
 namespace {
@@ -15,9 +16,7 @@ constexpr double center_rounding = 0x1p-24;
 /* Of the largest moment: mistakes, not roundings, and quaternions written with four digits. */
 constexpr double axes_tolerance = 1e-3;
 
-Eigen::Quaterniond quaternion_of(const Rotation &q) { return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized(); }
-Rotation rotation_of(const Eigen::Quaterniond &q) { return {q.x(), q.y(), q.z(), q.w()}; }
-Rotation widened(const Quat &q) { return rotation_of(quaternion_of({q[0], q[1], q[2], q[3]})); }
+Rotation widened(const Quat &q) { return unit(Rotation{q[0], q[1], q[2], q[3]}); }
 Double3 widened(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 
 /* What double left over from numbers that cancel is no number of its own. */
@@ -26,7 +25,7 @@ template <size_t n> std::array<float, n> without_residue(const std::array<double
   double largest = 0;
   for (double x : values) largest = std::max(largest, std::abs(x));
   std::array<float, n> result;
-  for (size_t i = 0; i < n; ++i) result[i] = std::abs(values[i]) <= 1e-14 * largest ? 0.0f : float(values[i]);
+  for (size_t i = 0; i < n; ++i) result[i] = std::abs(values[i]) <= 1e-14 * largest ? 0.0f : round_to_float(values[i]);
   return result;
 }
 
@@ -59,8 +58,8 @@ MassProperties mass_of_children(const Compound &compound)
 
 } // namespace
 
-Rotation product(const Rotation &a, const Rotation &b) { return rotation_of(quaternion_of(a) * quaternion_of(b)); }
-Double3 turned(const Rotation &rotation, const Double3 &v) { return array_of(quaternion_of(rotation) * vector_of(v)); }
+Rotation product(const Rotation &a, const Rotation &b) { return product_of(unit(a), unit(b)); }
+Double3 turned(const Rotation &rotation, const Double3 &v) { return array_of(turn(unit(rotation), vector_of(v))); }
 
 /* The hull of its own vertices: they alone say all of it, faces included, and a scene file holds no more. */
 Shape hull_shape(std::span<const Vec3> points, const std::string &where)
@@ -102,7 +101,8 @@ PrincipalFrame principal_frame_of(const Shape &shape)
   const PrincipalAxes axes = principal_axes(solid.inertia);
   PrincipalFrame frame{solid.mass, solid.center, axes.rotation, axes.moments};
   const double rounding = center_rounding * largest_of(shape);
-  if (vector_of(frame.center).lpNorm<Eigen::Infinity>() <= rounding) frame.center = {};
+  const auto &[x, y, z] = frame.center;
+  if (std::max({std::abs(x), std::abs(y), std::abs(z)}) <= rounding) frame.center = {};
   if (Vector(axes.rotation[0], axes.rotation[1], axes.rotation[2]).norm() <= principal_tolerance) frame.rotation = {0, 0, 0, 1};
   return frame;
 }
@@ -111,24 +111,21 @@ ShapePlace place_of_shape(const Body &body)
 {
   const Rotation orientation = widened(body.orientation);
   const Vector offset = vector_of(turned(orientation, widened(body.shape_position)));
-  return {array_of(Vector(vector_of(body.position) + offset)), product(orientation, widened(body.shape_orientation))};
+  return {array_of(vector_of(body.position) + offset), product(orientation, widened(body.shape_orientation))};
 }
 
 ShapePlace place_of_child(const Body &body, const Child &child)
 {
   const Rotation orientation = widened(body.shape_orientation);
   const Vector offset = vector_of(turned(orientation, widened(child.position)));
-  return {array_of(Vector(vector_of(body.shape_position) + offset)), product(orientation, widened(child.orientation))};
+  return {array_of(vector_of(body.shape_position) + offset), product(orientation, widened(child.orientation))};
 }
 
 std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &position, const Quat &orientation)
 {
   std::vector<Vec3> placed;
-  const Eigen::Quaterniond turn = quaternion_of(widened(orientation));
-  for (const Vec3 &p : points) {
-    const Vector at = turn * vector_of(p) + vector_of(position);
-    placed.push_back({float(at.x()), float(at.y()), float(at.z())});
-  }
+  const Rotation rotation = widened(orientation);
+  for (const Vec3 &p : points) placed.push_back(rounded(array_of(turn(rotation, vector_of(p)) + vector_of(position))));
   return placed;
 }
 
@@ -136,19 +133,23 @@ std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &positi
 void move_frame(Body &body, const Double3 &position, const Rotation &orientation)
 {
   const ShapePlace place = place_of_shape(body);
-  body.orientation = without_residue(rotation_of(quaternion_of(orientation)));
-  const Eigen::Quaterniond turn = quaternion_of(widened(body.orientation));
-  body.shape_orientation = without_residue(rotation_of(turn.conjugate() * quaternion_of(place.orientation)));
-  body.shape_position = without_residue(array_of(turn.conjugate() * (vector_of(place.position) - vector_of(position))));
-  body.position = array_of(vector_of(place.position) - turn * vector_of(body.shape_position));
+  body.orientation = without_residue(unit(orientation));
+  const Rotation rotation = widened(body.orientation);
+  body.shape_orientation = without_residue(product_of(inverse(rotation), unit(place.orientation)));
+  body.shape_position = without_residue(array_of(turn(inverse(rotation), vector_of(place.position) - vector_of(position))));
+  body.position = array_of(vector_of(place.position) - turn(rotation, vector_of(body.shape_position)));
 }
 
 bool has_principal_axes(const Body &body, const Shape &shape)
 {
   const PrincipalFrame frame = principal_frame_of(shape);
-  const Eigen::Matrix3d axes = quaternion_of(product(widened(body.shape_orientation), frame.rotation)).toRotationMatrix();
-  const Eigen::Matrix3d expected = vector_of(frame.moments).asDiagonal(), actual = axes * expected * axes.transpose();
-  return (actual - expected).cwiseAbs().maxCoeff() <= axes_tolerance * expected.maxCoeff();
+  const auto &[x, y, z] = frame.moments;
+  const Matrix axes = rotation_matrix(product(widened(body.shape_orientation), frame.rotation)), expected = Matrix::diagonal(x, y, z);
+  const Matrix difference = axes * expected * axes.transposed() - expected;
+  double largest = 0;
+  for (const auto &row : difference.at)
+    for (double entry : row) largest = std::max(largest, std::abs(entry));
+  return largest <= axes_tolerance * std::max({x, y, z});
 }
 
 Vec3 inertia_of(const Shape &shape, float mass)
@@ -157,15 +158,15 @@ Vec3 inertia_of(const Shape &shape, float mass)
   switch (shape.type) {
   case ShapeType::half_space: return {0, 0, 0};
   case ShapeType::sphere: {
-    const float moment = float(0.4 * m * x * x);
+    const float moment = round_to_float(0.4 * m * x * x);
     return {moment, moment, moment};
   }
-  case ShapeType::box: return {float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))};
+  case ShapeType::box: return {round_to_float(m / 3 * (y * y + z * z)), round_to_float(m / 3 * (x * x + z * z)), round_to_float(m / 3 * (x * x + y * y))};
   default: break;
   }
   const PrincipalFrame frame = principal_frame_of(shape);
   Vec3 moments;
-  for (size_t axis = 0; axis < 3; ++axis) moments[axis] = float(frame.moments[axis] * (m / frame.mass));
+  for (size_t axis = 0; axis < 3; ++axis) moments[axis] = round_to_float(frame.moments[axis] * (m / frame.mass));
   return moments;
 }
 

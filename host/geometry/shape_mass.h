@@ -18,8 +18,6 @@
 
 namespace tandem {
 
-using Rotation = std::array<double, 4>; /* x y z w, unit length */
-
 /* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh without volume. */
 MassProperties mass_properties_of(const Shape &shape);
 

@@ -145,9 +145,9 @@ void find_adjacency(TriangleMesh &mesh)
 /* The plane through the vertex farthest from the first, and the one farthest from the line of both. */
 bool is_flat_mesh(const std::vector<Vec3> &vertices)
 {
-  Vector across = Vector::Zero(), along = Vector::Zero();
+  Vector across, along;
   const Vector a = vector_of(vertices[0]);
-  const auto longer = [](const Vector &p, const Vector &q) { return p.squaredNorm() > q.squaredNorm() ? p : q; };
+  const auto longer = [](const Vector &p, const Vector &q) { return p.squared_norm() > q.squared_norm() ? p : q; };
   for (const Vec3 &v : vertices) along = longer(vector_of(v) - a, along);
   for (const Vec3 &v : vertices) across = longer(along.cross(vector_of(v) - a), across);
   double height = 0;

@@ -17,6 +17,7 @@
 
 #include "host/opencl/context.h"
 #include "host/opencl/program.h"
+#include "host/round_to_float.h"
 #include "minicl/floating_point.h"
 #include "shared/counts.h"
 #include "shared/parallel/self_test.h"
@@ -211,13 +212,13 @@ struct RightAnswer {
 std::array<RightAnswer, 6> right_answers(float a, float b, float c)
 {
   const double x = a, y = b;
-  const float product = static_cast<float>(x * y), quotient = static_cast<float>(x / y);
-  return {{{"addition", static_cast<float>(x + y)},
-           {"subtraction", static_cast<float>(x - y)},
+  const float product = round_to_float(x * y), quotient = round_to_float(x / y);
+  return {{{"addition", round_to_float(x + y)},
+           {"subtraction", round_to_float(x - y)},
            {"multiplication", product},
            {"division", quotient, std::abs(quotient) > std::numeric_limits<float>::min()},
-           {"square root", static_cast<float>(std::sqrt(x))},
-           {"contraction of a * b + c", static_cast<float>(static_cast<double>(product) + c)}}};
+           {"square root", round_to_float(std::sqrt(x))},
+           {"contraction of a * b + c", round_to_float(static_cast<double>(product) + c)}}};
 }
 
 size_t column_of(const std::string &name)

@@ -4,6 +4,8 @@
  * one built-in sine would pass every test on the machine of its author and differ on the next, so the sources are read.
  *
  *   shared/ cl/ minicl/            calls of banned functions, float atomics, fused and approximate intrinsics
+ *   host/                          functions of the C library whose last bit differs between machines, where results hang on it, and
+ *                                  roundings to float that a compiler may leave out
  *   these, host/, tools/, CMake    compiler and OpenCL options that relax arithmetic, also within strings
  *
  * Usage: banned_operations ROOT              lists file:line: operation; exit status 1 if there is any
@@ -43,6 +45,14 @@ const std::vector<std::string> banned_functions = {
     "erfc",   "tgamma", "lgamma", "lgamma_r",  "ldexp",     "scalbn",      "scalbln",       "frexp",
     "modf",   "fract",  "fmod",   "remainder", "remquo",    "fdim",        "nextafter",     "nearbyint",
     "lrint",  "llrint", "lround", "llround"};
+
+/* Of the C library's mathematics IEEE 754 fixes only what rounds exactly or not at all (sqrt, floor, frexp, ldexp, nextafter). */
+const std::vector<std::string> inexact_functions = {"sin",  "cos",  "tan",   "sincos", "asin",  "acos",  "atan", "atan2", "sinh", "cosh", "tanh",
+                                                    "exp",  "exp2", "exp10", "expm1",  "log",   "log2",  "log10", "log1p", "pow",  "cbrt", "hypot",
+                                                    "erf",  "erfc", "tgamma", "lgamma", "asinh", "acosh", "atanh"};
+
+/* They measure or draw what was simulated, and nothing is simulated with what they find. */
+const std::vector<std::string> measuring_files = {"host/metrics.cpp", "host/animation_geometry.cpp"};
 
 /* Families: any width, rounding mode or address space of them. */
 const std::vector<std::string> banned_families = {
@@ -124,12 +134,12 @@ int line_of(const std::string &text, size_t at)
 }
 
 /* fma, fmaf and __builtin_fmaf are one function. */
-bool is_banned_function(std::string name)
+bool is_one_of(const std::vector<std::string> &functions, std::string name)
 {
   const std::string builtin = "__builtin_";
   if (name.compare(0, builtin.size(), builtin) == 0) name.erase(0, builtin.size());
-  const auto listed = [](const std::string &n) {
-    return std::find(banned_functions.begin(), banned_functions.end(), n) != banned_functions.end();
+  const auto listed = [&](const std::string &n) {
+    return std::find(functions.begin(), functions.end(), n) != functions.end();
   };
   const bool suffixed = name.size() > 1 && (name.back() == 'f' || name.back() == 'l');
   return listed(name) || (suffixed && listed(name.substr(0, name.size() - 1)));
@@ -145,7 +155,8 @@ bool is_banned_family(const std::string &name)
   return std::any_of(families.begin(), families.end(), [&](const std::regex &f) { return std::regex_match(name, f); });
 }
 
-void find_functions(const std::string &file, const std::string &text, std::vector<Hit> &hits)
+/* Every name in the code for which is_hit(name, whether it is called). */
+template <class IsHit> void find_names(const std::string &file, const std::string &text, std::vector<Hit> &hits, const IsHit &is_hit)
 {
   const std::string code = blanked(text, Comments::c_style, true);
   static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*");
@@ -153,10 +164,26 @@ void find_functions(const std::string &file, const std::string &text, std::vecto
     const std::string name = word->str();
     const size_t after = code.find_first_not_of(" \t\n\\", static_cast<size_t>(word->position()) + name.size());
     const bool called = after != std::string::npos && code[after] == '(';
-    if (((called && is_banned_function(name)) || is_banned_family(name)) && !allowed(file, name)) {
-      hits.push_back({file, line_of(code, static_cast<size_t>(word->position())), name});
-    }
+    if (is_hit(name, called)) hits.push_back({file, line_of(code, static_cast<size_t>(word->position())), name});
   }
+}
+
+void find_functions(const std::string &file, const std::string &text, std::vector<Hit> &hits)
+{
+  find_names(file, text, hits, [&](const std::string &name, bool called) {
+    return ((called && is_one_of(banned_functions, name)) || is_banned_family(name)) && !allowed(file, name);
+  });
+}
+
+/* In host/: float(x) and static_cast<float>(x) round what may be a double; of whole numbers an initialisation does without. */
+void find_host_functions(const std::string &file, const std::string &text, std::vector<Hit> &hits)
+{
+  if (std::find(measuring_files.begin(), measuring_files.end(), file) == measuring_files.end())
+    find_names(file, text, hits, [&](const std::string &name, bool called) { return called && is_one_of(inexact_functions, name); });
+  if (file == "host/round_to_float.h") return;
+  find_names(file, text, hits, [&](const std::string &name, bool called) { return called && name == "float"; });
+  const std::string code = blanked(text, Comments::c_style, true), cast = "static_cast<float>";
+  for (size_t at = code.find(cast); at != std::string::npos; at = code.find(cast, at + 1)) hits.push_back({file, line_of(code, at), cast});
 }
 
 void find_options(const std::string &file, const std::string &text, std::vector<Hit> &hits)
@@ -190,6 +217,7 @@ std::vector<Hit> scan(const fs::path &root, int &files)
   const auto scan_file = [&](const fs::path &path, bool functions) {
     const std::string name = fs::relative(path, root).generic_string(), text = read(path);
     if (functions) find_functions(name, text, hits);
+    if (name.starts_with("host/")) find_host_functions(name, text, hits);
     find_options(name, text, hits);
     ++files;
   };
@@ -247,6 +275,18 @@ void test_functions(const fs::path &root)
          "after literals");
 }
 
+void test_host_functions(const fs::path &root)
+{
+  const std::string file = "host/scene_planted.cpp";
+  for (const std::string &name : inexact_functions)
+    expect(scan_text(root, file, "\ndouble y = std::" + name + "(x);"), {{file, 2, name}}, name + " in host/");
+  expect(scan_text(root, file, "return {float(x), float (y)};"), {{file, 1, "float"}, {file, 1, "float"}}, "a functional cast");
+  expect(scan_text(root, file, "p =\n static_cast<float>(x);"), {{file, 2, "static_cast<float>"}}, "a cast");
+  expect(scan_text(root, file, "float y = round_to_float(x); sizeof(float); std::sqrt(x); parse<float>(text); // float(x), sin(x)"), {}, "harmless host code");
+  expect(scan_text(root, "host/metrics.cpp", "double y = std::pow(x, 2);"), {}, "a measurement");
+  expect(scan_text(root, "tools/planted.cpp", "double y = std::pow(x, 2), z = float(x);"), {}, "tools");
+}
+
 void test_options(const fs::path &root)
 {
   for (const std::string &option : banned_options) {
@@ -280,6 +320,7 @@ void test_harmless(const fs::path &root)
 int self_test(const fs::path &root)
 {
   test_functions(root);
+  test_host_functions(root);
   test_options(root);
   test_harmless(root);
   fs::remove_all(root);

@@ -21,7 +21,19 @@ cat >"$fake/apt-get" <<'END'
 echo "$*" >>"$(dirname "$0")/calls"
 [ "$DEBIAN_FRONTEND" = noninteractive ] || exit 1
 case $* in *unobtainable*|*oclgrind*) exit 100 ;; esac
+case $* in *update*) [ ! -e "$(dirname "$0")/elsewhere" ] || exit 100 ;; esac
 END
+# It knows one architecture, and arm64 once that was added; where `elsewhere` is, the lists of arm64 cannot be had.
+cat >"$fake/dpkg" <<'END'
+#!/bin/sh
+here=$(dirname "$0")
+case $1 in
+  --print-foreign-architectures) cat "$here/architectures" ;;
+  --add-architecture) echo "$2" >>"$here/architectures" ;;
+  --remove-architecture) : >"$here/architectures" ;;
+esac
+END
+: >"$fake/architectures"
 printf '#!/bin/sh\necho 1000\n' >"$fake/id"
 printf '#!/bin/sh\nexec "$@"\n' >"$fake/sudo"
 chmod +x "$fake"/*
@@ -57,6 +69,19 @@ expect 0 'no package oclgrind here; going on' tests
 printf 'pocl-opencl-icd\n' >"$fake/absent"
 expect 0 'Going on without these' --no-install opencl
 expect_no_call
+
+printf 'libtbb-dev:arm64\nqemu-user-static\n' >"$fake/absent"
+expect 0 'runs what was compiled' aarch64
+expect_call 'update$'
+expect_call '--no-install-recommends libtbb-dev:arm64$'
+grep -qx arm64 "$fake/architectures" || { echo "arm64 was not added"; failed=1; }
+: >"$fake/architectures"
+: >"$fake/elsewhere"
+expect 0 'no packages of arm64 here; going on' aarch64
+expect_call '--no-install-recommends qemu-user-static$'
+! grep -q 'install.*arm64' "$fake/calls" || { echo "packages of arm64 were asked for without lists"; failed=1; }
+[ ! -s "$fake/architectures" ] || { echo "arm64 was not forgotten"; failed=1; }
+rm "$fake/elsewhere"
 
 expect 2 "unknown argument '--fast'" --fast
 expect 2 'at least one group'

@@ -78,7 +78,7 @@ Trial closed_system_trial(Length length)
     const Shape shape = i % 2 ? sphere_shape(0.5f) : box_shape(0.5f, 0.3f, 0.4f);
     Body &body = add_body(trial.scene, Motion::dynamic, shape, point_of(place), float(random.uniform(0.5, 5)));
     body.orientation = random.orientation();
-    body.linear_velocity = vec3_of(-1.5 * place + Vector(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)));
+    body.linear_velocity = vec3_of(-1.5 * place + Vector{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
     body.angular_velocity = {float(random.uniform(-3, 3)), float(random.uniform(-3, 3)), float(random.uniform(-3, 3))};
   }
   trial.checks.push_back(check("drift of momentum", "", 3e-7, linear_momentum_drift()));

@@ -70,7 +70,7 @@ TriangleMesh box_mesh(float x, float y, float z) { return triangle_mesh(box_corn
 Eigen::Matrix3d recomposed(const PrincipalAxes &axes)
 {
   const Eigen::Matrix3d turn = Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2]).toRotationMatrix();
-  return turn * vector_of(axes.moments).asDiagonal() * turn.transpose();
+  return turn * Eigen::Vector3d(axes.moments[0], axes.moments[1], axes.moments[2]).asDiagonal() * turn.transpose();
 }
 
 double angle_of(const PrincipalAxes &axes) { return 2 * std::acos(std::min(1.0, axes.rotation[3])); }
@@ -212,7 +212,7 @@ TEST_CASE("principal axes: the tensor is put together again, moments obey the tr
 
 TEST_CASE("principal axes: a small turn is found again; axes already principal stay, whatever the order of moments")
 {
-  const Eigen::Quaterniond small(Eigen::AngleAxisd(0.3, Vector(1, 2, 2).normalized()));
+  const Eigen::Quaterniond small(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2).normalized()));
   const PrincipalAxes axes = principal_axes(placed(box_mass({1, 3, 2}), array_of(small), {}).inertia);
   CHECK(Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2]).angularDistance(small) < 1e-12);
   for (const Double3 &size : {Double3{1, 2, 3}, {3, 1, 2}, {2, 3, 1}, {1, 3, 2}}) {
@@ -232,7 +232,7 @@ TEST_CASE("principal axes: equal moments turn nothing that need not turn")
       const MassProperties round = placed(cylinder_mass(0.3, 0.3, height), array_of(rotation), {});
       const PrincipalAxes axes = principal_axes(round.inertia);
       CHECK((recomposed(axes) - tensor_of(round.inertia)).cwiseAbs().maxCoeff() < 1e-14 * tensor_of(round.inertia).trace());
-      const Vector along = rotation * Vector::UnitY();
+      const Eigen::Vector3d along = rotation * Eigen::Vector3d::UnitY();
       CHECK(angle_of(axes) == Approx(std::acos(along.cwiseAbs().maxCoeff())).margin(1e-7)); /* only the axis is brought onto the nearest */
     }
   }

@@ -6,6 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include <Eigen/Geometry>
+
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/geometry/vector.h"
@@ -48,7 +50,7 @@ struct Soup {
 inline Soup icosphere(int level)
 {
   Soup soup{icosahedron_points(), icosahedron_triangles()};
-  const auto on_sphere = [](const Vector &v) { return Vec3{float(v.normalized().x()), float(v.normalized().y()), float(v.normalized().z())}; };
+  const auto on_sphere = [](const Vector &v) { return rounded(array_of(v.normalized())); };
   for (Vec3 &v : soup.vertices) v = on_sphere(vector_of(v));
   for (; level > 0; --level) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
@@ -72,10 +74,10 @@ inline std::vector<Vec3> sphere_points(size_t count, uint64_t seed)
   Random random(seed);
   std::vector<Vec3> points;
   while (points.size() < count) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Vector v{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     if (v.norm() > 1 || v.norm() < 0.1) continue;
     const Vector unit = v.normalized();
-    points.push_back({float(unit.x()), float(unit.y()), float(unit.z())});
+    points.push_back(rounded(array_of(unit)));
   }
   return points;
 }
@@ -101,8 +103,8 @@ inline std::vector<Vec3> moved(const std::vector<Vec3> &points, const Eigen::Qua
 {
   std::vector<Vec3> result;
   for (const Vec3 &p : points) {
-    const Vector v = rotation * vector_of(p) + offset;
-    result.push_back({float(v.x()), float(v.y()), float(v.z())});
+    const Eigen::Vector3d v = rotation * Eigen::Vector3d(p[0], p[1], p[2]);
+    result.push_back(rounded(array_of(Vector(v.x(), v.y(), v.z()) + offset)));
   }
   return result;
 }
