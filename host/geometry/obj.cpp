@@ -1,6 +1,8 @@
 /* obj.cpp - see obj.h. */
 #include "host/geometry/obj.h"
 
+#include "host/round_to_float.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -85,7 +87,7 @@ float ObjReader::number(std::string_view word) const
       stop == end) { /* too small for a float is none; too large is a mistake */
     double wide = 0;
     const auto [wide_stop, wide_error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, wide);
-    if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return float(wide);
+    if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return round_to_float(wide);
   }
   if (error != std::errc{} || stop != end || !std::isfinite(value))
     fail(fmt::format("'{}' is no finite number of 32 bits", word.substr(0, 40)), line_);

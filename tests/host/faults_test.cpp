@@ -14,7 +14,7 @@
 #include "host/out_of_memory.h"
 #include "host/scene_catalog.h"
 #include "host/world.h"
-#include "tests/host/opencl_device.h"
+#include "tests/host/pocl.h"
 
 using namespace tandem;
 
@@ -290,17 +290,11 @@ void fail_on_pocl(const Case &c, bool shares)
   CHECK(world->state_hash() == undisturbed[at + 1]);
 }
 
-bool has_pocl()
-{
-  const opencl::Candidate *device = test_device();
-  return device && device->info.platform_name == "Portable Computing Language";
-}
-
 } // namespace
 
 TEST_CASE("a step that fails on an OpenCL device leaves the state as it was, and the next ones their bits")
 {
-  if (!has_pocl()) return;
+  parity::require_pocl();
   struck_at = {};
   fail_on_pocl(cases()[0], true);
   fail_on_pocl(cases()[1], false);
@@ -309,7 +303,7 @@ TEST_CASE("a step that fails on an OpenCL device leaves the state as it was, and
 
 TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
 {
-  if (!has_pocl()) return;
+  parity::require_pocl();
   const Settings settings = with("soft-step", "grid", true);
   const std::vector<uint64_t> undisturbed = hashes_of(crowd(52), settings, Placement{"serial", {}, false}, 1);
   for (const bool shares : {true, false}) {
@@ -325,7 +319,7 @@ TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
 
 TEST_CASE("a world on an OpenCL device that fails from some place on is refused in one line and can be made the next time")
 {
-  if (!has_pocl()) return;
+  parity::require_pocl();
   const Case c = cases()[0];
   const Scene scene = load_scene(c.scene);
   struck_at = {};
@@ -342,7 +336,7 @@ TEST_CASE("a world on an OpenCL device that fails from some place on is refused 
 
 TEST_CASE("a world on a device that fails for good can be destroyed")
 {
-  if (!has_pocl()) return;
+  parity::require_pocl();
   for (const bool shares : {true, false}) {
     std::unique_ptr<World> world = world_on_pocl(load_scene("box-grid:nx=2,ny=2,nz=2"), {}, shares);
     world->step();

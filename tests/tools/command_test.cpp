@@ -156,7 +156,6 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
 TEST_CASE("command: a stability case has the same bits on OpenCL, also where it fails", "[command]")
 {
   if (command("devices").out.find("Portable Computing Language") == std::string::npos) tests::skip_device("no PoCL");
-  if (tandem("devices").out.find("Portable Computing Language") == std::string::npos) tests::skip_device("no PoCL");
   const Json json = json_of("stability --only heavy-on-light-10000 --solvers soft-step --between serial,tbb,cl:pocl");
   CHECK(json["equal"] == true);
   REQUIRE(json["cases"].size() == 1);
