@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "host/input_file.h"
+#include "host/round_to_float.h"
 #include "host/scene.h"
 
 namespace tandem {
@@ -33,7 +34,7 @@ public:
   {
     const double value = number<double>(what, "a number");
     if (!std::isfinite(value)) refuse(fmt::format("{} is not finite", what));
-    if (!std::isfinite(static_cast<float>(value))) refuse(fmt::format("{} is {}, which no 32-bit float holds", what, value));
+    if (!std::isfinite(round_to_float(value))) refuse(fmt::format("{} is {}, which no 32-bit float holds", what, value));
     return value;
   }
   uint64_t whole(const std::string &what, uint64_t lowest, uint64_t highest)
@@ -118,7 +119,7 @@ void order_rows(const Numbers &numbers, ContactProblem &problem)
     const auto twice = std::adjacent_find(first, last, [&](uint32_t a, uint32_t b) { return key(a) == key(b); });
     if (twice != last) numbers.refuse(fmt::format("contact {} has two blocks in column {}", i, problem.column[*twice]));
     for (int axis = 0; axis < 3; ++axis)
-      if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)]; !(own > 0) || !std::isfinite(1 / static_cast<float>(own)))
+      if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)]; !(own > 0) || !std::isfinite(1 / round_to_float(own)))
         numbers.refuse(fmt::format("W[{0}][{0}] must be positive, and its inverse a 32-bit float; it is {1}", 3 * i + static_cast<uint32_t>(axis), own));
   }
   for (size_t k = 0; k < order.size(); ++k) {

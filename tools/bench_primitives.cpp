@@ -112,7 +112,8 @@ std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool 
   bench.reserve(Buffer::scan_sums, scan_sum_words(count));
   const std::vector<double> times = bench.time([&] { bench.fill(Buffer::primitive_a, values); }, {Buffer::primitive_a});
   values.push_back(0);
-  std::exclusive_scan(values.begin(), values.end(), values.begin(), 0u);
+  const auto saturated = [](uint32_t a, uint32_t b) { return uint32_t(std::min<uint64_t>(uint64_t{a} + b, UINT32_MAX)); };
+  std::exclusive_scan(values.begin(), values.end(), values.begin(), 0u, saturated); /* shared/parallel/scan.h */
   if (bench.contents(Buffer::primitive_b, size_t{count} + 1) != values)
     throw std::runtime_error("bench scan: the result is wrong on " + backend);
   return times;

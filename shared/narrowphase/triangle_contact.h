@@ -177,13 +177,20 @@ SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real r
   if (!triangles.outside_a && !triangles.outside_b) return 0;
   core_contact contact = near.overlapping ? triangle_penetration(&triangles, pair->up, lead * R(0.25)) : near.contact;
   if (leads_behind(&triangles, contact.normal)) return 0;
+  core_contact closest = contact;
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return 0;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
   /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a neighbour. */
   core_contact sought = {contact.normal, face ? R(1e30) : contact.gap};
   if (overlap_patch(patch, a, b, sought, reach)) return 1;
-  if (face) return face_point_patch(patch, &triangles, contact, face);
+  if (face) {
+    if (face_point_patch(patch, &triangles, contact, face)) return 1;
+    /* Nothing is above a face that was only preferred: the closest points lie on a sharp edge of it, whose other side may be turned
+     * away from what comes. */
+    if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach) return 0;
+    contact = closest;
+  }
   point_patch(patch, a, b, contact, near.overlapping ? deepest_point_of_b(a, b, contact) : near.on_b);
   return 1;
 }

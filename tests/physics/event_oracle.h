@@ -70,7 +70,7 @@ private:
       for (uint32_t k = 0; k < points[i]; ++k) {
         const row &r = rows[k * counts[CAPACITY_PAIRS] + i];
         if (r.w > 0 && impulses[k] == 0) continue;
-        const Vector at = vector_of(states[first].position) + Vector(r.x, r.y, r.z);
+        const Vector at = vector_of(states[first].position) + double(normals[i].w) * vector_of(states[first].linear_velocity) + Vector(r.x, r.y, r.z);
         ++found.points;
         found.impulse += impulses[k];
         found.separation = std::min(found.separation, double(r.w));

@@ -442,8 +442,10 @@ TEST_CASE("contacts are made as far ahead as two bodies can close in a step")
   CHECK(touches(0.26f, 2, 0));
   CHECK_FALSE(touches(0.28f, 2, 0));
   CHECK_FALSE(touches(0.021f, -2, 0));
-  CHECK(touches(0.44f, 0, 2)); /* 0.02 + 0.125 s * 2 rad/s * sqrt(3) m = 0.453 m */
-  CHECK_FALSE(touches(0.46f, 0, 2));
+  /* Turned by 0.25 rad its lowest edge is cos 0.25 + sin 0.25 = 1.216 m below its middle. */
+  CHECK(touches(0.21f, 0, 2));
+  CHECK_FALSE(touches(0.225f, 0, 2));
+  CHECK_FALSE(touches(0.44f, 0, 2));
 }
 
 TEST_CASE("boxes with one centre have finite contacts and the axis of their least size")

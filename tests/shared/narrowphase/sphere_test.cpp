@@ -44,37 +44,68 @@ double reach(const PairScene &scene, size_t pair, const Vector &normal)
   return scene.parameters.speculative_distance + scene.parameters.step * std::max(0.0, closing);
 }
 
+TestBody moved(TestBody body, double time)
+{
+  const double turn = body.angular.cast<double>().norm() * time;
+  body.position += (time * body.linear.cast<double>()).cast<float>();
+  if (turn > 0) body.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn, body.angular.cast<double>().normalized())) * body.orientation.cast<double>()).cast<float>();
+  return body;
+}
+
+/* The least separation of many moments before `time`. */
+template <class Reference>
+double least_before(const TestBody &a, const TestBody &b, double time, Reference reference)
+{
+  double least = 1e30;
+  for (int k = 0; k < 48; ++k) least = std::min(least, reference(moved(a, time * k / 48), moved(b, time * k / 48)).separation);
+  return least;
+}
+
+/* The contact at the moment of its impact, which is 0 for those of the start, and seen from the start. */
+bool is_as_expected(const TestBody &a, const TestBody &b, const Contact &contact, const Expected &expected, double time, double tolerance)
+{
+  const Point &point = contact.points[0];
+  const Vector arm_b = a.center() + point.offset - b.center(), approach = (a.linear - b.linear).cast<double>() +
+    a.angular.cast<double>().cross(point.offset) - b.angular.cast<double>().cross(arm_b);
+  const double seen = expected.separation + time * std::max(0.0, approach.dot(contact.normal));
+  if (std::abs(point.separation - seen) > tolerance || contact.code != 0 || point.slot != 0 || std::abs(contact.normal.norm() - 1) > 1e-6) return false;
+  if (!expected.normal_is_unique) return true;
+  const double angle = time > 0 ? 2e-2 : 1e-3; /* at an impact the shapes are a hair apart, of which rounding is a larger part */
+  return (contact.normal - expected.normal).norm() < angle && (a.center() + point.offset - expected.point).norm() < 1e3 * tolerance;
+}
+
+/* Contacts of the start and those at impact against `reference` of where the bodies are then; what is left out must miss. */
 template <class Reference>
 void compare(PairScene &scene, Kernel kernel, Reference reference)
 {
   const Outputs outputs = scene.run({kernel});
-  size_t touching = 0, apart = 0, wrong = 0;
+  size_t touching = 0, at_impact = 0, missing = 0, wrong = 0;
   for (size_t pair = 0; pair < scene.size(); ++pair) {
-    const Expected expected = reference(scene.a(pair), scene.b(pair));
-    const Contact contact = scene.contact(outputs, pair);
-    const Vector between = scene.b(pair).center() - scene.a(pair).center();
-    const double tolerance = 2e-6 * (between.norm() + scale_of(scene.a(pair)) + scale_of(scene.b(pair)));
+    const TestBody &a = scene.a(pair), &b = scene.b(pair);
+    const double time = outputs.normals[pair].w, scale = scale_of(a) + scale_of(b);
+    const double tolerance = 2e-6 * ((b.center() - a.center()).norm() + scale + time * (a.linear - b.linear).norm());
+    const Expected expected = reference(moved(a, time), moved(b, time));
     const double limit = reach(scene, pair, expected.normal);
-    if (std::abs(expected.separation - limit) < tolerance * 4) continue;
-    const bool touches = expected.separation < limit;
-    (touches ? touching : apart) += 1;
-    bool good = outputs.counts[pair] == (touches ? 1u : 0u);
-    if (good && touches) {
-      const Point &point = contact.points[0];
-      good = std::abs(point.separation - expected.separation) < tolerance && contact.code == 0 && point.slot == 0;
-      if (expected.normal_is_unique)
-        good = good && (contact.normal - expected.normal).norm() < 1e-3 &&
-               (scene.a(pair).center() + point.offset - expected.point).norm() < 2e-3 * tolerance / 2e-6;
-      good = good && std::abs(contact.normal.norm() - 1) < 1e-6;
+    if (time == 0 && std::abs(expected.separation - limit) < tolerance * 4) continue;
+    const bool near = time > 0 || expected.separation < limit;
+    bool good = true;
+    if (outputs.counts[pair] > 0) {
+      good = near && is_as_expected(moved(a, time), moved(b, time), scene.contact(outputs, pair), expected, time, tolerance * (time > 0 ? 4 : 1));
+      good = good && (time == 0 || least_before(a, b, time, reference) > -4 * tolerance);
+      (time > 0 ? at_impact : touching) += 1;
+    } else if (near) {
+      good = least_before(a, b, scene.parameters.step, reference) > -4 * tolerance;
+      ++missing;
     }
     if (!good && wrong++ < 3) {
-      CAPTURE(pair, expected.separation, limit, outputs.counts[pair], contact.normal, expected.normal);
+      CAPTURE(pair, time, expected.separation, limit, outputs.counts[pair], expected.normal);
       CHECK(good);
     }
   }
+  CAPTURE(touching, at_impact, missing);
   CHECK(wrong == 0);
   CHECK(touching > scene.size() / 4);
-  CHECK(apart > scene.size() / 100);
+  CHECK((kernel == Kernel::collide_sphere_half_space || (at_impact > scene.size() / 500 && missing > scene.size() / 500)));
 }
 
 /* b at a given gap from a along a direction, plus noise: touching, apart and overlapping alike. */
