@@ -42,6 +42,16 @@ __kernel void collide_box_box(__global const uint *pair_a, __global const uint *
         body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }
 
+__kernel void follow_boxes(__global const uint *pair_a, __global const uint *pair_b,
+    __global const row *body_shape, __global const row *body_position, __global const row *body_orientation, __global const row *body_velocity,
+    __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
+    __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+    follow_boxes_item(pair_a, pair_b, body_shape, body_position, body_orientation, body_velocity, parameters, counts,
+        manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+}
+
 __kernel void collide_sphere_half_space(__global const uint *pair_a, __global const uint *pair_b,
     __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
     __global const row *body_orientation, __global const row *body_velocity,

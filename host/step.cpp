@@ -86,6 +86,7 @@ private:
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
     if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
     if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
+    if (has(FEATURE_BOX_BOX)) run(Kernel::follow_boxes); /* when every pair's manifold is of this step */
   }
 
   void collide_convexes(uint32_t method)

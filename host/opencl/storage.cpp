@@ -2,6 +2,7 @@
 #include "host/opencl/storage.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <memory>
 
@@ -78,6 +79,21 @@ bool shares_memory(const DeviceContext &context)
   }
 }
 
+/* In parts and by the longest pattern: NVIDIA's driver 580 counts patterns in 31 bits, and 2^31 words end the queue. */
+constexpr size_t most_filled_at_once = size_t{1} << 30;
+constexpr size_t pattern_bytes = 16; /* what sizes of buffers are rounded up to */
+
+cl_int fill_with_zeros(const DeviceContext &context, cl_mem memory, size_t bytes)
+{
+  const std::array<char, pattern_bytes> zeros{};
+  cl_int code = CL_SUCCESS;
+  for (size_t at = 0; at < bytes && code == CL_SUCCESS; at += most_filled_at_once) {
+    const size_t part = std::min(bytes - at, most_filled_at_once);
+    code = clEnqueueFillBuffer(context.queue(), memory, zeros.data(), pattern_bytes, at, part, 0, nullptr, nullptr);
+  }
+  return code;
+}
+
 /* The marker is for rusticl 22.3, whose clFinish does not wait for commands that a clFlush has already sent. */
 cl_int finish_queue(const DeviceContext &context)
 {
@@ -101,10 +117,7 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
   if (faults::strikes(faults::Site::allocation)) code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
   else buffer->memory = clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
   if (code == CL_SUCCESS && !buffer->shared_with) {
-    const cl_uint zero = 0;
-    code = code_of(faults::Site::allocation, [&] {
-      return clEnqueueFillBuffer(context_.queue(), buffer->memory, &zero, sizeof zero, 0, buffer->bytes, 0, nullptr, nullptr);
-    });
+    code = code_of(faults::Site::allocation, [&] { return fill_with_zeros(context_, buffer->memory, buffer->bytes); });
     if (code != CL_SUCCESS) clReleaseMemObject(buffer->memory);
   }
   if (code != CL_SUCCESS) fail(context_, "allocating a buffer", bytes, code);

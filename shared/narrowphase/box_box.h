@@ -183,14 +183,45 @@ SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
 {
   advancement at = start_advancement(reached);
-  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     box_pair now = boxes_after(start, moves, at.time);
     separating_axis axis = separating_axis_of(now.a, now.b, now.offset, slop, R(0.0));
-    at = advanced(at, axis.separation, closing_speed(moves, normal_of_axis(now.a, now.b, now.offset, axis.code)), way);
+    at = advanced(at, round, axis.separation, closing_speed(moves, normal_of_axis(now.a, now.b, now.offset, axis.code)), way);
     if (!any_of(at.active)) break;
   }
   return at;
 }
+
+/* Pair i as the step starts. */
+typedef struct {
+  box_pair boxes;
+  pair_motion moves;
+  vec3 toward;
+  real least;
+  journey way;
+} box_encounter;
+
+SHARED box_encounter load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                GLOBAL const Parameters *parameters, natural a, natural b)
+{
+  vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
+  box_encounter e;
+  e.moves.a = load_motion(velocities, a);
+  e.moves.b = load_motion(velocities, b);
+  e.moves.radius_a = shape_a.w;
+  e.moves.radius_b = shape_b.w;
+  e.boxes.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
+  e.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
+  e.boxes.offset = e.boxes.normal = offset_between(positions, a, b);
+  e.boxes.code = 0u;
+  e.least = minimum(least_of(e.boxes.a.extent), least_of(e.boxes.b.extent));
+  e.toward = parting_offset(e.boxes.offset, parameters->slop, e.least, a, b);
+  e.way = journey_of_step(parameters, e.moves, e.least, shape_a.w + shape_b.w);
+  return e;
+}
+
+/* impact_time of contacts whose points all lie ahead of touching, until follow_boxes has looked at them. */
+#define AHEAD R(-1.0)
 
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                  GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
@@ -203,30 +234,28 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   mask mine = (kind_a == (uint)SHAPE_BOX) & (kind_b == (uint)SHAPE_BOX);
   if (!any_of(mine)) return;
 
-  vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
-  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), shape_a.w, shape_b.w};
-  box_pair pair;
-  pair.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
-  pair.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
-  pair.offset = pair.normal = offset_between(positions, a, b);
-  pair.code = 0u;
-  real least = minimum(least_of(pair.a.extent), least_of(pair.b.extent));
-  vec3 toward = parting_offset(pair.offset, parameters->slop, least, a, b);
-  manifold m = boxes_contact(parameters, mine, pair, toward, least, moves);
+  box_encounter e = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  manifold m = boxes_contact(parameters, mine, e.boxes, e.toward, e.least, e.moves);
+  m.impact_time = choose(least_separation(m) > R(0.0), (real)AHEAD, (real)R(0.0));
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+}
 
-  journey way = journey_of_step(parameters, moves, least, shape_a.w + shape_b.w);
-  doubt d = doubt_of(parameters, m, moves, way, least);
-  if (any_of(mine & d.asked)) {
-    encounter met = encounter_of(d, impact_of_boxes(mine & d.reached, pair, parameters->slop, moves, way));
-    met.at_impact = met.at_impact & mine;
-    if (any_of(met.at_impact)) {
-      pair = boxes_after(pair, moves, choose(met.at_impact, met.time, (real)R(0.0)));
-      manifold then = boxes_contact(parameters, met.at_impact, pair, pair.offset, least, moves);
-      met.at_impact = met.at_impact & has_points(then); /* rounded edges may meet without a contact */
-      m = choose_manifold(met.at_impact, then, m);
-    }
-    m = as_seen_from_start(parameters, m, met, pair.offset, moves);
-  }
+/* The contacts that are in doubt, in a kernel of their own: it takes twice the registers, for which all pairs would pay. */
+SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const row *positions,
+                              GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                              GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
+                              GLOBAL uint *features, item_index i)
+{
+  mask mine = load_row(normals, i).w < R(0.0);
+  if (!any_of(mine)) return;
+  box_encounter e = load_boxes(shapes, positions, orientations, velocities, parameters, load_natural(pair_a, i), load_natural(pair_b, i));
+  manifold m = boxes_contact(parameters, mine, e.boxes, e.toward, e.least, e.moves);
+  doubt d = doubt_of(parameters, m, e.moves, e.way, e.least);
+  encounter met = encounter_of(d, impact_of_boxes(mine & d.reached, e.boxes, parameters->slop, e.moves, e.way));
+  box_pair boxes = boxes_after(e.boxes, e.moves, choose(met.at_impact, met.time, (real)R(0.0)));
+  manifold then = boxes_contact(parameters, mine & met.at_impact, boxes, boxes.offset, e.least, e.moves);
+  met.at_impact = met.at_impact & has_points(then); /* rounded edges may meet without a contact */
+  m = as_seen_from_start(parameters, choose_manifold(met.at_impact, then, m), met, boxes.offset, e.moves);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 

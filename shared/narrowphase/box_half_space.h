@@ -68,8 +68,8 @@ SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3
 {
   real closing = closing_speed(moves, normal);
   advancement at = start_advancement(reached);
-  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
-    at = advanced(at, gap_to_plane(box_and_plane_after(pair, moves, at.time)), closing, way);
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
+    at = advanced(at, round, gap_to_plane(box_and_plane_after(pair, moves, at.time)), closing, way);
     if (!any_of(at.active)) break;
   }
   return at;

@@ -117,26 +117,38 @@ SHARED mask may_meet_triangle(const convex_query *query, manifold m, journey way
   return closing_speed(query->moves, of_a ? normal : negate(normal)) * way.horizon > way.touching;
 }
 
-/* The manifold m of the start, or what the motion of the step makes of it. */
-SHARED manifold contact_of_motion(GLOBAL const Parameters *parameters, convex_query *query, manifold m, uint method)
+/* What the motion of the step makes of the manifold m of the start: whether the contacts are those of an impact, to which the shapes
+ * of the query are then moved, and m is to be found anew. */
+SHARED encounter encounter_of_query(GLOBAL const Parameters *parameters, convex_query *query, manifold m)
 {
   real least = minimum(least_size(&query->first), least_size(&query->second));
   journey way = journey_of_step(parameters, query->moves, least, bounding_radius_of(&query->first) + bounding_radius_of(&query->second));
   doubt d = doubt_of(parameters, m, query->moves, way, least);
   if (HAS_FEATURE(parameters, FEATURE_TREES) && may_meet_triangle(query, m, way)) d.asked = d.reached = d.far = 1;
-  if (!d.asked) return m;
-  encounter met = meet(&query->first, &query->second, query->offset, query->moves, way, d);
-  vec3 offset = query->offset;
-  if (met.at_impact) {
-    manifold then = contact_of_query(parameters, query, method);
-    met.at_impact = has_points(then);
-    met.missed = !met.at_impact; /* a triangle leaves it to its neighbour */
-    if (met.at_impact) {
-      m = then;
-      offset = offset_after(offset, query->moves, met.time);
+  encounter stays = {0, 0, 0, R(0.0)};
+  return d.asked ? meet(&query->first, &query->second, query->offset, query->moves, way, d) : stays;
+}
+
+/* The manifold of a pair over the step. found: `start` is that of its start already. One loop finds manifolds of either moment: the code
+ * is so long that a second copy of it makes devices three times slower. */
+SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_query *query, mask found, manifold start, uint method)
+{
+  manifold m = start;
+  encounter met = {0, 0, 0, R(0.0)};
+  for (int round = found ? 1 : 0; round < 3; ++round) {
+    if (round == 1) {
+      start = m;
+      met = encounter_of_query(parameters, query, start);
+      if (!met.at_impact) break;
+    } else {
+      m = contact_of_query(parameters, query, method);
     }
   }
-  return as_seen_from_start(parameters, m, met, offset, query->moves);
+  met.missed = met.missed || (met.at_impact && !has_points(m)); /* a triangle leaves it to its neighbour */
+  met.at_impact = met.at_impact && has_points(m);
+  if (!met.at_impact && !met.missed) return start;
+  vec3 offset = offset_after(query->offset, query->moves, met.at_impact ? met.time : R(0.0));
+  return as_seen_from_start(parameters, met.at_impact ? m : start, met, offset, query->moves);
 }
 
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
@@ -154,7 +166,8 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
                                links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
   if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
   if (near != QUERY_NEAR) return;
-  manifold m = contact_of_motion(parameters, &query, contact_of_query(parameters, &query, method & 255u), method & 255u);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
+  manifold m = contact_over_step(parameters, &query, 0, single_contact(none, none, R(0.0), 0), method & 255u);
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
 }
 

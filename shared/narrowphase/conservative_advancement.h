@@ -64,7 +64,7 @@ typedef struct {
 /* The state of a pair after another advance. */
 SHARED impact impact_so_far(advancement at, real gap, vec3 normal)
 {
-  impact so_far = {at.hits | at.active, at.time, gap, normal};
+  impact so_far = {at.hits, at.time, gap, normal};
   return so_far;
 }
 
@@ -73,14 +73,14 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
   advancement at = start_advancement(1);
   impact met = impact_so_far(at, R(0.0), make_vec3(R(1.0), R(0.0), R(0.0)));
   vec3 approach = subtract(a->linear, b->linear);
-  for (int round = 0; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
     convex shape_a = shape_at(a, a->linear, at.time), shape_b = shape_at(b, a->linear, at.time);
     convex_pair pair = pair_of(&shape_a, &shape_b);
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
     gjk_result near = closest_points(&pair.a, &pair.b, way.fastest * (way.horizon - at.time) + radii);
     vec3 along = rotate(pair.axes, near.contact.normal), normal = pair.swapped ? negate(along) : along;
     real gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
-    at = advanced(at, gap, inner(normal, approach) + swing_along(a, normal) + swing_along(b, normal), way);
+    at = advanced(at, round, gap, inner(normal, approach) + swing_along(a, normal) + swing_along(b, normal), way);
     met = impact_so_far(at, gap, normal);
   }
   return met;
@@ -93,10 +93,10 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
   impact met = impact_so_far(at, R(0.0), make_vec3(R(1.0), R(0.0), R(0.0)));
   vec3 down = negate(up);
   real rising = inner(up, subtract(velocity, body->linear));
-  for (int round = 0; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
     convex shape = shape_at(body, body->linear, at.time);
     real gap = inner(up, support_of(&shape, down)) - core_radius(&shape) - (height + rising * at.time);
-    at = advanced(at, gap, rising + swing_along(body, up), way);
+    at = advanced(at, round, gap, rising + swing_along(body, up), way);
     met = impact_so_far(at, gap, down);
   }
   return met;

@@ -68,9 +68,9 @@ SHARED sphere_and_box sphere_and_box_after(sphere_and_box pair, pair_motion move
 SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, journey way)
 {
   advancement at = start_advancement(reached);
-  for (int round = 0; round < ADVANCEMENT_ROUNDS; ++round) {
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     manifold now = sphere_box_contact(sphere_and_box_after(pair, moves, at.time));
-    at = advanced(at, now.point[0].w, closing_speed(moves, now.normal), way);
+    at = advanced(at, round, now.point[0].w, closing_speed(moves, now.normal), way);
     if (!any_of(at.active)) break;
   }
   return at;

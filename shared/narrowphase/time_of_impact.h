@@ -21,6 +21,8 @@
 
 /* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much early. */
 #define ADVANCEMENT_ROUNDS 128
+/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest pair of all. */
+#define SLOW_ROUNDS 8
 /* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
 #define FAR_SHARE R(0.25)
 /* Of the least size: shapes this close count as touching. */
@@ -51,12 +53,15 @@ SHARED vec3 offset_after(vec3 offset, pair_motion m, real time) { return add_sca
 /* The rotation that an even spin makes within a time. */
 SHARED mat3 turn_within(vec3 angular, real time) { return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time))); }
 
-/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s. */
-typedef struct { real horizon, touching, fastest; } journey;
+/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; how often to look. */
+typedef struct {
+  real horizon, touching, fastest;
+  natural rounds;
+} journey;
 
 SHARED journey journey_of(real fastest, real horizon, real least, real size)
 {
-  journey way = {horizon, maximum(TOUCHING_SHARE * least, R(16.0) * ROUNDING * (fastest * horizon + size)), fastest};
+  journey way = {horizon, maximum(TOUCHING_SHARE * least, R(16.0) * ROUNDING * (fastest * horizon + size)), fastest, (natural)(uint)ADVANCEMENT_ROUNDS};
   return way;
 }
 
@@ -66,7 +71,9 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
   real horizon = parameters->step + parameters->speculative_distance / fastest;
-  return journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
+  journey way = journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
+  way.rounds = choose(fastest * parameters->step > FAR_SHARE * least, way.rounds, (natural)(uint)SLOW_ROUNDS);
+  return way;
 }
 
 /* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the horizon. */
@@ -81,9 +88,9 @@ SHARED advancement start_advancement(mask wanted)
   return at;
 }
 
-SHARED advancement advanced(advancement at, real gap, real closing, journey way)
+SHARED advancement advanced(advancement at, uint round, real gap, real closing, journey way)
 {
-  mask touches = at.active & (gap <= way.touching);
+  mask touches = at.active & ((gap <= way.touching) | (way.rounds == round + 1u));
   mask closes = (closing > R(0.0)) & (gap <= way.fastest * (way.horizon - at.time));
   real next = at.time + (gap - R(0.5) * way.touching) / choose(closes, closing, (real)R(1.0));
   at.active = at.active & (!touches) & closes & (next < way.horizon);
@@ -125,11 +132,9 @@ typedef struct {
   real time; /* s */
 } encounter;
 
-/* Who is still on the way when the rounds end is nearly touching. */
 SHARED encounter encounter_of(doubt d, advancement at)
 {
-  mask hits = at.hits | at.active;
-  encounter met = {d.asked & hits & d.far & (at.time > R(0.0)), d.asked & (!hits), d.swings, at.time};
+  encounter met = {d.asked & at.hits & d.far & (at.time > R(0.0)), d.asked & (!at.hits), d.swings, at.time};
   return met;
 }
 

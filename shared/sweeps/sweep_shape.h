@@ -13,7 +13,7 @@
 
 SHARED journey sweep_journey(real length, real horizon, real least, real size)
 {
-  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length};
+  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, ADVANCEMENT_ROUNDS};
   return way;
 }
 

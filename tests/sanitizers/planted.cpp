@@ -28,7 +28,7 @@ void step_with(const std::string &name, const std::string &backend, size_t missi
 {
   World world(load_scene("box-grid:nx=7,ny=3,nz=3"), {}, Placement{backend, {}, false});
   const Buffer buffer = buffer_named(name);
-  world.memory().resize(buffer, world.memory().bytes(buffer) - missing * size_of(row_of(buffer).element), true);
+  world.memory().resize(buffer, world.memory().bytes(buffer) - missing * size_of(row_of(buffer).element));
   world.step();
 }
 

@@ -433,7 +433,7 @@ TEST_CASE("contacts are made as far ahead as two bodies can close in a step")
     scene.parameters.step = 0.125f;
     scene.add(upper, lower);
     scene.add(lower, upper);
-    const Outputs outputs = scene.run({Kernel::collide_box_box});
+    const Outputs outputs = scene.run({Kernel::collide_box_box, Kernel::follow_boxes});
     CHECK(outputs.counts[0] == outputs.counts[1]);
     return outputs.counts[0] > 0;
   };
