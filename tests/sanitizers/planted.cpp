@@ -27,6 +27,7 @@ Buffer buffer_named(const std::string &name)
 void step_with(const std::string &name, const std::string &backend, size_t missing)
 {
   World world(load_scene("box-grid:nx=7,ny=3,nz=3"), {}, Placement{backend, {}, false});
+  world.step(); /* which makes room for all buffers */
   const Buffer buffer = buffer_named(name);
   world.memory().resize(buffer, world.memory().bytes(buffer) - missing * size_of(row_of(buffer).element));
   world.step();
