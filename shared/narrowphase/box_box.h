@@ -220,8 +220,9 @@ SHARED box_encounter load_boxes(GLOBAL const row *shapes, GLOBAL const row *posi
   return e;
 }
 
-/* impact_time of contacts whose points all lie ahead of touching, until follow_boxes has looked at them. */
-#define AHEAD R(-1.0)
+/* impact_time of contacts whose points all lie ahead of touching, until follow_boxes has looked at them. Not below 0: rusticl makes
+ * -0 of the other side of a choice between -1 and 0. */
+#define AHEAD R(1e30)
 
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                  GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
@@ -246,7 +247,7 @@ SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
                               GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
                               GLOBAL uint *features, item_index i)
 {
-  mask mine = load_row(normals, i).w < R(0.0);
+  mask mine = load_row(normals, i).w >= AHEAD;
   if (!any_of(mine)) return;
   box_encounter e = load_boxes(shapes, positions, orientations, velocities, parameters, load_natural(pair_a, i), load_natural(pair_b, i));
   manifold m = boxes_contact(parameters, mine, e.boxes, e.toward, e.least, e.moves);
