@@ -23,10 +23,8 @@ SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)
 SHARED oriented_box turned_box(oriented_box box, vec3 angular, real time)
 {
   mat3 turn = turn_within(angular, time);
-  box.x = rotate(turn, box.x);
-  box.y = rotate(turn, box.y);
-  box.z = rotate(turn, box.z);
-  return box;
+  oriented_box then = {rotate(turn, box.x), rotate(turn, box.y), rotate(turn, box.z), box.extent};
+  return then;
 }
 SHARED oriented_box choose_box(mask m, oriented_box a, oriented_box b)
 {

@@ -157,8 +157,9 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
 }
 
 /* The manifold of two boxes as they stand. toward: their offset, or one by which they shall part. least: the smallest half extent. */
-SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, vec3 toward, real least, pair_motion moves)
+SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair boxes, vec3 toward, real least, pair_motion moves)
 {
+  box_pair pair = boxes; /* no parameter is assigned to: rusticl passes two such as one */
   separating_axis axis = separating_axis_of(pair.a, pair.b, toward, parameters->slop,
                                             ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * least));
   pair.code = axis.code;
@@ -173,10 +174,9 @@ SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, 
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 {
-  pair.a = turned_box(pair.a, moves.a.angular, time);
-  pair.b = turned_box(pair.b, moves.b.angular, time);
-  pair.offset = offset_after(pair.offset, moves, time);
-  return pair;
+  box_pair then = {turned_box(pair.a, moves.a.angular, time), turned_box(pair.b, moves.b.angular, time), offset_after(pair.offset, moves, time),
+                   pair.normal, pair.code};
+  return then;
 }
 
 /* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. */

@@ -56,8 +56,9 @@ SHARED real gap_to_plane(box_and_plane pair)
   return inner(pair.center, pair.outward) - inner(absolute(along), pair.box.extent);
 }
 
-SHARED box_and_plane box_and_plane_after(box_and_plane pair, pair_motion moves, real time)
+SHARED box_and_plane box_and_plane_after(box_and_plane start, pair_motion moves, real time)
 {
+  box_and_plane pair = start;
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
   pair.center = add_scaled(pair.center, choose3(pair.box_first, negate(velocity), velocity), time);
   pair.box = turned_box(pair.box, choose3(pair.box_first, moves.a.angular, moves.b.angular), time);

@@ -57,8 +57,9 @@ SHARED manifold sphere_box_contact(sphere_and_box pair)
   return single_contact(choose3(pair.sphere_first, negate(outward), outward), offset, separation, separation == separation);
 }
 
-SHARED sphere_and_box sphere_and_box_after(sphere_and_box pair, pair_motion moves, real time)
+SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion moves, real time)
 {
+  sphere_and_box pair = start;
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
   pair.center = add_scaled(pair.center, choose3(pair.sphere_first, negate(velocity), velocity), time);
   pair.rotation = turned_axes(turn_within(choose3(pair.sphere_first, moves.b.angular, moves.a.angular), time), pair.rotation);

@@ -142,8 +142,9 @@ SHARED encounter encounter_of(doubt d, advancement at)
  * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
  * the contacts at the start, those that their own motion does not reach, if they do not swing: gravity or others may push them.
  * offset: centre of b from that of a, at the moment of the contacts. */
-SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold m, encounter met, vec3 offset, pair_motion moves)
+SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
 {
+  manifold m = found;
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
     real closing = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
