@@ -6,6 +6,7 @@
 #include "shared/narrowphase/sphere_half_space.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/limit_motion.h"
 #include "shared/narrowphase/sat_split.h"
 
@@ -43,13 +44,14 @@ __kernel void collide_box_box(__global const uint *pair_a, __global const uint *
 }
 
 __kernel void follow_boxes(__global const uint *pair_a, __global const uint *pair_b,
-    __global const row *body_shape, __global const row *body_position, __global const row *body_orientation, __global const row *body_velocity,
+    __global const uint *body_traits, __global const row *body_shape, __global const row *body_position,
+    __global const row *body_orientation, __global const row *body_velocity,
     __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
     __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-    follow_boxes_item(pair_a, pair_b, body_shape, body_position, body_orientation, body_velocity, parameters, counts,
-        manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+    follow_boxes_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
+        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
 }
 
 __kernel void collide_sphere_half_space(__global const uint *pair_a, __global const uint *pair_b,
@@ -87,6 +89,23 @@ __kernel void collide_convex(__global const uint *pair_a, __global const uint *p
 {
   FOR_EACH_IN_RANGE(i)
     collide_convex_item(pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
+        hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, hull_strip, hull_link, pair_leaf, mesh_vertex, mesh_triangle,
+        body_position, body_orientation, body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, method, i);
+}
+
+__kernel void follow_convexes(__global const uint *pair_a, __global const uint *pair_b,
+    __global const uint *body_traits, __global const row *body_shape, __global const uint *body_convex,
+    __global const row *body_shape_pose, __global const uint *hull_header, __global const row *hull_vertex,
+    __global const row *hull_plane, __global const uint *hull_face_start, __global const uint *hull_corner,
+    __global const uint *hull_edge, __global const row *hull_strip, __global const uint *hull_link,
+    __global const uint *pair_leaf, __global const row *mesh_vertex,
+    __global const uint *mesh_triangle, __global const row *body_position, __global const row *body_orientation,
+    __global const row *body_velocity, __global const Parameters *parameters, __global const uint *counts,
+    __global row *manifold_normal, __global row *manifold_points, __global uint *manifold_count,
+    __global uint *manifold_feature, uint method, RANGE)
+{
+  FOR_EACH_IN_RANGE(i)
+    follow_convexes_item(pair_a, pair_b, body_traits, body_shape, body_convex, body_shape_pose, hull_header,
         hull_vertex, hull_plane, hull_face_start, hull_corner, hull_edge, hull_strip, hull_link, pair_leaf, mesh_vertex, mesh_triangle,
         body_position, body_orientation, body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, method, i);
 }

@@ -82,17 +82,20 @@ private:
     if (has(FEATURE_SPHERE_SPHERE)) run(Kernel::collide_sphere_sphere);
     if (has(FEATURE_SPHERE_BOX)) run(Kernel::collide_sphere_box);
     if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
+    if (has(FEATURE_BOX_BOX)) run(Kernel::follow_boxes);
     if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
     if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
     if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
-    if (has(FEATURE_BOX_BOX)) run(Kernel::follow_boxes); /* when every pair's manifold is of this step */
   }
 
   void collide_convexes(uint32_t method)
   {
-    if (settings().narrowphase != "sat-split") return run(Kernel::collide_convex, {method});
-    for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
+    if (settings().narrowphase == "sat-split")
+      for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
+    else
+      run(Kernel::collide_convex, {method});
+    run(Kernel::follow_convexes, {method});
   }
 
   void color_contacts()

@@ -17,6 +17,7 @@ typedef struct {
   oriented_box a, b;
   vec3 offset; /* centre of b seen from the centre of a */
   vec3 normal; /* unit, from a to b */
+  real gap; /* along it */
   natural code; /* of the axis: box_axes.h */
 } box_pair;
 
@@ -156,73 +157,89 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
   return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
 }
 
-/* The manifold of two boxes as they stand. toward: their offset, or one by which they shall part. least: the smallest half extent. */
-SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair boxes, vec3 toward, real least, pair_motion moves)
+/* toward: the offset of the boxes, or one by which they shall part. rounded: how much of their edges counts as rounded off. */
+SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded)
 {
-  box_pair pair = boxes; /* no parameter is assigned to: rusticl passes two such as one */
-  separating_axis axis = separating_axis_of(pair.a, pair.b, toward, parameters->slop,
-                                            ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * least));
-  pair.code = axis.code;
-  pair.normal = normal_of_axis(pair.a, pair.b, toward, axis.code);
+  separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded);
+  box_pair pair = {boxes.a, boxes.b, boxes.offset, normal_of_axis(boxes.a, boxes.b, toward, axis.code), axis.separation, axis.code};
+  return pair;
+}
+
+/* The manifold of two boxes as they stand. */
+SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, pair_motion moves)
+{
   real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, pair.normal);
-  mask near = wanted & (axis.separation < reach), on_edges = axis.code >= 6u;
-  manifold m = single_contact(pair.normal, pair.offset, reach, near & (!near));
-  m = with_face_contacts(m, near & (!on_edges), pair);
-  m = with_edge_contact(m, near & on_edges, pair);
-  return kept_within(m, reach);
+  mask near = wanted & (pair.gap < reach), on_edges = pair.code >= 6u;
+  manifold none = single_contact(pair.normal, pair.offset, reach, near & (!near));
+  manifold with_face = with_face_contacts(none, near & (!on_edges), pair);
+  return kept_within(with_edge_contact(with_face, near & on_edges, pair), reach);
 }
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 {
   box_pair then = {turned_box(pair.a, moves.a.angular, time), turned_box(pair.b, moves.b.angular, time), offset_after(pair.offset, moves, time),
-                   pair.normal, pair.code};
+                   pair.normal, pair.gap, pair.code};
   return then;
 }
 
-/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. */
+/* Along a unit normal from a to b. */
+SHARED real gap_of_boxes_along(box_pair pair, vec3 normal)
+{
+  return inner(pair.offset, normal) - inner(absolute(in_axes_of(pair.a, normal)), pair.a.extent) - inner(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
+}
+
+/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. The axis
+ * turns with the box whose face it is square to. */
 SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
 {
+  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
+  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(start.offset) + speed * way.horizon;
+  real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
+  real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    box_pair now = boxes_after(start, moves, at.time);
-    separating_axis axis = separating_axis_of(now.a, now.b, now.offset, slop, R(0.0));
-    at = advanced(at, round, axis.separation, closing_speed(moves, normal_of_axis(now.a, now.b, now.offset, axis.code)), way);
+    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0));
+    mask face_of_b = (now.code >= 3u) & (now.code < 6u);
+    real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
+    vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
+    real gap_then = gap_of_boxes_along(boxes_after(start, moves, at.time + span), normal_then);
+    real chord = free_by_chord(now.gap, gap_then, span, acceleration, way);
+    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), chord, way);
     if (!any_of(at.active)) break;
   }
   return at;
 }
 
-/* Pair i as the step starts. */
+/* Two boxes as the step starts, whose best axis is not known yet. */
 typedef struct {
   box_pair boxes;
   pair_motion moves;
-  vec3 toward;
-  real least;
-  journey way;
-} box_encounter;
+  real least, rounded; /* the smallest half extent; how much of the edges counts as rounded off */
+} moving_boxes;
 
-SHARED box_encounter load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                GLOBAL const Parameters *parameters, natural a, natural b)
+SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                               GLOBAL const Parameters *parameters, natural a, natural b)
 {
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
-  box_encounter e;
-  e.moves.a = load_motion(velocities, a);
-  e.moves.b = load_motion(velocities, b);
-  e.moves.radius_a = shape_a.w;
-  e.moves.radius_b = shape_b.w;
-  e.boxes.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
-  e.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
-  e.boxes.offset = e.boxes.normal = offset_between(positions, a, b);
-  e.boxes.code = 0u;
-  e.least = minimum(least_of(e.boxes.a.extent), least_of(e.boxes.b.extent));
-  e.toward = parting_offset(e.boxes.offset, parameters->slop, e.least, a, b);
-  e.way = journey_of_step(parameters, e.moves, e.least, shape_a.w + shape_b.w);
-  return e;
+  moving_boxes pair;
+  pair.moves.a = load_motion(velocities, a);
+  pair.moves.b = load_motion(velocities, b);
+  pair.moves.radius_a = shape_a.w;
+  pair.moves.radius_b = shape_b.w;
+  pair.boxes.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
+  pair.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
+  pair.boxes.offset = pair.boxes.normal = offset_between(positions, a, b);
+  pair.boxes.gap = R(0.0);
+  pair.boxes.code = 0u;
+  pair.least = minimum(least_of(pair.boxes.a.extent), least_of(pair.boxes.b.extent));
+  pair.rounded = ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * pair.least);
+  return pair;
 }
 
-/* impact_time of contacts whose points all lie ahead of touching, until follow_boxes has looked at them. Not below 0: rusticl makes
- * -0 of the other side of a choice between -1 and 0. */
-#define AHEAD R(1e30)
+SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
+{
+  return (shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX) & (shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX);
+}
 
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                  GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
@@ -231,33 +248,42 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
                                  GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
 {
   natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
-  natural kind_a = shape_of(load_natural(traits, a)), kind_b = shape_of(load_natural(traits, b));
-  mask mine = (kind_a == (uint)SHAPE_BOX) & (kind_b == (uint)SHAPE_BOX);
+  mask mine = both_boxes(traits, a, b);
   if (!any_of(mine)) return;
 
-  box_encounter e = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
-  manifold m = boxes_contact(parameters, mine, e.boxes, e.toward, e.least, e.moves);
-  m.impact_time = choose(least_separation(m) > R(0.0), (real)AHEAD, (real)R(0.0));
+  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
+  box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded);
+  manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
+  m.impact_time = choose(may_pass(parameters, boxes.gap, boxes.normal, pair.moves, pair.least), (real)AHEAD, (real)R(0.0));
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 
-/* The contacts that are in doubt, in a kernel of their own: it takes twice the registers, for which all pairs would pay. */
-SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const row *positions,
-                              GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                              GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                              GLOBAL uint *features, item_index i)
+/* The contacts that the boxes may pass, in a kernel of their own: it takes twice the registers, for which all pairs would pay. */
+SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                              GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                              GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                              GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
 {
-  mask mine = load_row(normals, i).w >= AHEAD;
+  mask marked = load_row(normals, i).w >= AHEAD;
+  if (!any_of(marked)) return;
+  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  mask mine = marked & both_boxes(traits, a, b);
   if (!any_of(mine)) return;
-  box_encounter e = load_boxes(shapes, positions, orientations, velocities, parameters, load_natural(pair_a, i), load_natural(pair_b, i));
-  manifold m = boxes_contact(parameters, mine, e.boxes, e.toward, e.least, e.moves);
-  doubt d = doubt_of(parameters, m, e.moves, e.way, e.least);
-  encounter met = encounter_of(d, impact_of_boxes(mine & d.reached, e.boxes, parameters->slop, e.moves, e.way));
-  box_pair boxes = boxes_after(e.boxes, e.moves, choose(met.at_impact, met.time, (real)R(0.0)));
-  manifold then = boxes_contact(parameters, mine & met.at_impact, boxes, boxes.offset, e.least, e.moves);
-  met.at_impact = met.at_impact & has_points(then); /* rounded edges may meet without a contact */
-  m = as_seen_from_start(parameters, choose_manifold(met.at_impact, then, m), met, boxes.offset, e.moves);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+
+  uint stride = counts[CAPACITY_PAIRS];
+  real size = load_row(shapes, a).w + load_row(shapes, b).w;
+  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  journey way = journey_of_step(parameters, pair.moves, pair.least, size);
+  manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
+  speculation s = speculation_of(parameters, start, pair.moves, way, pair.least);
+  encounter met = encounter_of(s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, way), way);
+  box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
+  box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded);
+  manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);
+  met.at_impact = met.at_impact & has_points(m); /* rounded edges may meet without a contact */
+  m = as_seen_from_start(parameters, choose_manifold(met.at_impact, m, start), met, then.offset, pair.moves);
+  store_manifold_if(mine, m, stride, normals, points, counts_of_points, features, i);
 }
 
 #endif

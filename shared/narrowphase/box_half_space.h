@@ -67,10 +67,13 @@ SHARED box_and_plane box_and_plane_after(box_and_plane start, pair_motion moves,
 
 SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3 normal, pair_motion moves, journey way)
 {
-  real closing = closing_speed(moves, normal);
+  real closing = closing_speed(moves, normal), turning = length_of(choose3(pair.box_first, moves.a.angular, moves.b.angular));
+  real acceleration = acceleration_seen(R(0.0), R(0.0), R(0.0), turning, moves.radius_a + moves.radius_b);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    at = advanced(at, round, gap_to_plane(box_and_plane_after(pair, moves, at.time)), closing, way);
+    real gap = gap_to_plane(box_and_plane_after(pair, moves, at.time)), span = span_of(at, gap, acceleration, way);
+    real gap_then = gap_to_plane(box_and_plane_after(pair, moves, at.time + span));
+    at = advanced(at, round, gap, closing, free_by_chord(gap, gap_then, span, acceleration, way), way);
     if (!any_of(at.active)) break;
   }
   return at;
@@ -101,10 +104,10 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
   journey way = journey_of_step(parameters, moves, least, shape.w);
-  doubt d = doubt_of(parameters, m, moves, way, least);
-  d.asked = d.asked & (fastest_turning(moves) > zero);
-  if (any_of(mine & d.asked)) {
-    encounter met = encounter_of(d, impact_of_box_on_plane(mine & d.reached, pair, normal, moves, way));
+  speculation s = speculation_of(parameters, m, moves, way, least);
+  s.asked = s.asked & (fastest_turning(moves) > zero);
+  if (any_of(mine & s.asked)) {
+    encounter met = encounter_of(s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);
     box_and_plane then = box_and_plane_after(pair, moves, choose(met.at_impact, met.time, zero));
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);

@@ -107,48 +107,36 @@ SHARED manifold contact_of_query(GLOBAL const Parameters *parameters, const conv
   return within_reach(parameters, query, contact_of_parts(parameters, &query->first, &query->second, query->reach, query->thickness, method));
 }
 
+SHARED real least_of_query(const convex_query *query) { return minimum(least_size(&query->first), least_size(&query->second)); }
+
+SHARED journey journey_of_query(GLOBAL const Parameters *parameters, const convex_query *query)
+{
+  real size = bounding_radius_of(&query->first) + bounding_radius_of(&query->second);
+  return journey_of_step(parameters, query->moves, least_of_query(query), size);
+}
+
 /* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is approached. */
-SHARED mask may_meet_triangle(const convex_query *query, manifold m, journey way)
+SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_query *query)
 {
   mask of_a = is_triangle(&query->first);
-  if (has_points(m) || (!of_a && !is_triangle(&query->second))) return 0;
   const convex *triangle = of_a ? &query->first : &query->second;
   vec3 normal = from_shape_axes(triangle, normal_of_triangle(triangle));
-  return closing_speed(query->moves, of_a ? normal : negate(normal)) * way.horizon > way.touching;
+  real closing = closing_speed(query->moves, of_a ? normal : negate(normal));
+  return closing * parameters->step > journey_of_query(parameters, query).touching;
 }
 
-/* What the motion of the step makes of the manifold m of the start: whether the contacts are those of an impact, to which the shapes
- * of the query are then moved, and m is to be found anew. */
-SHARED encounter encounter_of_query(GLOBAL const Parameters *parameters, convex_query *query, manifold m)
+/* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
+SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  real least = minimum(least_size(&query->first), least_size(&query->second));
-  journey way = journey_of_step(parameters, query->moves, least, bounding_radius_of(&query->first) + bounding_radius_of(&query->second));
-  doubt d = doubt_of(parameters, m, query->moves, way, least);
-  if (HAS_FEATURE(parameters, FEATURE_TREES) && may_meet_triangle(query, m, way)) d.asked = d.reached = d.far = 1;
-  encounter stays = {0, 0, 0, R(0.0)};
-  return d.asked ? meet(&query->first, &query->second, query->offset, query->moves, way, d) : stays;
+  if (has_points(m)) return may_pass(parameters, least_separation(m), m.normal, query->moves, least_of_query(query));
+  return m.impact_time >= AHEAD && may_meet_triangle(parameters, query);
 }
 
-/* The manifold of a pair over the step. found: `start` is that of its start already. One loop finds manifolds of either moment: the code
- * is so long that a second copy of it makes devices three times slower. */
-SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_query *query, mask found, manifold start, uint method)
+SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride, GLOBAL row *normals,
+                        GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
-  manifold m = start;
-  encounter met = {0, 0, 0, R(0.0)};
-  for (int round = found ? 1 : 0; round < 3; ++round) {
-    if (round == 1) {
-      start = m;
-      met = encounter_of_query(parameters, query, start);
-      if (!met.at_impact) break;
-    } else {
-      m = contact_of_query(parameters, query, method);
-    }
-  }
-  met.missed = met.missed || (met.at_impact && !has_points(m)); /* a triangle leaves it to its neighbour */
-  met.at_impact = met.at_impact && has_points(m);
-  if (!met.at_impact && !met.missed) return start;
-  vec3 offset = offset_after(query->offset, query->moves, met.at_impact ? met.time : R(0.0));
-  return as_seen_from_start(parameters, met.at_impact ? m : start, met, offset, query->moves);
+  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  normals[i].w = is_ahead(parameters, query, m) ? AHEAD : R(0.0);
 }
 
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
@@ -166,9 +154,7 @@ SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pa
                                links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
   if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
   if (near != QUERY_NEAR) return;
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  manifold m = contact_over_step(parameters, &query, 0, single_contact(none, none, R(0.0), 0), method & 255u);
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, normals, points, counts_of_points, features, i);
 }
 
 SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -197,9 +183,9 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
   journey way = journey_of_step(parameters, moves, least, bounding_radius_of(&shape));
-  doubt d = doubt_of(parameters, m, moves, way, least);
-  if (d.asked && fastest_turning(moves) > R(0.0)) {
-    encounter met = meet_plane(&shape, up, &height, moves.a, radius, moves.b, way, d);
+  speculation s = speculation_of(parameters, m, moves, way, least);
+  if (s.asked && fastest_turning(moves) > R(0.0)) {
+    encounter met = meet_plane(&shape, up, &height, moves.a, radius, moves.b, way, s);
     if (met.at_impact) m = convex_on_half_space(&shape, up, height, reach);
     to_plane = offset_after(to_plane, moves, met.at_impact ? met.time : R(0.0));
     m = as_seen_from_start(parameters, m, met, to_plane, moves);

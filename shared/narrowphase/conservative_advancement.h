@@ -2,16 +2,15 @@
  *
  *    start            impact          The bodies move with the velocities they start with. Along the direction of the closest
  *     .--.    v  |     .--.|          points no part of one nears the other faster than the bodies approach and their turning
- *    ( a  ) ---> |  - ( a  )| b       swings round, so gap / speed is time in which they cannot touch: they are advanced by it,
- *     '--'       |     '--'|          again and again (Mirtich, "Impulse-based Dynamic Simulation", 1996; van den Bergen, "Ray
- *      <-- gap -->                    Casting against General Convex Objects", 2004; Zhang, Lee, Kim, "Interactive Continuous
- *                                     Collision Detection for Non-Convex Polyhedra", 2006).
+ *    ( a  ) ---> |  - ( a  )| b       swings round: they are advanced by the time in which they cannot touch, again and again
+ *     '--'       |     '--'|          (van den Bergen, "Ray Casting against General Convex Objects", 2004; Zhang, Lee, Kim,
+ *      <-- gap -->                    "Interactive Continuous Collision Detection for Non-Convex Polyhedra", 2006).
  *
  * The manifold of that moment goes to the solver as one seen from the start of the step: its separations are larger by what the
  * points close until then, so the ordinary rows stop the bodies at the surface, without a substep of their own. Arms stay those of
  * the impact (setup/contact.h). Bodies that pass each other have no contact that could push them.
  *
- * time_of_impact.h says which contacts ask for it.
+ * time_of_impact.h says which contacts are followed, and how far they are advanced.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONSERVATIVE_ADVANCEMENT_H
 #define TANDEM_SHARED_NARROWPHASE_CONSERVATIVE_ADVANCEMENT_H
@@ -53,75 +52,90 @@ SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
 SHARED real swing_along(const moving_convex *m, vec3 direction) { return length_of(outer(m->angular, direction)) * m->radius; }
 SHARED real fastest_swing(const moving_convex *m) { return length_of(m->angular) * m->radius; }
 
-/* The first touch of two shapes. */
+/* The first touch of two shapes, if they touch before the horizon. */
 typedef struct {
-  mask hits;   /* they touch at `time`; else not before the horizon */
-  real time;   /* s: up to here they do not touch */
+  advancement at;
   real gap;    /* then; below 0: overlapping */
   vec3 normal; /* then, unit, from a to b */
 } impact;
 
-/* The state of a pair after another advance. */
-SHARED impact impact_so_far(advancement at, real gap, vec3 normal)
+SHARED impact no_impact(void)
 {
-  impact so_far = {at.hits, at.time, gap, normal};
-  return so_far;
+  impact met = {start_advancement(1), R(0.0), make_vec3(R(1.0), R(0.0), R(0.0))};
+  return met;
+}
+
+/* What is free by the chord along a normal that turns with one of the two. outward: the normal from it to the other. */
+SHARED real free_beside(const moving_convex *viewer, const moving_convex *other, vec3 seen_from, vec3 outward, real gap, advancement at, journey way)
+{
+  vec3 offset = subtract(other->pivot, viewer->pivot);
+  real speed = length_of(subtract(other->linear, viewer->linear)), distance = length_of(offset) + speed * way.horizon;
+  real acceleration = acceleration_seen(length_of(viewer->angular), distance, speed, length_of(other->angular), other->radius);
+  real span = span_of(at, gap, acceleration, way);
+  convex viewer_then = shape_at(viewer, seen_from, at.time + span), other_then = shape_at(other, seen_from, at.time + span);
+  vec3 outward_then = rotate(turn_within(viewer->angular, span), outward);
+  real gap_then = gap_along(&viewer_then, &other_then, outward_then) - core_radius(&viewer_then) - core_radius(&other_then);
+  return free_by_chord(gap, gap_then, span, acceleration, way);
 }
 
 SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journey way)
 {
-  advancement at = start_advancement(1);
-  impact met = impact_so_far(at, R(0.0), make_vec3(R(1.0), R(0.0), R(0.0)));
+  impact met = no_impact();
   vec3 approach = subtract(a->linear, b->linear);
-  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
-    convex shape_a = shape_at(a, a->linear, at.time), shape_b = shape_at(b, a->linear, at.time);
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && met.at.active; ++round) {
+    convex shape_a = shape_at(a, a->linear, met.at.time), shape_b = shape_at(b, a->linear, met.at.time);
     convex_pair pair = pair_of(&shape_a, &shape_b);
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
-    gjk_result near = closest_points(&pair.a, &pair.b, way.fastest * (way.horizon - at.time) + radii);
-    vec3 along = rotate(pair.axes, near.contact.normal), normal = pair.swapped ? negate(along) : along;
-    real gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
-    at = advanced(at, round, gap, inner(normal, approach) + swing_along(a, normal) + swing_along(b, normal), way);
-    met = impact_so_far(at, gap, normal);
+    gjk_result near = closest_points(&pair.a, &pair.b, way.fastest * (way.horizon - met.at.time) + radii);
+    vec3 along = rotate(pair.axes, near.contact.normal);
+    met.normal = pair.swapped ? negate(along) : along;
+    met.gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
+    real closing = inner(met.normal, approach) + swing_along(a, met.normal) + swing_along(b, met.normal);
+    real seen_by_a = free_beside(a, b, a->linear, met.normal, met.gap, met.at, way);
+    real seen_by_b = free_beside(b, a, a->linear, negate(met.normal), met.gap, met.at, way);
+    met.at = advanced(met.at, round, met.gap, closing, maximum(seen_by_a, seen_by_b), way);
   }
   return met;
 }
 
-/* The same against all that lies below a plane. up: its unit normal; height: of the plane along it; velocity: of the plane. */
+/* The same against all that lies below a plane. up: its unit normal; height: of the plane along it; rising: how fast it nears the body. */
+SHARED real gap_above_plane(const moving_convex *body, vec3 up, real height, real rising, real time)
+{
+  convex shape = shape_at(body, body->linear, time);
+  return inner(up, support_of(&shape, negate(up))) - core_radius(&shape) - (height + rising * time);
+}
+
+/* velocity: of the plane. */
 SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real height, vec3 velocity, journey way)
 {
-  advancement at = start_advancement(1);
-  impact met = impact_so_far(at, R(0.0), make_vec3(R(1.0), R(0.0), R(0.0)));
-  vec3 down = negate(up);
+  impact met = no_impact();
   real rising = inner(up, subtract(velocity, body->linear));
-  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && at.active; ++round) {
-    convex shape = shape_at(body, body->linear, at.time);
-    real gap = inner(up, support_of(&shape, down)) - core_radius(&shape) - (height + rising * at.time);
-    at = advanced(at, round, gap, rising + swing_along(body, up), way);
-    met = impact_so_far(at, gap, down);
+  real acceleration = acceleration_seen(R(0.0), R(0.0), R(0.0), length_of(body->angular), body->radius);
+  met.normal = negate(up);
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS && met.at.active; ++round) {
+    met.gap = gap_above_plane(body, up, height, rising, met.at.time);
+    real span = span_of(met.at, met.gap, acceleration, way), gap_then = gap_above_plane(body, up, height, rising, met.at.time + span);
+    met.at = advanced(met.at, round, met.gap, rising + swing_along(body, up), free_by_chord(met.gap, gap_then, span, acceleration, way), way);
   }
   return met;
 }
 
-SHARED encounter encounter_at(doubt d, impact met)
+/* Of contacts that the step does not reach. */
+SHARED encounter encounter_missed(speculation s)
 {
-  encounter e = {met.hits && d.far && met.time > R(0.0), !met.hits, d.swings, met.time};
-  return e;
-}
-SHARED encounter encounter_missed(doubt d)
-{
-  encounter e = {0, 1, d.swings, R(0.0)};
-  return e;
+  encounter met = {0, 1, s.swings, R(0.0)};
+  return met;
 }
 
-/* Follows two shapes in doubt, seen from the centre of the first one's body, and moves them to their impact if their contacts are
- * to be those of that moment. */
-SHARED encounter meet(convex *first, convex *second, vec3 offset, pair_motion moves, journey way, doubt d)
+/* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts are to be those
+ * of that moment. */
+SHARED encounter meet(convex *first, convex *second, vec3 offset, pair_motion moves, journey way, speculation s)
 {
-  if (!d.reached) return encounter_missed(d);
+  if (!s.reached) return encounter_missed(s);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex a = moving_convex_of(first, none, moves.a.linear, moves.a.angular, moves.radius_a);
   moving_convex b = moving_convex_of(second, offset, moves.b.linear, moves.b.angular, moves.radius_b);
-  encounter met = encounter_at(d, first_impact(&a, &b, way));
+  encounter met = encounter_of(s, first_impact(&a, &b, way).at, way);
   if (met.at_impact) {
     *first = shape_at(&a, a.linear, met.time);
     *second = shape_at(&b, a.linear, met.time);
@@ -130,12 +144,12 @@ SHARED encounter meet(convex *first, convex *second, vec3 offset, pair_motion mo
 }
 
 /* The same for a body seen from its own centre above a plane; `height` becomes that of the plane then. */
-SHARED encounter meet_plane(convex *shape, vec3 up, real *height, motion body, real radius, motion plane, journey way, doubt d)
+SHARED encounter meet_plane(convex *shape, vec3 up, real *height, motion body, real radius, motion plane, journey way, speculation s)
 {
-  if (!d.reached) return encounter_missed(d);
+  if (!s.reached) return encounter_missed(s);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex moving = moving_convex_of(shape, none, body.linear, body.angular, radius);
-  encounter met = encounter_at(d, first_impact_on_plane(&moving, up, *height, plane.linear, way));
+  encounter met = encounter_of(s, first_impact_on_plane(&moving, up, *height, plane.linear, way).at, way);
   if (met.at_impact) {
     *shape = shape_at(&moving, moving.linear, met.time);
     *height = *height - inner(up, subtract(body.linear, plane.linear)) * met.time;

@@ -29,11 +29,12 @@ typedef struct {
 SHARED journey way_past(const moving_convex *body, const wall *w)
 {
   vec3 linear = w->is_plane ? w->linear : w->shape.linear;
-  real swing = fastest_swing(body) + (w->is_plane ? R(0.0) : fastest_swing(&w->shape));
+  real swing = fastest_swing(body);
   real size = bounding_radius_of(&body->shape), least = least_size(&body->shape);
   if (!w->is_plane) {
     size = size + bounding_radius_of(&w->shape.shape);
     least = minimum(least, least_size(&w->shape.shape));
+    swing = swing + fastest_swing(&w->shape);
   }
   return journey_of(length_of(subtract(body->linear, linear)) + swing, R(1.0), least, size);
 }
@@ -68,13 +69,13 @@ SHARED moving_convex middle_ball(const moving_convex *body)
 /* The share of its motion that a body has free of a wall. slop: penetration that does no harm. */
 SHARED real free_share(const moving_convex *body, const wall *w, real slop)
 {
-  impact at = impact_on(body, w);
-  if (!at.hits) return R(1.0);
-  if (at.time > R(0.0)) return gap_at_end(body, w, at.normal) < -slop ? at.time : R(1.0);
+  impact met = impact_on(body, w);
+  if (!met.at.hits) return R(1.0);
+  if (met.at.time > R(0.0)) return gap_at_end(body, w, met.normal) < -slop ? met.at.time : R(1.0);
   moving_convex ball = middle_ball(body);
-  at = impact_on(&ball, w);
-  if (!at.hits || at.gap <= R(-0.5) * ball.shape.size.x) return R(1.0);
-  return gap_at_end(&ball, w, at.normal) < R(0.0) ? at.time : R(1.0);
+  met = impact_on(&ball, w);
+  if (!met.at.hits || met.gap <= R(-0.5) * ball.shape.size.x) return R(1.0);
+  return gap_at_end(&ball, w, met.normal) < R(0.0) ? met.at.time : R(1.0);
 }
 
 /* A triangle of a mesh is a wall from one side only. */

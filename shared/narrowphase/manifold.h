@@ -74,12 +74,17 @@ SHARED vec3 parting_direction(natural a, natural b)
   return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))), make_vec3(R(1.0), R(0.0), R(0.0)));
 }
 
-/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing round; 0 for a sphere. */
-SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
+/* By how much a gap closes within the step, at most. radius: what turning can swing round; 0 for a sphere. */
+SHARED real approach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
 {
   real closing = inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a +
                  length_of(b.angular) * radius_b;
-  return parameters->speculative_distance + parameters->step * maximum(closing, R(0.0));
+  return parameters->step * maximum(closing, R(0.0));
+}
+/* How far ahead of touching a contact is made: no gap is closed within the step unseen. */
+SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
+{
+  return parameters->speculative_distance + approach_of(parameters, a, radius_a, b, radius_b, normal);
 }
 
 SHARED manifold kept_within(manifold m, real reach)
@@ -107,6 +112,28 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *no
   for (int k = 0; k < 4; ++k) store_row_if(mine, points, stride * (uint)k + i, packed[k]);
   store_natural_if(mine, counts_of_points, i, count);
   store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
+}
+
+/* What was stored. Points without a mask hold zeros. */
+SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL const row *points, GLOBAL const uint *counts_of_points,
+                              GLOBAL const uint *features, item_index i)
+{
+  vec4 normal = load_row(normals, i);
+  natural count = load_natural(counts_of_points, i), feature = load_natural(features, i);
+  mask touching = count > 0u;
+  manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
+  m.impact_time = normal.w;
+  m.code = feature >> 8u;
+  for (int k = 0; k < 4; ++k) {
+    vec4 point = load_row(points, stride * (uint)k + i);
+    natural slot_of_point = (feature >> ((natural)(uint)k * 2u)) & 3u;
+    for (int slot = 0; slot < 4; ++slot) {
+      mask here = (count > (natural)(uint)k) & (slot_of_point == (natural)(uint)slot);
+      m.point[slot] = choose4(here, point, m.point[slot]);
+      m.kept[slot] = m.kept[slot] | here;
+    }
+  }
+  return m;
 }
 
 /* What the store above leaves of a manifold without points. */

@@ -135,11 +135,10 @@ SHARED void reduce_contacts_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   contact_patch patch;
   patch.code = code_of_features(faces[i * 2u], faces[i * 2u + 1u]);
   mask reduced = clipped_counts[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  manifold m = single_contact(none, none, R(0.0), 0);
+  manifold m;
   if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&pair, &patch), query.reach));
-  m = contact_over_step(parameters, &query, reduced, m, method & 255u);
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  else m = contact_of_query(parameters, &query, method & 255u);
+  store_start(parameters, &query, m, stride, normals, points, counts_of_points, features, i);
 }
 
 #endif

@@ -66,12 +66,25 @@ SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion mov
   return pair;
 }
 
+/* outward: from the box. */
+SHARED real gap_of_sphere_along(sphere_and_box pair, vec3 outward)
+{
+  return inner(outward, pair.center) - inner(absolute(rotate_back(pair.rotation, outward)), pair.extent) - pair.radius;
+}
+
+/* The normal turns with the box. */
 SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, journey way)
 {
+  vec3 angular = choose3(pair.sphere_first, moves.b.angular, moves.a.angular);
+  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(pair.center) + speed * way.horizon;
+  real acceleration = acceleration_seen(length_of(angular), distance, speed, R(0.0), R(0.0));
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     manifold now = sphere_box_contact(sphere_and_box_after(pair, moves, at.time));
-    at = advanced(at, round, now.point[0].w, closing_speed(moves, now.normal), way);
+    vec3 outward = choose3(pair.sphere_first, negate(now.normal), now.normal);
+    real gap = now.point[0].w, span = span_of(at, gap, acceleration, way);
+    real gap_then = gap_of_sphere_along(sphere_and_box_after(pair, moves, at.time + span), rotate(turn_within(angular, span), outward));
+    at = advanced(at, round, gap, closing_speed(moves, now.normal), free_by_chord(gap, gap_then, span, acceleration, way), way);
     if (!any_of(at.active)) break;
   }
   return at;
@@ -98,9 +111,9 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius + shape.w);
-  doubt d = doubt_of(parameters, m, moves, way, least);
-  if (any_of(mine & d.asked)) {
-    encounter met = encounter_of(d, impact_of_sphere_on_box(mine & d.reached, pair, moves, way));
+  speculation s = speculation_of(parameters, m, moves, way, least);
+  if (any_of(mine & s.asked)) {
+    encounter met = encounter_of(s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));
     m = choose_manifold(met.at_impact, sphere_box_contact(then), m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);

@@ -52,9 +52,9 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
-  doubt d = doubt_of(parameters, m, moves, way, least);
-  if (any_of(mine & d.asked)) {
-    encounter met = encounter_of(d, impact_of_spheres(d.reached, between, radius_a + radius_b, moves, way));
+  speculation s = speculation_of(parameters, m, moves, way, least);
+  if (any_of(mine & s.asked)) {
+    encounter met = encounter_of(s, impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way), way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
     m = choose_manifold(met.at_impact, spheres_contact(offset, radius_a, radius_b, aside), m);
     m = as_seen_from_start(parameters, m, met, offset, moves);

@@ -7,9 +7,15 @@
  *               +---------             that misses loses the points that its own motion would run into.
  *               | b
  *
- * The pair is advanced by the time in which it cannot touch, gap / closing speed, again and again (conservative advancement:
- * Mirtich, "Impulse-based Dynamic Simulation", 1996). For bodies that do not turn the gap is a convex function of time and each
- * advance is one of Newton's steps, so a few suffice.
+ * The pair is advanced again and again by the time in which it cannot touch, the longer of two: gap / closing speed (conservative
+ * advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what the gap now and a span later say, along a normal that
+ * turns with one of the bodies. In between no point strays from the chord by more than its acceleration lets it:
+ *
+ *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it passes is
+ *       |`- .  chord                 known to miss in a few rounds, also where it rolls along with hardly a gap, and one that hits
+ *       |  . ` - . _                 is found by steps that shorten as the square root of the gap. Of bodies that do not turn the
+ *       |    `-.....` - o            gap along a normal is the chord itself.
+ *       +------------------> time
  *
  * At rest nothing of this runs: touching points, and gaps that a slow pair does not close, are left as they are.
  */
@@ -21,8 +27,6 @@
 
 /* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much early. */
 #define ADVANCEMENT_ROUNDS 128
-/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest pair of all. */
-#define SLOW_ROUNDS 8
 /* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
 #define FAR_SHARE R(0.25)
 /* Of the least size: shapes this close count as touching. */
@@ -48,20 +52,28 @@ SHARED real fastest_closing(pair_motion m)
 }
 SHARED real fastest_turning(pair_motion m) { return length_of(m.a.angular) * m.radius_a + length_of(m.b.angular) * m.radius_b; }
 
+/* How fast points of a body accelerate, at most, as a body sees them that turns: Coriolis' terms, m/s^2. distance, speed: of the
+ * centres; turning: rad/s. */
+SHARED real acceleration_seen(real turning_viewer, real distance, real speed, real turning, real radius)
+{
+  return turning_viewer * turning_viewer * (distance + radius) + R(2.0) * turning_viewer * (speed + turning * radius) + turning * turning * radius;
+}
+
 /* The centre of b seen from that of a after a time. */
 SHARED vec3 offset_after(vec3 offset, pair_motion m, real time) { return add_scaled(offset, subtract(m.b.linear, m.a.linear), time); }
 /* The rotation that an even spin makes within a time. */
 SHARED mat3 turn_within(vec3 angular, real time) { return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time))); }
 
-/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; how often to look. */
+/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; whether the pair comes far by that. */
 typedef struct {
   real horizon, touching, fastest;
-  natural rounds;
+  mask far;
 } journey;
 
 SHARED journey journey_of(real fastest, real horizon, real least, real size)
 {
-  journey way = {horizon, maximum(TOUCHING_SHARE * least, R(16.0) * ROUNDING * (fastest * horizon + size)), fastest, (natural)(uint)ADVANCEMENT_ROUNDS};
+  real rounding = R(16.0) * ROUNDING * (fastest * horizon + size);
+  journey way = {horizon, maximum(TOUCHING_SHARE * least, rounding), fastest, fastest == fastest};
   return way;
 }
 
@@ -72,7 +84,7 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
   real fastest = maximum(fastest_closing(moves), R(1e-6));
   real horizon = parameters->step + parameters->speculative_distance / fastest;
   journey way = journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
-  way.rounds = choose(fastest * parameters->step > FAR_SHARE * least, way.rounds, (natural)(uint)SLOW_ROUNDS);
+  way.far = fastest * parameters->step > FAR_SHARE * least;
   return way;
 }
 
@@ -88,15 +100,32 @@ SHARED advancement start_advancement(mask wanted)
   return at;
 }
 
-SHARED advancement advanced(advancement at, uint round, real gap, real closing, journey way)
+/* How far ahead to look for the second gap, s: the chord is then off by a quarter of this one at most. */
+SHARED real span_of(advancement at, real gap, real acceleration, journey way)
 {
-  mask touches = at.active & ((gap <= way.touching) | (way.rounds == round + 1u));
+  real rest = maximum(way.horizon - at.time, R(0.0));
+  mask bends = acceleration > R(0.0);
+  return choose(bends, minimum(rest, square_root(R(2.0) * maximum(gap, R(0.0)) / choose(bends, acceleration, (real)R(1.0)))), rest);
+}
+/* How much of the span is free of touching, s. */
+SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration, journey way)
+{
+  real stray = R(0.125) * acceleration * span * span, room = gap - R(0.5) * way.touching;
+  mask clear = gap_then - stray > R(0.5) * way.touching;
+  return span * choose(clear, (real)R(1.0), room / choose(clear, (real)R(1.0), gap - gap_then + R(4.0) * stray));
+}
+
+/* gap: along a normal; closing: how fast at most; chord: what is free by it, s. */
+SHARED advancement advanced(advancement at, uint round, real gap, real closing, real chord, journey way)
+{
+  mask touches = at.active & ((gap <= way.touching) | ((natural)(uint)ADVANCEMENT_ROUNDS == round + 1u));
   mask closes = (closing > R(0.0)) & (gap <= way.fastest * (way.horizon - at.time));
-  real next = at.time + (gap - R(0.5) * way.touching) / choose(closes, closing, (real)R(1.0));
-  at.active = at.active & (!touches) & closes & (next < way.horizon);
-  at.hits = at.hits | touches;
-  at.time = choose(at.active, next, at.time);
-  return at;
+  real time = at.time + maximum((gap - R(0.5) * way.touching) / choose(closes, closing, (real)R(1.0)), chord);
+  advancement next;
+  next.active = at.active & (!touches) & closes & (time < way.horizon);
+  next.hits = at.hits | touches;
+  next.time = choose(next.active, time, at.time);
+  return next;
 }
 
 SHARED mask has_points(manifold m) { return m.kept[0] | m.kept[1] | m.kept[2] | m.kept[3]; }
@@ -108,23 +137,39 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
-/* Which contacts of the start are in question: those of pairs with all points ahead of touching, where the step may close the gap
- * (`reached`), or where some body swings far: what turns moves on no line, so that it would meet the plane of a point beside it. */
-typedef struct { mask asked, reached, far, swings; } doubt;
+/* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
+SHARED mask swings_far(GLOBAL const Parameters *parameters, pair_motion moves, real least)
+{
+  return fastest_turning(moves) * parameters->step > FAR_SHARE * least;
+}
 
-SHARED doubt doubt_of(GLOBAL const Parameters *parameters, manifold m, pair_motion moves, journey way, real least)
+/* impact_time of contacts that the motion of the step may pass, until a kernel of its own has followed them. Not below 0: rusticl
+ * makes -0 of the other side of a choice between -1 and 0. */
+#define AHEAD R(1e30)
+
+/* Whether contacts with this gap are AHEAD. All that speculation_of asks for, and little more, without its cost. */
+SHARED mask may_pass(GLOBAL const Parameters *parameters, real gap, vec3 normal, pair_motion moves, real least)
+{
+  mask reached = approach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, normal) > gap;
+  return (gap > R(0.0)) & (reached | swings_far(parameters, moves, least));
+}
+
+/* Which speculative contacts, all of whose points are ahead of touching, are to be followed: those that the step reaches, or those
+ * of a body that swings far. */
+typedef struct { mask asked, reached, swings; } speculation;
+
+SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, pair_motion moves, journey way, real least)
 {
   real gap = least_separation(m);
   mask ahead = has_points(m) & (gap > way.touching);
-  doubt d;
-  d.far = way.fastest * parameters->step > FAR_SHARE * least;
-  d.swings = fastest_turning(moves) * parameters->step > FAR_SHARE * least;
-  d.reached = ahead & (closing_speed(moves, m.normal) * way.horizon > gap);
-  d.asked = d.reached | (ahead & d.swings);
-  return d;
+  speculation s;
+  s.swings = swings_far(parameters, moves, least);
+  s.reached = ahead & (closing_speed(moves, m.normal) * parameters->step > gap);
+  s.asked = s.reached | (ahead & s.swings);
+  return s;
 }
 
-/* What becomes of the contacts in question. Neither mask: they stay. */
+/* What becomes of the contacts that were followed. Neither mask: they stay. */
 typedef struct {
   mask at_impact; /* they are replaced by those of `time` */
   mask missed;
@@ -132,9 +177,10 @@ typedef struct {
   real time; /* s */
 } encounter;
 
-SHARED encounter encounter_of(doubt d, advancement at)
+/* A pair that does not come far meets as it stands at the start. */
+SHARED encounter encounter_of(speculation s, advancement at, journey way)
 {
-  encounter met = {d.asked & at.hits & d.far & (at.time > R(0.0)), d.asked & (!at.hits), d.swings, at.time};
+  encounter met = {s.asked & at.hits & way.far & (at.time > R(0.0)), s.asked & (!at.hits), s.swings, at.time};
   return met;
 }
 

@@ -18,6 +18,7 @@
 #define TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
 
 #include "shared/narrowphase/convex_contact.h"
+#include "shared/narrowphase/time_of_impact.h"
 
 /* Sine of the angle by which a normal may lean where it must not: the noise of normals near touching. */
 #define LEAN_NOISE R(1e-3)
@@ -165,44 +166,49 @@ SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact co
   return normal_permitted(pair, face.normal) ? face : contact;
 }
 
-/* False: no contact. */
-SHARED mask triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real thickness, real lead)
+/* TRIANGLE_APART: nothing is within reach in front of the triangle. TRIANGLE_BESIDE: a shape is, but has no contact here as it stands. */
+enum { TRIANGLE_APART = 0, TRIANGLE_BESIDE = 1, TRIANGLE_MEETS = 2 };
+
+SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real thickness, real lead)
 {
   const convex *a = &pair->a, *b = &pair->b;
   real radii = core_radius(a) + core_radius(b);
   gjk_result near = closest_points(a, b, reach + radii);
-  if (!near.overlapping && near.contact.gap - radii >= reach) return 0;
+  if (!near.overlapping && near.contact.gap - radii >= reach) return TRIANGLE_APART;
   triangle_pair triangles;
   look_at_triangles(&triangles, a, b, thickness);
-  if (!triangles.outside_a && !triangles.outside_b) return 0;
+  if (!triangles.outside_a && !triangles.outside_b) return TRIANGLE_APART;
   core_contact contact = near.overlapping ? triangle_penetration(&triangles, pair->up, lead * R(0.25)) : near.contact;
-  if (leads_behind(&triangles, contact.normal)) return 0;
+  if (leads_behind(&triangles, contact.normal)) return TRIANGLE_BESIDE;
   core_contact closest = contact;
   contact = permitted_contact(&triangles, contact, lead);
-  if (contact.gap - radii >= reach) return 0;
+  if (contact.gap - radii >= reach) return TRIANGLE_BESIDE;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
   /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a neighbour. */
   core_contact sought = {contact.normal, face ? R(1e30) : contact.gap};
-  if (overlap_patch(patch, a, b, sought, reach)) return 1;
+  if (overlap_patch(patch, a, b, sought, reach)) return TRIANGLE_MEETS;
   if (face) {
-    if (face_point_patch(patch, &triangles, contact, face)) return 1;
+    if (face_point_patch(patch, &triangles, contact, face)) return TRIANGLE_MEETS;
     /* Nothing is above a face that was only preferred: the closest points lie on a sharp edge of it, whose other side may be turned
      * away from what comes. */
-    if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach) return 0;
+    if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach) return TRIANGLE_BESIDE;
     contact = closest;
   }
   point_patch(patch, a, b, contact, near.overlapping ? deepest_point_of_b(a, b, contact) : near.on_b);
-  return 1;
+  return TRIANGLE_MEETS;
 }
 
-/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. */
+/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. impact_time: AHEAD
+ * where the shape is beside the triangle. */
 SHARED manifold triangle_contact(const convex *first, const convex *second, real reach, real thickness, real slop)
 {
   convex_pair pair = pair_of(first, second);
   contact_patch patch;
-  if (!triangle_patch(&patch, &pair, reach, thickness, lead_of_faces(&pair.a, &pair.b, slop)))
-    return single_contact(rotate(pair.axes, pair.up), pair.origin, reach, 0);
-  return kept_within(placed_manifold(&pair, &patch), reach);
+  int found = triangle_patch(&patch, &pair, reach, thickness, lead_of_faces(&pair.a, &pair.b, slop));
+  if (found == TRIANGLE_MEETS) return kept_within(placed_manifold(&pair, &patch), reach);
+  manifold none = single_contact(rotate(pair.axes, pair.up), pair.origin, reach, 0);
+  none.impact_time = found == TRIANGLE_BESIDE ? AHEAD : R(0.0);
+  return none;
 }
 
 #endif

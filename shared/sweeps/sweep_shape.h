@@ -13,17 +13,17 @@
 
 SHARED journey sweep_journey(real length, real horizon, real least, real size)
 {
-  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, ADVANCEMENT_ROUNDS};
+  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, 1};
   return way;
 }
 
 /* Where the surface of b is then, that a touches. */
-SHARED vec3 touched_point(const convex *a, const convex *b, impact at)
+SHARED vec3 touched_point(const convex *a, const convex *b, impact met)
 {
   convex_pair pair = pair_of(a, b);
   gjk_result near = closest_points(&pair.a, &pair.b, R(1e30));
   vec3 core = near.overlapping ? pair.b.center : pair.swapped ? near.on_a : near.on_b;
-  return add_scaled(add(pair.origin, rotate(pair.axes, core)), at.normal, -core_radius(b));
+  return add_scaled(add(pair.origin, rotate(pair.axes, core)), met.normal, -core_radius(b));
 }
 
 /* moving: seen from its start; body: standing, seen from the same place. */
@@ -32,24 +32,24 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   real length = length_of(moving->linear), least = least_size(&moving->shape), size = bounding_radius_of(&moving->shape);
   first_hit hit = nothing_hit();
-  impact at;
+  impact met;
   if (is_plane) {
     vec3 up = axis_y(body->rotation);
-    at = first_impact_on_plane(moving, up, inner(up, body->center), none, sweep_journey(length, reach, least, size));
-    convex arrived = shape_at(moving, none, at.time);
-    hit.point = add_scaled(support_of(&arrived, at.normal), at.normal, core_radius(&arrived) + at.gap);
+    met = first_impact_on_plane(moving, up, inner(up, body->center), none, sweep_journey(length, reach, least, size));
+    convex arrived = shape_at(moving, none, met.at.time);
+    hit.point = add_scaled(support_of(&arrived, met.normal), met.normal, core_radius(&arrived) + met.gap);
   } else {
     moving_convex standing = moving_convex_of(body, body->center, none, none, R(0.0));
-    at = first_impact(&standing, moving, sweep_journey(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
-    at.normal = negate(at.normal);
-    convex arrived = shape_at(moving, none, at.time);
-    if (at.hits) hit.point = touched_point(&arrived, body, at);
+    met = first_impact(&standing, moving, sweep_journey(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
+    met.normal = negate(met.normal);
+    convex arrived = shape_at(moving, none, met.at.time);
+    if (met.at.hits) hit.point = touched_point(&arrived, body, met);
   }
-  if (!at.hits) return nothing_hit();
+  if (!met.at.hits) return nothing_hit();
   hit.body = number;
-  hit.fraction = at.time;
-  hit.normal = negate(at.normal);
-  if (at.time > R(0.0) || at.gap > R(0.0)) return hit;
+  hit.fraction = met.at.time;
+  hit.normal = negate(met.normal);
+  if (met.at.time > R(0.0) || met.gap > R(0.0)) return hit;
   hit.normal = length > R(0.0) ? scale(moving->linear, R(-1.0) / length) : none;
   hit.point = none;
   return hit;

@@ -51,13 +51,13 @@ TEST_CASE("time of impact: two spheres meet when their centres are two radii apa
     const convex shape_a = a.record(), shape_b = b.record();
     const moving_convex moving_a = moving_convex_of(&shape_a, none, none, none, 0), moving_b = moving_convex_of(&shape_b, shape_b.center, vec(v), none, 0);
     const journey way = one_second(moving_a, moving_b);
-    const impact at = first_impact(&moving_a, &moving_b, way);
+    const impact met = first_impact(&moving_a, &moving_b, way);
     /* |p + v t| = radii */
     const double along = p.dot(v), square = along * along - v.squaredNorm() * (p.squaredNorm() - radii * radii);
     if (square < 0) {
       const double nearest = (p - v * along / v.squaredNorm()).norm() - radii;
       if (nearest > 2.0 * double{way.touching}) {
-        CHECK(!at.hits);
+        CHECK(!met.at.hits);
         ++misses;
       }
       continue;
@@ -65,8 +65,8 @@ TEST_CASE("time of impact: two spheres meet when their centres are two radii apa
     const double exact = (-along - std::sqrt(square)) / v.squaredNorm(), closing = std::sqrt(square) / radii;
     if (exact > 0.99 || closing < 0.05 * v.norm()) continue; /* a graze has no one time */
     ++hits;
-    REQUIRE(at.hits);
-    const double early = (exact - double{at.time}) * closing; /* m */
+    REQUIRE(met.at.hits);
+    const double early = (exact - double{met.at.time}) * closing; /* m */
     largest = std::max(largest, std::abs(early - 0.5 * double{way.touching}) / double{way.touching});
   }
   CAPTURE(hits, misses, largest);
@@ -84,9 +84,9 @@ TEST_CASE("time of impact: a sphere falls on a plane at (height - radius) / spee
     const vec3 aside = vec(random.in_cube(speed));
     const moving_convex moving = moving_convex_of(&shape, none, make_vec3(aside.x, real(-speed), aside.z), none, 0);
     const journey way = journey_of(length_of(moving.linear), 1, real(radius), real(radius));
-    const impact at = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-height), none, way);
-    REQUIRE(at.hits);
-    const double early = (height - radius) - speed * double{at.time};
+    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-height), none, way);
+    REQUIRE(met.at.hits);
+    const double early = (height - radius) - speed * double{met.at.time};
     CAPTURE(radius, height, speed, early, way.touching);
     CHECK(early > -0.1 * double{way.touching});
     CHECK(early < 1.01 * double{way.touching});
@@ -106,17 +106,17 @@ TEST_CASE("time of impact: a turning rod touches a plane with its end")
     rod.orientation = Eigen::Quaternionf(Eigen::AngleAxisf(float(M_PI / 2), Eigen::Vector3f::UnitZ()));
     const convex shape = rod.record();
     const moving_convex moving = moving_convex_of(&shape, none, make_vec3(0, real(-sink), 0), make_vec3(0, 0, real(w)), real(L + r));
-    const impact at = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-h), none, journey_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
+    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-h), none, journey_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
     double low = 0, high = std::asin(std::min(1.0, (h - r) / L)) / w; /* sinking only brings it forward */
     for (int i = 0; i < 60; ++i) {
       const double t = 0.5 * (low + high);
       (h - sink * t - r - L * std::sin(w * t) > 0 ? low : high) = t;
     }
-    CAPTURE(L, h, w, sink, low, at.time);
-    REQUIRE(at.hits);
-    CHECK(double{at.time} <= low * (1 + 1e-6));
+    CAPTURE(L, h, w, sink, low, met.at.time);
+    REQUIRE(met.at.hits);
+    CHECK(double{met.at.time} <= low * (1 + 1e-6));
     /* Never later, and early by no more than the touching distance is worth, or by what the rounds left of a slow approach. */
-    CHECK(h - r - sink * double{at.time} - L * std::sin(w * double{at.time}) < 2e-3 * r + 1e-4 * L);
+    CHECK(h - r - sink * double{met.at.time} - L * std::sin(w * double{met.at.time}) < 2e-3 * r + 1e-4 * L);
   }
 }
 
@@ -136,13 +136,13 @@ TEST_CASE("time of impact: shapes that move and turn are apart before it, and to
     const moving_convex moving_a = moving_convex_of(&record_a, none, vec(linear_a), vec(angular_a), real(a.radius()));
     const moving_convex moving_b = moving_convex_of(&record_b, record_b.center, vec(linear_b), vec(angular_b), real(b.radius()));
     const journey way = one_second(moving_a, moving_b);
-    const impact at = first_impact(&moving_a, &moving_b, way);
-    at.hits ? ++hits : ++misses;
-    if (at.hits && double{at.gap} > 1.01 * double{way.touching}) {
+    const impact met = first_impact(&moving_a, &moving_b, way);
+    met.at.hits ? ++hits : ++misses;
+    if (met.at.hits && double{met.gap} > 1.01 * double{way.touching}) {
       ++loose;
-      widest = std::max(widest, double{at.gap} / (a.radius() + b.radius()));
+      widest = std::max(widest, double{met.gap} / (a.radius() + b.radius()));
     }
-    const double end = at.hits ? double{at.time} : 1.0;
+    const double end = met.at.hits ? double{met.at.time} : 1.0;
     for (int sample = 0; sample <= 12; ++sample) {
       const double t = end * sample / 12;
       const Shape now_a = later(a, Vector::Zero(), angular_a, t), now_b = later(b, linear_b - linear_a, angular_b, t);
