@@ -214,6 +214,7 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
 typedef struct {
   box_pair boxes;
   pair_motion moves;
+  journey way;
   real least, rounded; /* the smallest half extent; how much of the edges counts as rounded off */
 } moving_boxes;
 
@@ -232,6 +233,7 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
   pair.boxes.gap = R(0.0);
   pair.boxes.code = 0u;
   pair.least = minimum(least_of(pair.boxes.a.extent), least_of(pair.boxes.b.extent));
+  pair.way = journey_of_step(parameters, pair.moves, pair.least, shape_a.w + shape_b.w);
   pair.rounded = ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * pair.least);
   return pair;
 }
@@ -255,7 +257,7 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
   box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
-  m.impact_time = choose(may_pass(parameters, boxes.gap, boxes.normal, pair.moves, pair.least), (real)AHEAD, (real)R(0.0));
+  m.impact_time = choose(speculation_of(parameters, m, pair.moves, pair.way, pair.least).asked, (real)AHEAD, (real)R(0.0));
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 
@@ -272,12 +274,10 @@ SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (!any_of(mine)) return;
 
   uint stride = counts[CAPACITY_PAIRS];
-  real size = load_row(shapes, a).w + load_row(shapes, b).w;
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
-  journey way = journey_of_step(parameters, pair.moves, pair.least, size);
   manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
-  speculation s = speculation_of(parameters, start, pair.moves, way, pair.least);
-  encounter met = encounter_of(s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, way), way);
+  speculation s = speculation_of(parameters, start, pair.moves, pair.way, pair.least);
+  encounter met = encounter_of(s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
   box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded);
   manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);

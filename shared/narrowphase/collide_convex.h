@@ -128,7 +128,7 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
 /* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  if (has_points(m)) return may_pass(parameters, least_separation(m), m.normal, query->moves, least_of_query(query));
+  if (has_points(m)) return speculation_of(parameters, m, query->moves, journey_of_query(parameters, query), least_of_query(query)).asked;
   return m.impact_time >= AHEAD && may_meet_triangle(parameters, query);
 }
 

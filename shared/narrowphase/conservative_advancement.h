@@ -86,7 +86,8 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
     convex shape_a = shape_at(a, a->linear, met.at.time), shape_b = shape_at(b, a->linear, met.at.time);
     convex_pair pair = pair_of(&shape_a, &shape_b);
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
-    gjk_result near = closest_points(&pair.a, &pair.b, way.fastest * (way.horizon - met.at.time) + radii);
+    vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center) : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
+    gjk_result near = closest_points_from(&pair.a, &pair.b, way.fastest * (way.horizon - met.at.time) + radii, guess);
     vec3 along = rotate(pair.axes, near.contact.normal);
     met.normal = pair.swapped ? negate(along) : along;
     met.gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;

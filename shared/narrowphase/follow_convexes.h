@@ -23,7 +23,6 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
 {
   journey way = journey_of_query(parameters, query);
   speculation s = speculation_of_query(parameters, query, start, way);
-  if (!s.asked) return start;
   way.far = way.far || !has_points(start);
   encounter met = meet(&query->first, &query->second, query->offset, query->moves, way, s);
   if (!met.at_impact && !met.missed) return start;

@@ -74,17 +74,12 @@ SHARED vec3 parting_direction(natural a, natural b)
   return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))), make_vec3(R(1.0), R(0.0), R(0.0)));
 }
 
-/* By how much a gap closes within the step, at most. radius: what turning can swing round; 0 for a sphere. */
-SHARED real approach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
+/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing round; 0 for a sphere. */
+SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
 {
   real closing = inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a +
                  length_of(b.angular) * radius_b;
-  return parameters->step * maximum(closing, R(0.0));
-}
-/* How far ahead of touching a contact is made: no gap is closed within the step unseen. */
-SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
-{
-  return parameters->speculative_distance + approach_of(parameters, a, radius_a, b, radius_b, normal);
+  return parameters->speculative_distance + parameters->step * maximum(closing, R(0.0));
 }
 
 SHARED manifold kept_within(manifold m, real reach)

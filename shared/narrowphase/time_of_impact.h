@@ -27,12 +27,16 @@
 
 /* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much early. */
 #define ADVANCEMENT_ROUNDS 128
+/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest pair of all. */
+#define SLOW_ROUNDS 8
 /* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
 #define FAR_SHARE R(0.25)
 /* Of the least size: shapes this close count as touching. */
 #define TOUCHING_SHARE R(1e-3)
-/* Of the slop: nor need they come closer than this. */
-#define TOUCHING_SLOP R(0.02)
+/* For the contacts of a step this share is enough, and no more than that of the slop is asked for: a pair that rolls along with hardly
+ * a gap has then met, and need not be followed. */
+#define TOUCHING_SHARE_OF_STEP R(5e-3)
+#define TOUCHING_SLOP R(0.1)
 
 /* Two bodies that move evenly. radius: that turning swings round; 0 for a sphere in the middle of its body. */
 typedef struct {
@@ -83,7 +87,8 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
   real horizon = parameters->step + parameters->speculative_distance / fastest;
-  journey way = journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
+  real enough = minimum(least * (TOUCHING_SHARE_OF_STEP / TOUCHING_SHARE), parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE));
+  journey way = journey_of(fastest, horizon, enough, size);
   way.far = fastest * parameters->step > FAR_SHARE * least;
   return way;
 }
@@ -118,7 +123,8 @@ SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration,
 /* gap: along a normal; closing: how fast at most; chord: what is free by it, s. */
 SHARED advancement advanced(advancement at, uint round, real gap, real closing, real chord, journey way)
 {
-  mask touches = at.active & ((gap <= way.touching) | ((natural)(uint)ADVANCEMENT_ROUNDS == round + 1u));
+  natural rounds = choose(way.far, (natural)(uint)ADVANCEMENT_ROUNDS, (natural)(uint)SLOW_ROUNDS);
+  mask touches = at.active & ((gap <= way.touching) | (rounds == round + 1u));
   mask closes = (closing > R(0.0)) & (gap <= way.fastest * (way.horizon - at.time));
   real time = at.time + maximum((gap - R(0.5) * way.touching) / choose(closes, closing, (real)R(1.0)), chord);
   advancement next;
@@ -146,13 +152,6 @@ SHARED mask swings_far(GLOBAL const Parameters *parameters, pair_motion moves, r
 /* impact_time of contacts that the motion of the step may pass, until a kernel of its own has followed them. Not below 0: rusticl
  * makes -0 of the other side of a choice between -1 and 0. */
 #define AHEAD R(1e30)
-
-/* Whether contacts with this gap are AHEAD. All that speculation_of asks for, and little more, without its cost. */
-SHARED mask may_pass(GLOBAL const Parameters *parameters, real gap, vec3 normal, pair_motion moves, real least)
-{
-  mask reached = approach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, normal) > gap;
-  return (gap > R(0.0)) & (reached | swings_far(parameters, moves, least));
-}
 
 /* Which speculative contacts, all of whose points are ahead of touching, are to be followed: those that the step reaches, or those
  * of a body that swings far. */
