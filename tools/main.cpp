@@ -6,7 +6,9 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -128,12 +130,30 @@ int guarded(int count, char **arguments)
   }
 }
 
+/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn. */
+std::terminate_handler usual_end = nullptr;
+
+[[noreturn]] void end_without_memory()
+{
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc &) {
+    constexpr std::string_view line = "tandem: out of memory\n"; /* made without any */
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
+    _exit(1);
+  } catch (...) {
+  }
+  usual_end();
+  std::abort();
+}
+
 } // namespace
 } // namespace tandem
 
 int main(int count, char **arguments)
 {
   std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
+  tandem::usual_end = std::set_terminate(tandem::end_without_memory);
   tandem::keep_standard_files_apart();
   return tandem::with_output_written(tandem::guarded(count, arguments));
 }

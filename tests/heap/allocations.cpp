@@ -12,7 +12,8 @@
 namespace tests::heap {
 namespace {
 
-std::atomic<bool> armed{false}, only_once{true}, has_struck{false};
+std::atomic<bool> armed{false}, only_once{true}, has_struck{false}, has_struck_another{false};
+thread_local bool is_caller = false;
 std::atomic<uint64_t> which{0}, calls{0};
 std::atomic<int64_t> blocks{0};
 
@@ -22,6 +23,7 @@ bool strikes()
   const uint64_t number = calls++;
   if (only_once ? number != which : number < which) return false;
   has_struck = true;
+  if (!is_caller) has_struck_another = true;
   return true;
 }
 
@@ -58,12 +60,14 @@ Failing::Failing(uint64_t nth, bool once)
   which = nth;
   only_once = once;
   calls = 0;
-  has_struck = false;
+  has_struck = has_struck_another = false;
+  is_caller = true;
   armed = true;
 }
-Failing::~Failing() { armed = false; }
+Failing::~Failing() { armed = is_caller = false; }
 
 bool struck() { return has_struck; }
+bool struck_another_thread() { return has_struck_another; }
 uint64_t asked() { return calls; }
 int64_t held() { return blocks; }
 

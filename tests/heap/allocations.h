@@ -20,6 +20,7 @@ public:
 
 /* Of the last Failing: */
 bool struck();
+bool struck_another_thread(); /* than the one that made it */
 uint64_t asked(); /* calls */
 
 int64_t held(); /* blocks taken and not given back, by all threads */

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <functional>
 #include <new>
 
 #include "host/out_of_memory.h"
@@ -58,25 +59,29 @@ inline size_t open_files()
   return count;
 }
 
-/* Every allocation of `call` fails in turn, then the call comes through. Each attempt starts from nothing and must leave nothing;
- * `check` looks at what a call made that came through in spite of it. `rounds` of them fail to begin with. */
-template <class Call> uint64_t fail_everywhere(Call &&call, uint64_t stride = 1)
+using After = std::function<void(const Outcome &)>;
+
+/* Every allocation of `call` fails in turn, alone and with all that follow it, until the call comes through. Each time it must leave
+ * nothing; what stands around it is done with memory enough. */
+template <class Call>
+void fail_everywhere(Call &&call, const std::function<void()> &before = [] {}, const After &after = [](const Outcome &) {})
 {
   call(); /* what is made once and kept */
   const size_t files = open_files();
   uint64_t failures = 0;
   for (const bool once : {true, false})
-    for (uint64_t nth = 0;; nth += stride) {
+    for (uint64_t nth = 0;; ++nth) {
       CAPTURE(nth, once);
+      before();
       const Outcome outcome = attempt(nth, once, call);
       check_told(outcome);
       CHECK(outcome.left == 0);
+      after(outcome);
       failures += outcome.thrown;
       if (!outcome.struck) break;
     }
   CHECK(open_files() == files);
   CHECK(failures > 0);
-  return failures;
 }
 
 } // namespace tests::heap
