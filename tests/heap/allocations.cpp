@@ -1,7 +1,8 @@
 /* allocations.cpp - see allocations.h.
  *
- * An executable of its own has these operators, since every other test is better off with those of the library or of a sanitizer. They
- * call malloc and free, which the sanitizers still watch: all that is lost to them here is whether new goes with its own delete. */
+ * An executable of its own has these operators, since every other test is better off with those of the library or of
+ * a sanitizer. They call malloc and free, which the sanitizers still watch: all that is lost to them here is whether
+ * new goes with its own delete. */
 #include "tests/heap/allocations.h"
 
 #include <algorithm>
@@ -82,8 +83,14 @@ void *operator new(size_t bytes, std::align_val_t alignment) { return or_throw(t
 void *operator new[](size_t bytes, std::align_val_t alignment) { return or_throw(take(bytes, alignment)); }
 void *operator new(size_t bytes, const std::nothrow_t &) noexcept { return take(bytes); }
 void *operator new[](size_t bytes, const std::nothrow_t &) noexcept { return take(bytes); }
-void *operator new(size_t bytes, std::align_val_t alignment, const std::nothrow_t &) noexcept { return take(bytes, alignment); }
-void *operator new[](size_t bytes, std::align_val_t alignment, const std::nothrow_t &) noexcept { return take(bytes, alignment); }
+void *operator new(size_t bytes, std::align_val_t alignment, const std::nothrow_t &) noexcept
+{
+  return take(bytes, alignment);
+}
+void *operator new[](size_t bytes, std::align_val_t alignment, const std::nothrow_t &) noexcept
+{
+  return take(bytes, alignment);
+}
 void operator delete(void *memory) noexcept { give_back(memory); }
 void operator delete[](void *memory) noexcept { give_back(memory); }
 void operator delete(void *memory, size_t) noexcept { give_back(memory); }

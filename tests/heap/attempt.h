@@ -16,7 +16,7 @@ namespace tests::heap {
 
 struct Outcome {
   bool struck = false, thrown = false, of_memory = false;
-  int64_t left = 0; /* blocks that are held after and were not before */
+  int64_t left = 0;                /* blocks that are held after and were not before */
   std::array<char, 300> message{}; /* no string, whose own block would count */
 };
 
@@ -61,10 +61,11 @@ inline size_t open_files()
 
 using After = std::function<void(const Outcome &)>;
 
-/* Every allocation of `call` fails in turn, alone and with all that follow it, until the call comes through. Each time it must leave
- * nothing; what stands around it is done with memory enough. */
+/* Every allocation of `call` fails in turn, alone and with all that follow it, until the call comes through. Each
+ * time it must leave nothing; what stands around it is done with memory enough. */
 template <class Call>
-void fail_everywhere(Call &&call, const std::function<void()> &before = [] {}, const After &after = [](const Outcome &) {})
+void fail_everywhere(
+    Call &&call, const std::function<void()> &before = [] {}, const After &after = [](const Outcome &) {})
 {
   call(); /* what is made once and kept */
   const size_t files = open_files();

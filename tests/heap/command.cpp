@@ -1,7 +1,8 @@
-/* command.cpp - every allocation of the command fails in turn, from its first line on: it ends by itself, with one line and exit status 1.
+/* command.cpp - every allocation of the command fails in turn, from its first line on: it ends by itself, with one
+ * line and exit status 1.
  *
- * Each attempt is a child that has done nothing yet, so what is made once is made there. TBB's threads do not come along into a child:
- * these tests stand before all that start some. */
+ * Each attempt is a child that has done nothing yet, so what is made once is made there. TBB's threads do not come
+ * along into a child: these tests stand before all that start some. */
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -63,7 +64,8 @@ Ending run(const std::vector<std::string> &words, uint64_t nth, bool once)
   ::close(ends[1]);
   Ending ending;
   char buffer[4096];
-  for (ssize_t size; (size = ::read(ends[0], buffer, sizeof buffer)) > 0;) ending.error.append(buffer, static_cast<size_t>(size));
+  for (ssize_t size; (size = ::read(ends[0], buffer, sizeof buffer)) > 0;)
+    ending.error.append(buffer, static_cast<size_t>(size));
   ::close(ends[0]);
   int status = 0;
   ::waitpid(child, &status, 0);
@@ -88,7 +90,9 @@ void check_ending(const Ending &ending)
   CHECK(ending.error.find("out of memory") != std::string::npos);
 }
 
-void fail_everywhere_in_command(const std::vector<std::string> &words, uint64_t stride, const std::function<void(const Ending &)> &after = [](const Ending &) {})
+void fail_everywhere_in_command(
+    const std::vector<std::string> &words, uint64_t stride,
+    const std::function<void(const Ending &)> &after = [](const Ending &) {})
 {
   uint64_t failures = 0;
   for (const bool once : {true, false})
@@ -107,7 +111,8 @@ void fail_everywhere_in_command(const std::vector<std::string> &words, uint64_t 
 
 TEST_CASE("heap: a command that runs out of memory at any allocation ends with one line and status 1")
 {
-  fail_everywhere_in_command({"tandem", "run", "box-grid:nx=2,ny=2,nz=2", "--steps", "1", "--substeps", "1", "--on", "serial"}, 1);
+  fail_everywhere_in_command(
+      {"tandem", "run", "box-grid:nx=2,ny=2,nz=2", "--steps", "1", "--substeps", "1", "--on", "serial"}, 1);
 }
 
 /* Each is whole or not there, and none waits beside for its end. */
@@ -125,7 +130,8 @@ TEST_CASE("heap: a command that runs out of memory leaves no file unfinished")
     }
     if (ending.status == 0) CHECK(count == names.size());
   };
-  fail_everywhere_in_command({"tandem", "run", TANDEM_SOURCE_DIR "/tests/scenes/three_bodies.json", "--steps", "1", "--substeps", "1", "--on", "serial", "--json", folder.file("out.json"),
-                              "--events", folder.file("events.json"), "--save", folder.file("motion.glb")},
+  fail_everywhere_in_command({"tandem", "run", TANDEM_SOURCE_DIR "/tests/scenes/three_bodies.json", "--steps", "1",
+                              "--substeps", "1", "--on", "serial", "--json", folder.file("out.json"), "--events",
+                              folder.file("events.json"), "--save", folder.file("motion.glb")},
                              3, check_files);
 }

@@ -1,8 +1,11 @@
-# tandem_heap_tests: tests with operators new and delete of their own (heap/allocations.h), hence a program of their own.
+# tandem_heap_tests: tests with operators new and delete of their own (heap/allocations.h), hence a program of their
+# own.
 #
-# It is in the tree of the address sanitizer, too, which watches what these operators take from malloc: all that it cannot tell here is a
-# new without its own delete. In the tree of the thread sanitizer it would show nothing that other tests do not.
-set_source_files_properties(../tools/main.cpp PROPERTIES COMPILE_DEFINITIONS "main=command_main") # called by heap/command.cpp
+# It is in the tree of the address sanitizer, too, which watches what these operators take from malloc: all that it
+# cannot tell here is a new without its own delete. In the tree of the thread sanitizer it would show nothing that other
+# tests do not.
+# Called by heap/command.cpp.
+set_source_files_properties(../tools/main.cpp PROPERTIES COMPILE_DEFINITIONS main=command_main)
 set(heap_sources heap/command.cpp heap/files.cpp heap/worlds.cpp heap/allocations.cpp main.cpp ../tools/main.cpp)
 if(TANDEM_OBJECTS_FROM)
   string(REPLACE "../" "__/" heap_objects "${heap_sources}")

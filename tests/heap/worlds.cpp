@@ -1,7 +1,8 @@
-/* worlds.cpp - every allocation of a world's life fails in turn: while it is made, in its steps, while it is read and written.
+/* worlds.cpp - every allocation of a world's life fails in turn: while it is made, in its steps, while it is read
+ * and written.
  *
- * After SQLite's out-of-memory tests. A world that cannot be made leaves nothing; a step happens whole or not at all, and the world goes
- * on with the bits of one that nothing ever happened to; whoever only asks changes nothing. */
+ * After SQLite's out-of-memory tests. A world that cannot be made leaves nothing; a step happens whole or not at
+ * all, and the world goes on with the bits of one that nothing ever happened to; whoever only asks changes nothing. */
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -37,7 +38,8 @@ std::vector<Case> heap_cases()
 {
   std::vector<Case> all = cases();
   all.push_back({"box-stack:n=4,height=1", with("direct", "sap", true), "islands"});
-  all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with("jacobi", "brute-force", false), "hulls, split masses"});
+  all.push_back(
+      {TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with("jacobi", "brute-force", false), "hulls, split masses"});
   all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json", with("soft-step", "grid", true), "meshes"});
   for (Case &c : all) c.settings = short_step(c.settings);
   return all;
@@ -65,7 +67,7 @@ struct Story {
   Scene scene;
   Settings settings;
   Placement placement;
-  size_t at;                                          /* steps before the one that fails */
+  size_t at;                                             /* steps before the one that fails */
   std::function<void(World &)> prepare = [](World &) {}; /* before it */
 };
 
@@ -102,7 +104,8 @@ void fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
   uint64_t failures = 0;
   for (const bool once : {true, false})
     for (uint64_t nth = 0;; nth += once ? stride : 7 * stride) {
-      CAPTURE(story.scene.name, story.settings.solver, story.settings.broadphase, story.placement.on, story.at, nth, once);
+      CAPTURE(story.scene.name, story.settings.solver, story.settings.broadphase, story.placement.on, story.at, nth,
+              once);
       const std::unique_ptr<World> world = begun(story);
       const Outcome outcome = attempt(nth, once, [&] { world->step(); });
       check_told(outcome);
@@ -114,8 +117,9 @@ void fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
   CHECK(failures > 0);
 }
 
-/* Long capsules side by side, slanted, so that all bounds overlap and none touch: many pairs, and little to do. Every second one comes
- * from the side and is among the others in step `meeting`: then there are more pairs than there was room for. */
+/* Long capsules side by side, slanted, so that all bounds overlap and none touch: many pairs, and little to do.
+ * Every second one comes from the side and is among the others in step `meeting`: then there are more pairs than
+ * there was room for. */
 Scene slanted_rods(int meeting)
 {
   Scene scene;
@@ -166,8 +170,15 @@ std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
       {"body_hash", [](World &world) { world.body_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
       {"kernels", [](World &world) { world.kernels(); }},
-      {"kernel times", [](World &world) { world.set_profiling(true); world.take_kernel_times(); }},
-      {"place", [](World &world) { world.place(Placement{"serial", {{"solve", "tbb:threads=3"}, {"queries", "serial:order=backward"}}, false}); }},
+      {"kernel times",
+       [](World &world) {
+         world.set_profiling(true);
+         world.take_kernel_times();
+       }},
+      {"place",
+       [](World &world) {
+         world.place(Placement{"serial", {{"solve", "tbb:threads=3"}, {"queries", "serial:order=backward"}}, false});
+       }},
       {"set_body", [](World &world) { world.set_body(1, world.bodies()[1]); }},
   };
   if (settings.events) calls.push_back({"contact_events", [](World &world) { world.contact_events(); }});
@@ -204,7 +215,8 @@ TEST_CASE("heap: a world that cannot be made for want of any one allocation leav
     }
 }
 
-TEST_CASE("heap: a step that fails for want of any one allocation leaves the state as it was, and the next ones their bits")
+TEST_CASE(
+    "heap: a step that fails for want of any one allocation leaves the state as it was, and the next ones their bits")
 {
   for (const Case &c : heap_cases())
     for (const size_t at : {0, 2}) {
@@ -224,13 +236,15 @@ TEST_CASE("heap: a step in which buffers grow leaves the state as it was where i
       fail_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
       fail_everywhere_in_step({scene, settings, two_threads, at}, 53);
     }
-  fail_everywhere_in_step({crowd(52), short_step(with("soft-step", "grid", true)), serial, 0}, 131); /* more colours than there are launches for, too */
+  fail_everywhere_in_step({crowd(52), short_step(with("soft-step", "grid", true)), serial, 0},
+                          131); /* more colours than there are launches for, too */
 }
 
 TEST_CASE("heap: a step that takes a body out leaves it in where it fails")
 {
   for (const Case &c : heap_cases()) {
-    const Story story{load_scene(c.scene), c.settings, serial, 1, [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }};
+    const Story story{load_scene(c.scene), c.settings, serial, 1,
+                      [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }};
     fail_everywhere_in_step(story);
   }
 }
@@ -240,7 +254,9 @@ TEST_CASE("heap: steps that fail here and there leave nothing behind", "[sanitiz
 {
   for (const Case &c : heap_cases()) {
     fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, 0}, 61);
-    fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, 1, [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }}, 61);
+    fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, 1,
+                             [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }},
+                            61);
   }
   const Settings settings = short_step(with("soft-step", "grid", true));
   const Scene scene = slanted_rods(2);

@@ -1,5 +1,5 @@
-/* fault_scenes.h - the worlds in which one place after the other is made to fail: tests/host/faults_test.cpp by its hooks in buffers,
- * builds, launches and moves of bytes, tests/heap/ by operator new. */
+/* fault_scenes.h - the worlds in which one place after the other is made to fail: tests/host/faults_test.cpp by its
+ * hooks in buffers, builds, launches and moves of bytes, tests/heap/ by operator new. */
 #pragma once
 
 #include <array>
@@ -48,7 +48,8 @@ inline Scene crowd(uint32_t spheres)
   return scene;
 }
 
-inline std::vector<uint64_t> hashes_of(const Scene &scene, const Settings &settings, const Placement &placement, int steps)
+inline std::vector<uint64_t> hashes_of(const Scene &scene, const Settings &settings, const Placement &placement,
+                                       int steps)
 {
   World world(scene, settings, placement);
   std::vector<uint64_t> hashes{world.state_hash()};
@@ -61,9 +62,13 @@ inline std::vector<uint64_t> hashes_of(const Scene &scene, const Settings &setti
 
 inline std::vector<Ray> some_rays()
 {
-  return {{.origin = {0, 10, 0}, .direction = {0, -1, 0}, .reach = 100, .filter = {}}, {.origin = {1, 10, 1}, .direction = {0, -1, 0}, .reach = 100, .filter = {}}};
+  return {{.origin = {0, 10, 0}, .direction = {0, -1, 0}, .reach = 100, .filter = {}},
+          {.origin = {1, 10, 1}, .direction = {0, -1, 0}, .reach = 100, .filter = {}}};
 }
-inline std::vector<QueryBox> a_box() { return {{.center = {0, 0, 0}, .half_extents = {2, 2, 2}, .displacement = {0, 0, 0}, .filter = {}}}; }
+inline std::vector<QueryBox> a_box()
+{
+  return {{.center = {0, 0, 0}, .half_extents = {2, 2, 2}, .displacement = {0, 0, 0}, .filter = {}}};
+}
 inline std::vector<SweepHit> swept_ball(World &world)
 {
   return world.sweep(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 20, 0}}}, std::vector<Vec3>{{0, -30, 0}});
