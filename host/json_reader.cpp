@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
 
 #include "host/round_to_float.h"
 
@@ -40,28 +39,6 @@ template <class Real> std::optional<Real> parse_hex_float(const std::string &tex
   return start ? -magnitude : magnitude;
 }
 
-/* While parsing. Duplicate keys would silently lose a value, since the parser keeps the last; depth would end in a full stack. */
-class StrictParsing {
-public:
-  explicit StrictParsing(const std::string &where) : where_(where) {}
-
-  bool operator()(int depth, nlohmann::json::parse_event_t event, nlohmann::json &parsed)
-  {
-    using Event = nlohmann::json::parse_event_t;
-    if ((event == Event::object_start || event == Event::array_start) && depth >= most_json_levels)
-      throw InputError(fmt::format("{}: arrays and objects stand more than {} deep within one another; no scene needs that", where_, most_json_levels));
-    if (event == Event::object_start) open_.emplace_back();
-    if (event == Event::object_end) open_.pop_back();
-    if (event == Event::key && !open_.back().insert(parsed.get_ref<const std::string &>()).second)
-      throw InputError(fmt::format("{}: the key {} stands twice in one object", where_, parsed.dump()));
-    return true;
-  }
-
-private:
-  const std::string &where_;
-  std::vector<std::set<std::string>> open_;
-};
-
 std::string line_and_column(const std::string &text, size_t byte)
 {
   size_t end = std::min(byte > 0 ? byte - 1 : 0, text.size());
@@ -78,6 +55,89 @@ std::string plain_reason(const std::string &what)
   if (colon != std::string::npos) return what.substr(colon + 2);
   size_t bracket = what.find("] ");
   return bracket == std::string::npos ? what : what.substr(bracket + 2);
+}
+
+/* Builds a document as it is parsed: what an exception leaves half built is a JsonDocument, too. Duplicate keys would silently lose a
+ * value; depth would end in a full stack. */
+class Builder : public nlohmann::json_sax<nlohmann::json> {
+public:
+  Builder(const std::string &text, const std::string &where) : text_(text), where_(where) {}
+
+  JsonDocument document;
+
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(number_integer_t value) override { return add(value); }
+  bool number_unsigned(number_unsigned_t value) override { return add(value); }
+  bool number_float(number_float_t value, const string_t &) override { return add(value); }
+  bool string(string_t &value) override { return add(std::move(value)); }
+  bool binary(binary_t &) override { return false; } /* JSON as text has none */
+  bool start_object(size_t) override { return open(nlohmann::json::object()); }
+  bool start_array(size_t) override { return open(nlohmann::json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t &key) override;
+  bool parse_error(size_t, const std::string &, const nlohmann::json::exception &error) override;
+
+private:
+  nlohmann::json &place(nlohmann::json &&value);
+  bool add(nlohmann::json value)
+  {
+    place(std::move(value));
+    return true;
+  }
+  bool open(nlohmann::json &&empty);
+  bool close()
+  {
+    open_.pop_back();
+    return true;
+  }
+
+  const std::string &text_, &where_;
+  std::vector<nlohmann::json *> open_; /* arrays and objects that have not ended, the innermost last */
+  nlohmann::json *member_ = nullptr;   /* what the last key names */
+};
+
+nlohmann::json &Builder::place(nlohmann::json &&value)
+{
+  if (!open_.empty() && open_.back()->is_array()) {
+    open_.back()->get_ref<nlohmann::json::array_t &>().push_back(std::move(value));
+    return open_.back()->back();
+  }
+  nlohmann::json &at = open_.empty() ? document.value() : *member_;
+  at.swap(value);
+  return at;
+}
+
+bool Builder::open(nlohmann::json &&empty)
+{
+  if (open_.size() >= most_json_levels)
+    throw InputError(fmt::format("{}: arrays and objects stand more than {} deep within one another; no scene needs that", where_, most_json_levels));
+  open_.push_back(&place(std::move(empty)));
+  return true;
+}
+
+bool Builder::key(string_t &key)
+{
+  const auto [member, is_new] = open_.back()->get_ref<nlohmann::json::object_t &>().try_emplace(key, nullptr);
+  if (!is_new) throw InputError(fmt::format("{}: the key {} stands twice in one object", where_, nlohmann::json(key).dump()));
+  member_ = &member->second;
+  return true;
+}
+
+bool Builder::parse_error(size_t, const std::string &, const nlohmann::json::exception &error)
+{
+  const auto *place = dynamic_cast<const nlohmann::json::parse_error *>(&error);
+  const std::string where = place ? fmt::format("{}:{}", where_, line_and_column(text_, place->byte)) : where_;
+  throw InputError(fmt::format("{}: malformed JSON: {}", where, plain_reason(error.what())));
+}
+
+/* Levels are few (most_json_levels), so that recursion is safe. */
+void take_apart(nlohmann::json &value)
+{
+  for (nlohmann::json &part : value)
+    if (part.is_structured()) take_apart(part);
+  if (value.is_structured()) value.clear();
 }
 
 } // namespace
@@ -185,16 +245,13 @@ size_t JsonValue::choice(std::span<const char *const> names) const
   fail(fmt::format("is {}; one of {} is needed", shown(*value_), joined(names)));
 }
 
-nlohmann::json parse_json(const std::string &text, const std::string &where)
+JsonDocument::~JsonDocument() { take_apart(value_); }
+
+JsonDocument parse_json(const std::string &text, const std::string &where)
 {
-  try {
-    return nlohmann::json::parse(text, StrictParsing(where));
-  } catch (const nlohmann::json::parse_error &error) {
-    throw InputError(
-        fmt::format("{}:{}: malformed JSON: {}", where, line_and_column(text, error.byte), plain_reason(error.what())));
-  } catch (const nlohmann::json::exception &error) {
-    throw InputError(fmt::format("{}: malformed JSON: {}", where, plain_reason(error.what())));
-  }
+  Builder builder(text, where);
+  nlohmann::json::sax_parse(text, &builder);
+  return std::move(builder.document);
 }
 
 } // namespace tandem

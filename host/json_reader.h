@@ -64,8 +64,28 @@ private:
 /* Deeper than any scene; far from where recursion over values (their text, their end) runs out of stack. */
 inline constexpr int most_json_levels = 100;
 
+/* A whole file's value, which ends without allocating. The destructor of nlohmann's values makes a list of what they hold, and ends the
+ * process where there is no memory for it; here they are taken apart from the leaves on, so that it finds nothing to list. */
+class JsonDocument {
+public:
+  JsonDocument() = default;
+  JsonDocument(JsonDocument &&other) noexcept { value_.swap(other.value_); }
+  JsonDocument &operator=(JsonDocument &&other) noexcept
+  {
+    value_.swap(other.value_);
+    return *this;
+  }
+  ~JsonDocument();
+
+  const nlohmann::json &value() const { return value_; }
+  nlohmann::json &value() { return value_; }
+
+private:
+  nlohmann::json value_;
+};
+
 /* Throws InputError: `where:line:column: malformed JSON: …`, a key that stands twice in one object, or more than most_json_levels arrays
  * and objects within one another. */
-nlohmann::json parse_json(const std::string &text, const std::string &where);
+JsonDocument parse_json(const std::string &text, const std::string &where);
 
 } // namespace tandem

@@ -51,7 +51,8 @@ int nameless()
 
 } // namespace
 
-OutputFile::OutputFile(const std::string &path, std::string label) : label_(std::move(label))
+/* By way of the other one, after which the destructor takes back what a failure leaves half opened. */
+OutputFile::OutputFile(const std::string &path, std::string label) : OutputFile(std::move(label))
 {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
@@ -121,20 +122,25 @@ void OutputFile::commit()
   const bool named = !beside_.empty();
   if (!direct_ && (!named || ::rename(beside_.c_str(), target_.c_str()) != 0)) copy_to_target();
   else beside_.clear();
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail(errno);
+  close();
 }
 
-/* The target is a place of its own, such as a file that was mounted. */
+/* The target is a place of its own, such as a file that was mounted. It is emptied when nothing is left that it could be spared. */
 void OutputFile::copy_to_target()
 {
-  const int target = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
-  if (target < 0 || ::lseek(descriptor_, 0, SEEK_SET) != 0) fail(errno);
   std::string piece(most_buffered, '\0');
+  if (::lseek(descriptor_, 0, SEEK_SET) != 0) fail(errno);
+  OutputFile target(label_);
+  target.descriptor_ = ::open(target_.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC);
+  if (target.descriptor_ < 0) fail(errno);
   for (ssize_t got = 0; (got = ::read(descriptor_, piece.data(), piece.size())) > 0;)
-    put(target, {piece.data(), static_cast<size_t>(got)});
-  if (::close(target) != 0) fail(errno);
+    put(target.descriptor_, {piece.data(), static_cast<size_t>(got)});
+  target.close();
+}
+
+void OutputFile::close()
+{
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail(errno);
 }
 
 void OutputFile::check(const std::string &path, const std::string &label)
@@ -154,7 +160,11 @@ File nameless_file_beside(const std::string &path)
   const int descriptor = direct ? -1 : make_beside(behind_links(path), name);
   if (descriptor < 0) return File(std::tmpfile());
   ::unlink(name.c_str());
-  return File(::fdopen(descriptor, "w+b"));
+  File file(::fdopen(descriptor, "w+b"));
+  const int reason = errno;
+  if (!file) ::close(descriptor);
+  errno = reason;
+  return file;
 }
 
 } // namespace tandem

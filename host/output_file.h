@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace tandem {
 
@@ -28,9 +29,11 @@ public:
   static void check(const std::string &path, const std::string &label);
 
 private:
+  explicit OutputFile(std::string label) : label_(std::move(label)) {}
   [[noreturn]] void fail(int error) const;
   void open_beside(const std::string &path);
   void flush();
+  void close();
   void put(int descriptor, std::string_view bytes) const;
   void copy_to_target();
 

@@ -118,7 +118,7 @@ std::string percent_decoded(const std::string &text)
 
 JsonValue gltf_item(const GltfDocument &document, const char *list, size_t index, const std::string &where)
 {
-  return {document.file.at(list).at(index), where, fmt::format("{}[{}]", list, index), JsonFloats::numbers};
+  return {document.file.value().at(list).at(index), where, fmt::format("{}[{}]", list, index), JsonFloats::numbers};
 }
 
 double GltfElements::at(size_t element, size_t component) const

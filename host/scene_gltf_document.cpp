@@ -114,7 +114,7 @@ void read_nodes(GltfDocument &document)
     const JsonValue unnamed = root.member("nodes").element(i);
     if (const auto name = unnamed.find("name")) node.name = name->text();
     node.place = fmt::format("{}: {}", document.where, document.label(int(i)));
-    const nlohmann::json &value = document.file["nodes"][i];
+    const nlohmann::json &value = document.file.value()["nodes"][i];
     const JsonValue json(value, node.place, "", JsonFloats::numbers);
     read_node(json, document.nodes.size(), count_of(root, "meshes"), node);
     if (gltf_extension_of(json, bodies_extension)) node.physics = &value["extensions"][bodies_extension];
@@ -202,7 +202,7 @@ JsonValue GltfDocument::extension(const char *name, const std::string &place) co
 {
   static const nlohmann::json none = nlohmann::json::object();
   const bool given = gltf_extension_of(root(), name).has_value();
-  return {given ? file.at("extensions").at(name) : none, place, std::string("extensions.") + name, JsonFloats::numbers};
+  return {given ? file.value().at("extensions").at(name) : none, place, std::string("extensions.") + name, JsonFloats::numbers};
 }
 
 bool GltfDocument::uses(const std::string &extension) const

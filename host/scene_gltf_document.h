@@ -29,7 +29,7 @@ struct GltfNode {
 struct GltfDocument {
   std::string where; /* the file */
   OutsideFiles outside;
-  nlohmann::json file;
+  JsonDocument file;
   std::string binary; /* the second chunk of a .glb */
   std::vector<GltfNode> nodes;
   std::vector<int> roots; /* of the scene that is simulated */
@@ -40,7 +40,7 @@ struct GltfDocument {
   const std::string &place(int index) const { return node(index).place; }
   [[noreturn]] void refuse(int node, const std::string &what) const; /* InputError: file: node 'Cup': what */
   std::optional<JsonValue> physics_of(int node) const;
-  JsonValue root() const { return {file, where, "", JsonFloats::numbers}; }
+  JsonValue root() const { return {file.value(), where, "", JsonFloats::numbers}; }
   /* Of the document; an empty object where it has none. Complaints about it begin with `place`, that of what asks for it. */
   JsonValue extension(const char *name, const std::string &place) const;
   bool uses(const std::string &extension) const;

@@ -184,8 +184,8 @@ template <typename Record> void write_list(std::string &text, const char *key, c
 Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
 {
   static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
-  nlohmann::json document = parse_json(text, where);
-  JsonValue root(document, where);
+  const JsonDocument document = parse_json(text, where);
+  const JsonValue root(document.value(), where);
   check_version(root);
   root.only_keys(keys);
   Scene scene;

@@ -18,15 +18,21 @@ std::string line_of(uint64_t step, const ContactEvent &event)
                             event.separation, text(event.point), text(event.normal));
 }
 
+std::string quoted(const std::string &text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+
 } // namespace
 
+/* Names one by one: a list of Json's would allocate in its destructor, and the process end there without memory, beside a file half written. */
 EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
     : file_(path, fmt::format("--events {}", path))
 {
-  Json names = Json::array();
-  for (const Body &body : world.scene().bodies) names.push_back(body.name);
-  const auto dumped = [](const Json &json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
-  file_.write(fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": {}, \"events\": [", dumped(scene), world.settings().step, dumped(names)));
+  file_.write(fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": [", quoted(scene), world.settings().step));
+  const char *separator = "";
+  for (const Body &body : world.scene().bodies) {
+    file_.write(separator + quoted(body.name));
+    separator = ",";
+  }
+  file_.write("], \"events\": [");
 }
 
 void EventFile::add_step(uint64_t step, World &world)

@@ -15,6 +15,8 @@ std::atomic<size_t> wanted{0};
 
 namespace tandem {
 
+size_t failed_allocation_bytes() { return wanted; }
+
 std::string failed_allocation()
 {
   const size_t bytes = wanted;

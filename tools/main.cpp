@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -67,6 +68,39 @@ std::string typed(int count, char **arguments)
   return text;
 }
 
+/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn. The
+ * words for it are ready beforehand. */
+std::string last_words;
+std::terminate_handler usual_end = nullptr;
+
+void put_last_words() noexcept
+{
+  char line[1024];
+  const int length = std::snprintf(line, sizeof line, "tandem: out of memory in `%.900s` (the last allocation that failed was of %zu bytes)\n", last_words.c_str(),
+                                   failed_allocation_bytes());
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, static_cast<size_t>(length));
+}
+
+[[noreturn]] void end_without_memory()
+{
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc &) {
+    put_last_words();
+    _exit(1);
+  } catch (...) {
+  }
+  usual_end();
+  std::abort();
+}
+
+void prepare_last_words(int count, char **arguments)
+{
+  usual_end = std::set_terminate(end_without_memory);
+  last_words = typed(count, arguments);
+  std::replace(last_words.begin(), last_words.end(), '\n', ' ');
+}
+
 /* "`tandem run --help`" for the subcommand that was being parsed. */
 std::string where_to_look(const CLI::App &parser)
 {
@@ -120,7 +154,7 @@ int guarded(int count, char **arguments)
   } catch (const OutOfMemory &error) {
     return complain(error.what() + failed_allocation(), 1);
   } catch (const std::bad_alloc &) {
-    return complain(fmt::format("out of memory in `{}`{}", typed(count, arguments), failed_allocation()), 1);
+    return complain(fmt::format("out of memory in `{}`{}", last_words, failed_allocation()), 1);
   } catch (const std::system_error &error) { /* fmt::print throws one where the output takes no more */
     return std::ferror(stdout) ? complain_of_output(error.code().value()) : complain(error.what(), 1);
   } catch (const std::exception &error) {
@@ -134,6 +168,7 @@ int guarded(int count, char **arguments)
 int main(int count, char **arguments)
 {
   std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
+  tandem::prepare_last_words(count, arguments);
   tandem::keep_standard_files_apart();
   return tandem::with_output_written(tandem::guarded(count, arguments));
 }

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
+#include <new>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -36,13 +39,24 @@ private:
   std::exception_ptr thrown_;
 };
 
+/* As many as can be had: without any, one thread does it all, and what has started must be joined whatever happens. */
+void start(std::vector<std::thread> &helpers, size_t count, const std::function<void()> &work)
+{
+  try {
+    helpers.reserve(count);
+    while (helpers.size() < count) helpers.emplace_back(std::cref(work));
+  } catch (const std::bad_alloc &) {
+  } catch (const std::system_error &) {
+  }
+}
+
 } // namespace
 
 void in_parallel(size_t count, size_t threads, const std::function<void(size_t)> &task)
 {
   std::atomic<size_t> next = 0;
   Failure failure;
-  const auto work = [&] {
+  const std::function<void()> work = [&] {
     for (size_t i = next++; i < count && !failure.any(); i = next++) try {
         task(i);
       } catch (...) {
@@ -50,7 +64,7 @@ void in_parallel(size_t count, size_t threads, const std::function<void(size_t)>
       }
   };
   std::vector<std::thread> helpers;
-  for (size_t k = 1; k < std::min(threads, count); ++k) helpers.emplace_back(work);
+  start(helpers, std::min(std::max<size_t>(threads, 1), std::max<size_t>(count, 1)) - 1, work);
   work();
   for (std::thread &helper : helpers) helper.join();
   failure.rethrow();

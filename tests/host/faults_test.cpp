@@ -12,11 +12,11 @@
 
 #include "host/faults.h"
 #include "host/out_of_memory.h"
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "tests/host/fault_scenes.h"
 #include "tests/host/pocl.h"
 
 using namespace tandem;
+using namespace tandem::fault_scenes;
 
 namespace {
 
@@ -79,53 +79,6 @@ void check_message(const std::string &message)
          message.find("OpenCL device") != std::string::npos || message.find("out of memory") != std::string::npos));
 }
 
-struct Case {
-  const char *scene;
-  Settings settings;
-  const char *what;
-};
-
-Settings with(const char *solver, const char *broadphase, bool events)
-{
-  Settings settings = settings_for(solver);
-  settings.broadphase = broadphase;
-  settings.events = settings.pair_events = events;
-  settings.check = true;
-  return settings;
-}
-
-/* Every way of keeping something from step to step; more bodies near one another than there is room for at first, so that it grows. */
-std::vector<Case> cases()
-{
-  return {{"box-grid:nx=2,ny=2,nz=2", with("soft-step", "grid", true), "boxes, events"},
-          {"box-grid:nx=2,ny=2,nz=2", with("xpbd", "trees", false), "slip, kept trees"},
-          {"box-grid:nx=2,ny=2,nz=2", with("avbd", "sap3", false), "penalties, kept ends"},
-          {"compounds:n=4", with("soft-step", "bvh", true), "normals, kept hierarchy"},
-          {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", with("pgs", "hybrid", false), "rolling friction"}};
-}
-
-/* Room for few pairs at first makes a scene of n spheres in one place grow twice. */
-Scene crowd(uint32_t spheres)
-{
-  Scene scene;
-  scene.name = "crowd";
-  scene.shapes = {sphere_shape(0.5f)};
-  scene.bodies.resize(spheres);
-  for (uint32_t i = 0; i < spheres; ++i) scene.bodies[i].position = {0.01 * i, 0, 0};
-  return scene;
-}
-
-std::vector<uint64_t> hashes_of(const Scene &scene, const Settings &settings, const Placement &placement, int steps)
-{
-  World world(scene, settings, placement);
-  std::vector<uint64_t> hashes{world.state_hash()};
-  for (int k = 0; k < steps; ++k) {
-    world.step();
-    hashes.push_back(world.state_hash());
-  }
-  return hashes;
-}
-
 /* The step `at` fails at every place in turn, in one world: each failure leaves it as it was, and in the end it goes on. */
 void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const Placement &placement, int at, uint64_t stride, bool once)
 {
@@ -154,11 +107,6 @@ void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const
   CHECK(failures > 0);
 }
 
-std::vector<Ray> some_rays()
-{
-  return {{.origin = {0, 10, 0}, .direction = {0, -1, 0}, .reach = 100, .filter = {}}, {.origin = {1, 10, 1}, .direction = {0, -1, 0}, .reach = 100, .filter = {}}};
-}
-
 /* What reads or changes a world between steps, with the hash of the state that it leaves. */
 void fail_everywhere_between_steps(const Scene &scene, const Settings &settings, const Placement &placement, const Placement &other, uint64_t stride)
 {
@@ -166,8 +114,8 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
   const std::vector<std::pair<const char *, std::function<void(World &)>>> calls = {
       {"bodies", [](World &world) { world.bodies(); }},
       {"rays", [](World &world) { world.cast_rays_through(some_rays()); }},
-      {"boxes", [](World &world) { world.sweep_boxes(std::vector<QueryBox>{{.center = {0, 0, 0}, .half_extents = {2, 2, 2}, .displacement = {0, 0, 0}, .filter = {}}}); }},
-      {"sweep", [](World &world) { world.sweep(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 20, 0}}}, std::vector<Vec3>{{0, -30, 0}}); }},
+      {"boxes", [](World &world) { world.sweep_boxes(a_box()); }},
+      {"sweep", swept_ball},
       {"hash", [](World &world) { world.state_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
       {"place", [&](World &world) { world.place(other); }},

@@ -19,6 +19,11 @@ endfunction()
 
 sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
 
+if(TARGET tandem_heap_tests)
+  sanitizer_test(heap $<TARGET_FILE:tandem_heap_tests> ${fail_without_tests} "[sanitizer]")
+  add_dependencies(tandem_tests tandem_heap_tests)
+endif()
+
 add_executable(tandem_planted sanitizers/planted.cpp)
 target_link_libraries(tandem_planted PRIVATE tandem)
 set_target_properties(tandem_planted PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/build-tools)

@@ -54,12 +54,12 @@ inline std::string program()
   return given ? given : TANDEM_COMMAND;
 }
 
-/* `environment` stands before the program: "A=1 B=2". */
-inline Result command(const std::string &arguments, const std::string &environment = "")
+/* What a line does in the shell. */
+inline Result shell(const std::string &line)
 {
   const Scratch scratch;
   const std::string error = scratch.file("error");
-  std::FILE *pipe = popen((environment + " '" + program() + "' " + arguments + " 2>'" + error + "'").c_str(), "r");
+  std::FILE *pipe = popen(("(" + line + ") 2>'" + error + "'").c_str(), "r");
   REQUIRE(pipe);
   std::string out;
   char buffer[4096];
@@ -67,6 +67,9 @@ inline Result command(const std::string &arguments, const std::string &environme
   const int status = pclose(pipe);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, contents(error)};
 }
+
+/* `environment` stands before the program: "A=1 B=2". */
+inline Result command(const std::string &arguments, const std::string &environment = "") { return shell(environment + " '" + program() + "' " + arguments); }
 
 inline void check_refused(const std::string &arguments, const std::string &mentions, const std::string &environment = "")
 {

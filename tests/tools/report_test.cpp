@@ -1,21 +1,15 @@
 /* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report looked at in a browser. */
 #ifdef TANDEM_COMMAND
-#include "tests/catch.h"
+#include "tests/tools/command_line.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <set>
 #include <sstream>
 #include <string>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <nlohmann/json.hpp>
 
 #include "host/random.h"
 #include "host/scene_catalog.h"
@@ -25,51 +19,14 @@ using namespace tandem;
 
 namespace {
 
-using Json = nlohmann::json;
+using command_line::Json;
+using command_line::Result;
+using command_line::Scratch;
+using command_line::contents;
+using command_line::shell;
 namespace files = std::filesystem;
 
-struct Folder {
-  files::path path;
-  Folder()
-  {
-    std::string pattern = (files::temp_directory_path() / "tandem-report-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() { files::remove_all(path); }
-};
-
-std::string contents(const files::path &path)
-{
-  std::ifstream file(path, std::ios::binary);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-struct Outcome {
-  int status;
-  std::string out;
-};
-
-Outcome shell(const std::string &command)
-{
-  std::FILE *pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe);
-  std::string out;
-  char buffer[4096];
-  for (size_t size; (size = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.append(buffer, size);
-  const int status = pclose(pipe);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out};
-}
-
-void check_refused(const std::string &arguments, const std::string &mentions)
-{
-  const Outcome outcome = shell("'" TANDEM_COMMAND "' report " + arguments + " 2>&1 >/dev/null");
-  INFO(arguments << ": " << outcome.out);
-  CHECK(outcome.status == 2);
-  CHECK(std::count(outcome.out.begin(), outcome.out.end(), '\n') == 1);
-  CHECK(outcome.out.find(mentions) != std::string::npos);
-}
+void check_refused(const std::string &arguments, const std::string &mentions) { command_line::check_refused("report " + arguments, mentions); }
 
 bool beats(const Tradeoff &a, const Tradeoff &b) { return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error); }
 bool equals(const Tradeoff &a, const Tradeoff &b) { return a.cost == b.cost && a.error == b.error; }
@@ -105,12 +62,12 @@ Run run_of(const char *solver, double milliseconds, double error, uint32_t subst
 /* One report for all that looks at it. */
 const files::path &tiny_report()
 {
-  static const Folder folder;
-  static const Outcome outcome = shell("'" TANDEM_COMMAND "' report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 "
-                                       "--problems '" TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat' --out '" +
-                                       folder.path.string() + "/new/folder' 2>&1");
-  INFO(outcome.out);
-  REQUIRE(outcome.status == 0);
+  static const Scratch folder;
+  static const Result result = command_line::command("report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 "
+                                                     "--problems '" TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat' --out '" +
+                                                     folder.file("new/folder") + "'");
+  INFO(result.out << result.error);
+  REQUIRE(result.status == 0);
   static const files::path path = folder.path / "new/folder";
   return path;
 }
@@ -125,9 +82,9 @@ std::string browser()
 /* What the page holds once its script has run. */
 std::string page_in_browser(const std::string &query)
 {
-  const Folder profile;
+  const Scratch profile;
   return shell("timeout 60 " + browser() + " --headless --no-sandbox --disable-gpu --user-data-dir='" + profile.path.string() +
-               "' --dump-dom 'file://" + (tiny_report() / "report.html").string() + query + "' 2>/dev/null")
+               "' --dump-dom 'file://" + (tiny_report() / "report.html").string() + query + "'")
       .out;
 }
 
@@ -227,7 +184,7 @@ TEST_CASE("report: every solver has settings, also in the quick report, and all 
 
 TEST_CASE("report: bad input is one line and status 2", "[report][command]")
 {
-  const Folder folder;
+  const Scratch folder;
   const std::string out = " --out '" + folder.path.string() + "'";
   check_refused("--quick", "--out");
   check_refused("--scenes castle" + out, "castle");
@@ -240,7 +197,7 @@ TEST_CASE("report: bad input is one line and status 2", "[report][command]")
   check_refused("--problems missing.dat" + out, "missing.dat");
   check_refused("--quick --out /proc/nowhere/report", "/proc/nowhere/report");
   std::ofstream(folder.path / "file") << "taken";
-  check_refused("--quick --out '" + (folder.path / "file").string() + "'", "file");
+  check_refused("--quick --out '" + folder.file("file") + "'", "file");
   CHECK(files::is_empty(folder.path) == false);
   CHECK_FALSE(files::exists(folder.path / "report.html"));
 }

@@ -1,0 +1,306 @@
+/* worlds.cpp - every allocation of a world's life fails in turn: while it is made, in its steps, while it is read
+ * and written.
+ *
+ * After SQLite's out-of-memory tests. A world that cannot be made leaves nothing; a step happens whole or not at
+ * all, and the world goes on with the bits of one that nothing ever happened to; whoever only asks changes nothing. */
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <tbb/info.h>
+
+#include "tests/heap/attempt.h"
+#include "tests/host/fault_scenes.h"
+#include "tools/parallel.h"
+
+using namespace tandem;
+using namespace tandem::fault_scenes;
+using namespace tests::heap;
+
+namespace {
+
+const Placement serial{"serial", {}, false}, two_threads{"tbb:threads=2", {}, false};
+
+/* One pass of each kind: what differs are the kernels, not how often they run. */
+Settings short_step(Settings settings)
+{
+  settings.substeps = 1;
+  settings.iterations = std::min(settings.iterations, 2u);
+  return settings;
+}
+
+std::vector<Case> heap_cases()
+{
+  std::vector<Case> all = cases();
+  all.push_back({"box-stack:n=4,height=1", with("direct", "sap", true), "islands"});
+  all.push_back(
+      {TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with("jacobi", "brute-force", false), "hulls, split masses"});
+  all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json", with("soft-step", "grid", true), "meshes"});
+  for (Case &c : all) c.settings = short_step(c.settings);
+  return all;
+}
+
+/* A world as it was before something failed, and as it goes on. */
+void check_goes_on(World &world, const std::vector<uint64_t> &undisturbed, size_t at)
+{
+  REQUIRE(world.state_hash() == undisturbed[at]);
+  for (size_t k = at + 1; k < undisturbed.size(); ++k) {
+    world.step();
+    REQUIRE(world.state_hash() == undisturbed[k]);
+  }
+}
+
+std::unique_ptr<World> world_at(const Scene &scene, const Settings &settings, const Placement &placement, size_t at)
+{
+  auto world = std::make_unique<World>(scene, settings, placement);
+  for (size_t k = 0; k < at; ++k) world->step();
+  return world;
+}
+
+/* A world up to the call that fails. */
+struct Story {
+  Scene scene;
+  Settings settings;
+  Placement placement;
+  size_t at;                                             /* steps before the one that fails */
+  std::function<void(World &)> prepare = [](World &) {}; /* before it */
+};
+
+std::unique_ptr<World> begun(const Story &story)
+{
+  std::unique_ptr<World> world = world_at(story.scene, story.settings, story.placement, story.at);
+  story.prepare(*world);
+  return world;
+}
+
+/* Hashes before that step and after it, and of one more. */
+std::vector<uint64_t> undisturbed_hashes(const Story &story)
+{
+  const std::unique_ptr<World> world = begun(story);
+  std::vector<uint64_t> hashes{world->state_hash()};
+  for (int k = 0; k < 2; ++k) {
+    world->step();
+    hashes.push_back(world->state_hash());
+  }
+  return hashes;
+}
+
+void check_nothing_happened(World &world, const Story &story)
+{
+  CHECK(world.statistics().steps == story.at);
+  CHECK(world.quarantined().empty());
+  CHECK_FALSE(world.batch_fault());
+  if (story.settings.events) CHECK(world.contact_events().empty());
+}
+
+void fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
+{
+  const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
+  uint64_t failures = 0;
+  for (const bool once : {true, false})
+    for (uint64_t nth = 0;; nth += once ? stride : 7 * stride) {
+      CAPTURE(story.scene.name, story.settings.solver, story.settings.broadphase, story.placement.on, story.at, nth,
+              once);
+      const std::unique_ptr<World> world = begun(story);
+      const Outcome outcome = attempt(nth, once, [&] { world->step(); });
+      check_told(outcome);
+      failures += outcome.thrown;
+      if (outcome.thrown) check_nothing_happened(*world, story);
+      check_goes_on(*world, undisturbed, outcome.thrown ? 0 : 1);
+      if (!outcome.struck) break;
+    }
+  CHECK(failures > 0);
+}
+
+/* Long capsules side by side, slanted, so that all bounds overlap and none touch: many pairs, and little to do.
+ * Every second one comes from the side and is among the others in step `meeting`: then there are more pairs than
+ * there was room for. */
+Scene slanted_rods(int meeting)
+{
+  Scene scene;
+  scene.name = "slanted rods";
+  scene.shapes = {capsule_shape(0.02f, 5)};
+  scene.bodies.resize(52);
+  for (size_t i = 0; i < scene.bodies.size(); ++i) {
+    Body &body = scene.bodies[i];
+    body.position = {0.1 * static_cast<double>(i), 0.1 * static_cast<double>(i), i % 2 ? 0.5 * meeting : 0};
+    body.orientation = {0, 0, 0.38268343f, 0.92387953f}; /* by 45 degrees */
+    body.linear_velocity = {0, 0, i % 2 ? -30.0f : 0};
+  }
+  return scene;
+}
+
+/* The first step that ran again with larger buffers. */
+size_t first_growth(const Scene &scene, const Settings &settings)
+{
+  World world(scene, settings, serial);
+  for (size_t k = 0; k < 20; ++k) {
+    world.step();
+    if (world.statistics().overflow > 0) return k;
+  }
+  FAIL("no buffer has grown");
+  return 0;
+}
+
+BodyState spoilt(BodyState state)
+{
+  state.linear_velocity[1] = std::numeric_limits<float>::quiet_NaN();
+  return state;
+}
+
+using Call = std::function<void(World &)>;
+
+/* What reads a world, or asks it for something, and changes nothing of its state. */
+std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
+{
+  std::vector<std::pair<const char *, Call>> calls = {
+      {"bodies", [](World &world) { world.bodies(); }},
+      {"precise_bodies", [](World &world) { world.precise_bodies(); }},
+      {"cast_rays", [](World &world) { world.cast_rays(some_rays()); }},
+      {"find_blocked_rays", [](World &world) { world.find_blocked_rays(some_rays()); }},
+      {"cast_rays_through", [](World &world) { world.cast_rays_through(some_rays()); }},
+      {"sweep_boxes", [](World &world) { world.sweep_boxes(a_box()); }},
+      {"sweep", [](World &world) { swept_ball(world); }},
+      {"state_hash", [](World &world) { world.state_hash(); }},
+      {"body_hash", [](World &world) { world.body_hash(); }},
+      {"statistics", [](World &world) { world.statistics(); }},
+      {"kernels", [](World &world) { world.kernels(); }},
+      {"kernel times",
+       [](World &world) {
+         world.set_profiling(true);
+         world.take_kernel_times();
+       }},
+      {"place",
+       [](World &world) {
+         world.place(Placement{"serial", {{"solve", "tbb:threads=3"}, {"queries", "serial:order=backward"}}, false});
+       }},
+      {"set_body", [](World &world) { world.set_body(1, world.bodies()[1]); }},
+  };
+  if (settings.events) calls.push_back({"contact_events", [](World &world) { world.contact_events(); }});
+  if (settings.pair_events) calls.push_back({"pair_events", [](World &world) { world.pair_events(); }});
+  return calls;
+}
+
+/* Asked again with memory enough, it answers as one that was never refused; then it goes on. */
+void fail_everywhere_in(const Call &call, const Story &story)
+{
+  const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
+  for (const bool once : {true, false})
+    for (uint64_t nth = 0;; nth += once ? 1 : 7) {
+      CAPTURE(nth, once);
+      const std::unique_ptr<World> world = begun(story);
+      const Outcome outcome = attempt(nth, once, [&] { call(*world); });
+      check_told(outcome);
+      check_goes_on(*world, undisturbed, 0);
+      if (!outcome.struck) break;
+    }
+}
+
+} // namespace
+
+TEST_CASE("heap: a world that cannot be made for want of any one allocation leaves nothing", "[sanitizer]")
+{
+  for (const Case &c : heap_cases())
+    for (const Placement &placement : {serial, two_threads}) {
+      CAPTURE(c.scene, c.what, placement.on);
+      const Scene scene = load_scene(c.scene);
+      const uint64_t expected = hashes_of(scene, c.settings, placement, 2).back();
+      fail_everywhere([&] { World world(scene, c.settings, placement); });
+      CHECK(hashes_of(scene, c.settings, placement, 2).back() == expected);
+    }
+}
+
+TEST_CASE(
+    "heap: a step that fails for want of any one allocation leaves the state as it was, and the next ones their bits")
+{
+  for (const Case &c : heap_cases())
+    for (const size_t at : {0, 2}) {
+      fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, at});
+      fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, at}, 7);
+    }
+}
+
+TEST_CASE("heap: a step in which buffers grow leaves the state as it was where it fails")
+{
+  for (const auto &[broadphase, stride] : {std::pair<const char *, uint64_t>{"grid", 1}, {"trees", 17}, {"sap3", 17}})
+    for (const int meeting : {0, 2}) {
+      const Settings settings = short_step(with("soft-step", broadphase, true));
+      const Scene scene = slanted_rods(meeting);
+      const size_t at = first_growth(scene, settings);
+      CHECK((at > 0) == (meeting > 0));
+      fail_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
+      fail_everywhere_in_step({scene, settings, two_threads, at}, 53);
+    }
+  fail_everywhere_in_step({crowd(52), short_step(with("soft-step", "grid", true)), serial, 0},
+                          131); /* more colours than there are launches for, too */
+}
+
+TEST_CASE("heap: a step that takes a body out leaves it in where it fails")
+{
+  for (const Case &c : heap_cases()) {
+    const Story story{load_scene(c.scene), c.settings, serial, 1,
+                      [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }};
+    fail_everywhere_in_step(story);
+  }
+}
+
+/* Few of them, as the address sanitizer takes ten times as long. */
+TEST_CASE("heap: steps that fail here and there leave nothing behind", "[sanitizer]")
+{
+  for (const Case &c : heap_cases()) {
+    fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, 0}, 61);
+    fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, 1,
+                             [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }},
+                            61);
+  }
+  const Settings settings = short_step(with("soft-step", "grid", true));
+  const Scene scene = slanted_rods(2);
+  fail_everywhere_in_step({scene, settings, serial, first_growth(scene, settings)}, 211);
+}
+
+TEST_CASE("heap: what reads a world or asks it something changes nothing where it fails")
+{
+  for (const Case &c : heap_cases())
+    for (const auto &[name, call] : questions(c.settings)) {
+      CAPTURE(c.scene, c.what, name);
+      fail_everywhere_in(call, {load_scene(c.scene), c.settings, two_threads, 2});
+    }
+}
+
+/* The islands of `direct` are solved by tasks of TBB, which allocate. */
+TEST_CASE("heap: what fails in a task of another thread reaches who asked for the step", "[sanitizer]")
+{
+  if (tbb::info::default_concurrency() < 2) tests::skip("one processor: TBB has no other threads");
+  const Story story{load_scene("box-stack:n=64,height=1"), short_step(with("direct", "grid", false)), serial, 1};
+  const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
+  uint64_t elsewhere = 0;
+  for (uint64_t nth = 0;; nth += 5) {
+    CAPTURE(nth);
+    const std::unique_ptr<World> world = begun(story);
+    const Outcome outcome = attempt(nth, true, [&] { world->step(); });
+    check_told(outcome);
+    if (struck_another_thread()) ++elsewhere;
+    if (struck_another_thread()) CHECK(outcome.thrown);
+    check_goes_on(*world, undisturbed, outcome.thrown ? 0 : 1);
+    if (!outcome.struck) break;
+  }
+  CHECK(elsewhere > 0);
+}
+
+TEST_CASE("heap: work in parallel is done by fewer threads where there is no memory for more")
+{
+  for (uint64_t nth = 0;; ++nth)
+    for (const bool once : {true, false}) {
+      CAPTURE(nth, once);
+      std::array<std::atomic<int>, 20> done{};
+      const Outcome outcome = attempt(nth, once, [&] { in_parallel(done.size(), 4, [&](size_t i) { ++done[i]; }); });
+      check_told(outcome);
+      if (!outcome.thrown) CHECK(std::all_of(done.begin(), done.end(), [](const auto &times) { return times == 1; }));
+      if (!outcome.struck) return;
+    }
+}
