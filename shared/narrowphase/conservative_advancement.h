@@ -87,14 +87,18 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
     convex_pair pair = pair_of(&shape_a, &shape_b);
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
     vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center) : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
-    gjk_result near = closest_points_from(&pair.a, &pair.b, way.fastest * (way.horizon - met.at.time) + radii, guess);
+    gap_wanted wanted = {way.fastest * (way.horizon - met.at.time) + radii, way.roughly, radii};
+    gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
     vec3 along = rotate(pair.axes, near.contact.normal);
     met.normal = pair.swapped ? negate(along) : along;
     met.gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
     real closing = inner(met.normal, approach) + swing_along(a, met.normal) + swing_along(b, met.normal);
-    real seen_by_a = free_beside(a, b, a->linear, met.normal, met.gap, met.at, way);
-    real seen_by_b = free_beside(b, a, a->linear, negate(met.normal), met.gap, met.at, way);
-    met.at = advanced(met.at, round, met.gap, closing, maximum(seen_by_a, seen_by_b), way);
+    real chord = R(0.0);
+    if (met.gap > way.touching && met.gap < closing * (way.horizon - met.at.time)) {
+      real seen_by_a = free_beside(a, b, a->linear, met.normal, met.gap, met.at, way);
+      chord = maximum(seen_by_a, free_beside(b, a, a->linear, negate(met.normal), met.gap, met.at, way));
+    }
+    met.at = advanced(met.at, round, met.gap, closing, chord, way);
   }
   return met;
 }

@@ -89,7 +89,7 @@ SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real le
   const convex *a = &pair->a, *b = &pair->b;
   core_meeting met = {axis, 0, b->center};
   if (by_axes && axis.gap <= R(0.0)) return met;
-  gjk_result near = closest_points_from(a, b, limit, by_axes ? negate(axis.normal) : subtract(a->center, b->center));
+  gjk_result near = closest_points_from(a, b, whole_gap(limit), by_axes ? negate(axis.normal) : subtract(a->center, b->center));
   met.apart = !near.overlapping;
   if (met.apart) {
     met.contact = near.contact;

@@ -172,8 +172,18 @@ SHARED vec3 carried_point(const simplex *s)
   return point;
 }
 
-/* limit: a gap beyond it need not be known any better. v: a first guess of the way from b to a. */
-SHARED gjk_result closest_points_from(const convex *a, const convex *b, real limit, vec3 v)
+/* How well the gap is to be known: not at all beyond the limit; else but for a share of what the distance of the cores exceeds their
+ * radii by. */
+typedef struct { real limit, share, radii; } gap_wanted;
+
+SHARED gap_wanted whole_gap(real limit)
+{
+  gap_wanted wanted = {limit, R(0.0), R(0.0)};
+  return wanted;
+}
+
+/* v: a first guess of the way from b to a. */
+SHARED gjk_result closest_points_from(const convex *a, const convex *b, gap_wanted wanted, vec3 v)
 {
   gjk_result result;
   simplex *s = &result.last;
@@ -196,7 +206,8 @@ SHARED gjk_result closest_points_from(const convex *a, const convex *b, real lim
     }
     if (s->count > 0) {
       real rounding = ROUNDING * (R(16.0) * distance + R(4.0) * size_of_simplex(s));
-      if (distance - gap <= rounding || gap > limit || has_point(s, next.w)) break;
+      real unknown = wanted.share * maximum(distance - wanted.radii, R(0.0));
+      if (distance - gap <= rounding + unknown || gap > wanted.limit || has_point(s, next.w)) break;
     }
     simplex before = *s;
     s->point[s->count] = next;
@@ -234,7 +245,7 @@ SHARED gjk_result closest_points_from(const convex *a, const convex *b, real lim
 }
 SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)
 {
-  return closest_points_from(a, b, limit, subtract(a->center, b->center));
+  return closest_points_from(a, b, whole_gap(limit), subtract(a->center, b->center));
 }
 
 #endif

@@ -31,6 +31,8 @@
 #define SLOW_ROUNDS 8
 /* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
 #define FAR_SHARE R(0.25)
+/* Of a gap: bodies advance by less than that, and the manifold has a normal of its own. */
+#define ROUGHLY R(0.1)
 /* Of the least size: shapes this close count as touching. */
 #define TOUCHING_SHARE R(1e-3)
 /* For the contacts of a step this share is enough, and no more than that of the slop is asked for: a pair that rolls along with hardly
@@ -68,16 +70,17 @@ SHARED vec3 offset_after(vec3 offset, pair_motion m, real time) { return add_sca
 /* The rotation that an even spin makes within a time. */
 SHARED mat3 turn_within(vec3 angular, real time) { return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time))); }
 
-/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; whether the pair comes far by that. */
+/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; which share of a gap may stay unknown, and with it
+ * the normal; whether the pair comes far. */
 typedef struct {
-  real horizon, touching, fastest;
+  real horizon, touching, fastest, roughly;
   mask far;
 } journey;
 
 SHARED journey journey_of(real fastest, real horizon, real least, real size)
 {
   real rounding = R(16.0) * ROUNDING * (fastest * horizon + size);
-  journey way = {horizon, maximum(TOUCHING_SHARE * least, rounding), fastest, fastest == fastest};
+  journey way = {horizon, maximum(TOUCHING_SHARE * least, rounding), fastest, R(0.0), fastest == fastest};
   return way;
 }
 
@@ -89,6 +92,7 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
   real horizon = parameters->step + parameters->speculative_distance / fastest;
   real enough = minimum(least * (TOUCHING_SHARE_OF_STEP / TOUCHING_SHARE), parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE));
   journey way = journey_of(fastest, horizon, enough, size);
+  way.roughly = ROUGHLY;
   way.far = fastest * parameters->step > FAR_SHARE * least;
   return way;
 }

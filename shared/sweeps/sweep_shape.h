@@ -13,7 +13,7 @@
 
 SHARED journey sweep_journey(real length, real horizon, real least, real size)
 {
-  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, 1};
+  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, R(0.0), 1};
   return way;
 }
 
