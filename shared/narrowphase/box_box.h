@@ -240,7 +240,8 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
 
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
 {
-  return (shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX) & (shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX);
+  mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX, second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
+  return first & second;
 }
 
 SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
