@@ -11,6 +11,14 @@
  * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
  * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
  *
+ * For contacts an edge must lead by more. Where faces meet at a small angle the axis of two edges is nearly that of the faces,
+ * and leads by a little: its one point would stop one corner of a box that lands, which turns about it, and the next
+ * contacts are found a step later, when the corners without a point have sunk in. Points of faces lie on both boxes all the same:
+ *
+ *      \-----________               What the box of b is above the face of a is measured at each point, so none is
+ *       o            o-----\   b     made too early; the normal alone is off by that small angle.
+ *      -----------------------  a
+ *
  * Boxes rest in one another by the slop. So one that slides over a floor of tiles would meet the side of the next tile, and
  * one in a grid its neighbours' neighbours:
  *
@@ -74,6 +82,9 @@ SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 /* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
 SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }
 
+/* Of the smallest half extent of a pair: faces are taken for contacts unless edges lead by more. */
+#define LEAD_OF_EDGES R(0.05)
+
 /* The slop and what a contact sags more than that, as a share of the slop. */
 #define ROUNDED_EDGE R(1.25)
 /* The separation of boxes of which only rounded edges meet. */
@@ -88,8 +99,9 @@ SHARED mask only_edges_meet(vec3 gap, real rounded, real lead)
 }
 
 /* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of their edges
- * counts as rounded off; metres. */
-SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded)
+ * counts as rounded off; lead_of_edges: by how much edges must lead to be the axis, beside what rounding asks for: the separation is
+ * theirs also where they do not. Metres. */
+SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded, real lead_of_edges)
 {
   vec3 to_b = in_axes_of(a, offset);
   vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
@@ -120,9 +132,9 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   edges = edges_against(edges, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, noise);
   edges = edges_against(edges, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, noise);
   edges = edges_against(edges, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, noise);
-  mask on_edges = edges.separation > best.separation + lead;
-  best.separation = choose(on_edges, edges.separation, best.separation);
-  best.code = choose(on_edges, edges.code, best.code);
+  real ahead = edges.separation - best.separation;
+  best.separation = choose(ahead > lead, edges.separation, best.separation);
+  best.code = choose(ahead > lead + lead_of_edges, edges.code, best.code);
   mask rounded_off = (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
   best.separation = choose(rounded_off, (real)FAR_APART, best.separation);
   return best;

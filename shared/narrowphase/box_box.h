@@ -157,10 +157,11 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
   return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
 }
 
-/* toward: the offset of the boxes, or one by which they shall part. rounded: how much of their edges counts as rounded off. */
-SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded)
+/* toward: the offset of the boxes, or one by which they shall part. rounded: how much of their edges counts as rounded off.
+ * lead_of_edges: by how much edges must lead. */
+SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded, real lead_of_edges)
 {
-  separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded);
+  separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded, lead_of_edges);
   box_pair pair = {boxes.a, boxes.b, boxes.offset, normal_of_axis(boxes.a, boxes.b, toward, axis.code), axis.separation, axis.code};
   return pair;
 }
@@ -171,8 +172,14 @@ SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, 
   real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, pair.normal);
   mask near = wanted & (pair.gap < reach), on_edges = pair.code >= 6u;
   manifold none = single_contact(pair.normal, pair.offset, reach, near & (!near));
-  manifold with_face = with_face_contacts(none, near & (!on_edges), pair);
-  return kept_within(with_edge_contact(with_face, near & on_edges, pair), reach);
+  manifold m = with_face_contacts(none, near & (!on_edges), pair);
+  m = kept_within(with_edge_contact(m, near & on_edges, pair), reach);
+
+  /* Seen along the normal of a face, edges that will meet may still pass beside each other. */
+  mask beside = near & (!has_points(m));
+  if (!any_of(beside)) return m;
+  box_pair sharp = along_best_axis(pair, pair.offset, parameters->slop, R(0.0), R(0.0));
+  return kept_within(with_edge_contact(m, beside & (sharp.code >= 6u), sharp), reach);
 }
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
@@ -198,7 +205,7 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
   real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0));
+    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0), R(0.0));
     mask face_of_b = (now.code >= 3u) & (now.code < 6u);
     real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
     vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
@@ -256,7 +263,7 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
 
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
-  box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded);
+  box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
   m.impact_time = choose(speculation_of(parameters, m, pair.moves, pair.way, pair.least).asked, (real)AHEAD, (real)R(0.0));
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
@@ -280,7 +287,7 @@ SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   speculation s = speculation_of(parameters, start, pair.moves, pair.way, pair.least);
   encounter met = encounter_of(s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
-  box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded);
+  box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
   manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);
   met.at_impact = met.at_impact & has_points(m); /* rounded edges may meet without a contact */
   m = as_seen_from_start(parameters, choose_manifold(met.at_impact, m, start), met, then.offset, pair.moves);

@@ -124,6 +124,9 @@ double lead_of(const PairScene &scene, const TestBody &a, const TestBody &b)
          2 * rounding(a, b);
 }
 
+/* By how much edges must lead faces to carry the contact of two boxes, as box_axes.h says. */
+double lead_of_edges(const TestBody &a, const TestBody &b) { return 0.05 * std::min(a.extent().minCoeff(), b.extent().minCoeff()); }
+
 /* Best gap over all axes; what edges say is worth the less, the nearer they are to parallel. */
 const ReferenceAxis &best_axis(const std::vector<ReferenceAxis> &axes, double error)
 {
@@ -151,7 +154,9 @@ std::string fault_of_axis(const PairScene &scene, const Contact &contact, const 
   /* Boxes with one centre part by three leads to a side of their own. */
   const double least = std::min(a.extent().minCoeff(), b.extent().minCoeff());
   const double leads = (a.center() - b.center()).norm() < 1.01e-3 * least ? 5 : 2;
-  if (gap < best.gap - error / best.sharpness - leads * lead_of(scene, a, b)) return "not the axis of least overlap";
+  const double missing = best.gap - error / best.sharpness - leads * lead_of(scene, a, b) - gap;
+  const bool face_for_edges = best.edges && !nearest_axis(all_axes(box_a, box_b), contact.normal).edges;
+  if (missing > (face_for_edges ? lead_of_edges(a, b) : 0)) return "not the axis of least overlap";
   return "";
 }
 
@@ -295,7 +300,8 @@ bool axis_is_clear(const PairScene &scene, const TestBody &a, const TestBody &b)
   const std::vector<ReferenceAxis> axes = all_axes(ReferenceBox(a), ReferenceBox(b));
   const ReferenceAxis best = best_axis(axes, rounding(a, b));
   return std::all_of(axes.begin(), axes.end(), [&](const ReferenceAxis &axis) {
-    const double margin = 2 * lead_of(scene, a, b) + 2 * rounding(a, b) / axis.sharpness;
+    const double margin = 2 * lead_of(scene, a, b) + 2 * rounding(a, b) / axis.sharpness +
+                          (best.edges && !axis.edges ? lead_of_edges(a, b) : 0);
     return axis.gap < best.gap - margin || (axis.direction - best.direction).norm() < 1e-9;
   });
 }
