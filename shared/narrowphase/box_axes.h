@@ -36,12 +36,14 @@
 typedef struct {
   real separation;
   natural code;
+  natural edges;    /* code of the best axis of two edges */
+  mask edges_lead;  /* the separation is theirs, though the code may be that of a face (LEAD_OF_EDGES) */
 } separating_axis;
 
 SHARED separating_axis better_axis(separating_axis best, real separation, uint code, real lead)
 {
   mask better = separation > best.separation + lead;
-  separating_axis result;
+  separating_axis result = best;
   result.separation = choose(better, separation, best.separation);
   result.code = choose(better, (natural)code, best.code);
   return result;
@@ -65,12 +67,10 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
 SHARED separating_axis edges_against(separating_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
                                      real noise)
 {
-  best = better_axis(best, edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise),
-                     code, noise);
-  best = better_axis(best, edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise),
-                     code + 3u, noise);
-  return better_axis(best, edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise),
-                     code + 6u, noise);
+  real along_x = edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise);
+  real along_y = edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise);
+  real along_z = edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise);
+  return better_axis(better_axis(better_axis(best, along_x, code, noise), along_y, code + 3u, noise), along_z, code + 6u, noise);
 }
 
 SHARED vec3 in_axes_of(oriented_box box, vec3 v)
@@ -117,23 +117,22 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   real noise = span * R(5e-7);
   real lead = lead_of(slop, minimum(least_of(a.extent), least_of(b.extent))) + noise * R(2.0);
 
-  separating_axis best;
-  best.separation = gap_a.x;
-  best.code = 0u;
+  mask none = noise < R(0.0);
+  separating_axis best = {gap_a.x, 0u, 6u, none};
   best = better_axis(best, gap_a.y, 1u, lead);
   best = better_axis(best, gap_a.z, 2u, lead);
   best = better_axis(best, gap_b.x, 3u, lead);
   best = better_axis(best, gap_b.y, 4u, lead);
   best = better_axis(best, gap_b.z, 5u, lead);
 
-  separating_axis edges;
-  edges.separation = R(-1e30);
-  edges.code = 6u;
+  separating_axis edges = {R(-1e30), 6u, 6u, none};
   edges = edges_against(edges, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, noise);
   edges = edges_against(edges, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, noise);
   edges = edges_against(edges, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, noise);
   real ahead = edges.separation - best.separation;
-  best.separation = choose(ahead > lead, edges.separation, best.separation);
+  best.edges = edges.code;
+  best.edges_lead = ahead > lead;
+  best.separation = choose(best.edges_lead, edges.separation, best.separation);
   best.code = choose(ahead > lead + lead_of_edges, edges.code, best.code);
   mask rounded_off = (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
   best.separation = choose(rounded_off, (real)FAR_APART, best.separation);

@@ -19,6 +19,8 @@ typedef struct {
   vec3 normal; /* unit, from a to b */
   real gap; /* along it */
   natural code; /* of the axis: box_axes.h */
+  natural edges; /* code of the edges that will do where the axis is a face's (edges_lead) and no point lies on the face */
+  mask edges_lead;
 } box_pair;
 
 SHARED natural bit_if(mask m, uint bit) { return choose(m, (natural)1u, (natural)0u) << bit; }
@@ -162,30 +164,36 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
 SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded, real lead_of_edges)
 {
   separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded, lead_of_edges);
-  box_pair pair = {boxes.a, boxes.b, boxes.offset, normal_of_axis(boxes.a, boxes.b, toward, axis.code), axis.separation, axis.code};
+  vec3 normal = normal_of_axis(boxes.a, boxes.b, toward, axis.code);
+  box_pair pair = {boxes.a, boxes.b, boxes.offset, normal, axis.separation, axis.code, axis.edges, axis.edges_lead};
   return pair;
 }
 
-/* The manifold of two boxes as they stand. */
+/* The same pair along the axis of two edges. */
+SHARED box_pair along_edges(mask wanted, box_pair pair)
+{
+  box_pair result = pair;
+  if (!any_of(wanted)) return result;
+  result.code = choose(wanted, pair.edges, pair.code);
+  result.normal = choose3(wanted, normal_of_axis(pair.a, pair.b, pair.offset, pair.edges), pair.normal);
+  return result;
+}
+
+/* The manifold of two boxes as they stand. Seen along the normal of a face, edges that will meet may still pass beside each other. */
 SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, pair_motion moves)
 {
   real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, pair.normal);
   mask near = wanted & (pair.gap < reach), on_edges = pair.code >= 6u;
   manifold none = single_contact(pair.normal, pair.offset, reach, near & (!near));
-  manifold m = with_face_contacts(none, near & (!on_edges), pair);
-  m = kept_within(with_edge_contact(m, near & on_edges, pair), reach);
-
-  /* Seen along the normal of a face, edges that will meet may still pass beside each other. */
-  mask beside = near & (!has_points(m));
-  if (!any_of(beside)) return m;
-  box_pair sharp = along_best_axis(pair, pair.offset, parameters->slop, R(0.0), R(0.0));
-  return kept_within(with_edge_contact(m, beside & (sharp.code >= 6u), sharp), reach);
+  manifold on_face = kept_within(with_face_contacts(none, near & (!on_edges), pair), reach);
+  mask beside = near & (!on_edges) & pair.edges_lead & (!has_points(on_face));
+  return kept_within(with_edge_contact(on_face, (near & on_edges) | beside, along_edges(beside, pair)), reach);
 }
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 {
   box_pair then = {turned_box(pair.a, moves.a.angular, time), turned_box(pair.b, moves.b.angular, time), offset_after(pair.offset, moves, time),
-                   pair.normal, pair.gap, pair.code};
+                   pair.normal, pair.gap, pair.code, pair.edges, pair.edges_lead};
   return then;
 }
 
@@ -238,7 +246,8 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
   pair.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
   pair.boxes.offset = pair.boxes.normal = offset_between(positions, a, b);
   pair.boxes.gap = R(0.0);
-  pair.boxes.code = 0u;
+  pair.boxes.code = pair.boxes.edges = 0u;
+  pair.boxes.edges_lead = pair.boxes.gap > R(0.0);
   pair.least = minimum(least_of(pair.boxes.a.extent), least_of(pair.boxes.b.extent));
   pair.way = journey_of_step(parameters, pair.moves, pair.least, shape_a.w + shape_b.w);
   pair.rounded = ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * pair.least);

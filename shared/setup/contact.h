@@ -130,7 +130,7 @@ SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - 
 
 /* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact. In the substep of the
  * impact the others would be off by that much. */
-#define FOLLOWED_SHARE R(0.5)
+#define FOLLOWED_SHARE R(1.0)
 
 /* What two bodies have slid past each other moves their arms. Arms must end in one point of the world, or an impulse through them
  * adds angular momentum: a body that cannot move takes the whole difference, two that can share it. */
