@@ -99,7 +99,11 @@ Transform local_transform(const GltfDocument &document, int index)
   return local;
 }
 
-bool is_scaled_to_nothing(const Transform &t) { return length(t.column[0]) == 0 && length(t.column[1]) == 0 && length(t.column[2]) == 0; }
+/* By the numbers themselves: the square of a small one is 0. */
+bool is_scaled_to_nothing(const Transform &t)
+{
+  return std::all_of(&t.column[0][0], &t.column[0][0] + 9, [](double x) { return x == 0; });
+}
 
 RigidPlace rigid_place(const GltfDocument &document, int index, const Transform &world)
 {

@@ -243,3 +243,20 @@ TEST_CASE("glTF: binary files whose chunks do not fit are refused")
   CHECK_THAT(said(json + json, 2, 12 + 2 * json.size()), ContainsSubstring("must be the JSON"));
   CHECK_THAT(said("", 2, 12), ContainsSubstring("ends within its first 20 bytes"));
 }
+
+TEST_CASE("glTF, strictly: what is not 0 but rounds to it does not stand for infinity")
+{
+  for (const char *small : {"1e-46", "-1e-46", "1e-300", "1e-400", "0.0000001e-9999"}) {
+    const std::string number(small);
+    check_refused({.nodes = cup("\"mass\":" + number)}, "node 'Cup': motion.mass: is ");
+    check_refused({.nodes = cup("\"mass\":1,\"inertiaDiagonal\":[1,1," + number + "]")}, "node 'Cup': motion.inertiaDiagonal[2]: is ");
+    CHECK(complaint({.nodes = cup("\"linearVelocity\":[0,1," + number + "]")}).empty());
+    CHECK(complaint({.nodes = cup("", 0, "\"translation\":[0,1," + number + "],")}).empty());
+  }
+  for (const char *zero : {"0", "-0", "0.0", "0e-999", "-0.000E5"}) {
+    const Scene scene = loaded({.nodes = cup(std::string("\"mass\":") + zero)});
+    CHECK(scene.bodies[0].motion == Motion::kinematic);
+  }
+  CHECK(loaded({.nodes = cup("\"mass\":1e-35")}).bodies[0].motion == Motion::dynamic);
+  check_refused({.nodes = collider(0, R"("name":"Cup","scale":[1e-200,1e-200,1e-200],)")}, "node 'Cup': its scale is 0");
+}

@@ -145,6 +145,23 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
   check_refused(gltf("missing.bin"), "buffers[0].uri");
 }
 
+TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 stands for something else", "[command]")
+{
+  const Scratch scratch;
+  const auto body = [&](const std::string &members, const std::string &scale = "[1,1,1]") {
+    write(scratch.file("small.json"), R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[3,0,0],[0,2,0],[0,0,1]],"triangles":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]],"scale":)" +
+                                        scale + R"(}],"bodies":[{"shape":0,"motion":"fixed",)" + members + "}]}");
+    return run(scratch.file("small.json"));
+  };
+  for (const char *small : {"1e-46", "-1e-300", "1e-999"}) {
+    check_refused(body("\"mass\":" + std::string(small)), "bodies[0].mass: is ");
+    check_refused(body("\"inertia\":[1,1," + std::string(small) + "]"), "bodies[0].inertia[2]: is ");
+    check_refused(body("\"linear_damping\":" + std::string(small)), "bodies[0].linear_damping: is ");
+    check_refused(body("\"mass\":1", "[1,1," + std::string(small) + "]"), "shapes[0].scale[2]: is ");
+    CHECK(command(body("\"linear_velocity\":[0,0," + std::string(small) + "]")).status == 0);
+  }
+}
+
 TEST_CASE("hostile numbers: a ball rests on a strip of 20 km by 1 cm", "[command]")
 {
   const Scratch scratch;
