@@ -260,3 +260,25 @@ TEST_CASE("glTF, strictly: what is not 0 but rounds to it does not stand for inf
   CHECK(loaded({.nodes = cup("\"mass\":1e-35")}).bodies[0].motion == Motion::dynamic);
   check_refused({.nodes = collider(0, R"("name":"Cup","scale":[1e-200,1e-200,1e-200],)")}, "node 'Cup': its scale is 0");
 }
+
+TEST_CASE("glTF, strictly: corners that make no whole triangles")
+{
+  const auto more = [](int mode, int count, bool indexed) {
+    return R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":)" + std::to_string(mode) + (indexed ? R"(,"indices":1)" : "") +
+           R"(}]}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" + std::to_string(indexed ? 3 : count) +
+           R"(},{"bufferView":1,"componentType":5121,"type":"SCALAR","count":)" + std::to_string(count) +
+           R"(}],"bufferViews":[{"buffer":0,"byteLength":84},{"buffer":0,"byteOffset":84,"byteLength":8}],"buffers":[{"byteLength":92,"uri":")" +
+           "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/" + /* 0 0 0, 1 0 0, 0 0 -1 */
+           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/AAAAAAAAAAAAAAAA" + "AAECAAECAAA=" + R"("}])";
+  };
+  for (const bool indexed : {false, true}) {
+    for (const int count : {1, 2, 4, 5, 7}) check_refused({.nodes = cup_of(R"("mesh":0)"), .more = more(4, count, indexed)}, "a multiple of 3 is needed");
+    for (const int mode : {5, 6})
+      for (const int count : {1, 2}) check_refused({.nodes = cup_of(R"("mesh":0)"), .more = more(mode, count, indexed)}, "at least 3 are needed");
+    for (const int count : {3, 6}) CHECK_THAT(complaint({.nodes = cup_of(R"("mesh":0)"), .more = more(4, count, indexed)}), !ContainsSubstring("needed"));
+  }
+  const auto with_end = [&](const std::string &end) { return replaced(more(4, 3, false), "AAECAAECAAA=", end); };
+  for (const char *end : {"AAECAAECAAA====", "AAECAAECAAA=x", "AAECAAECAAA=AAAA", "AAECAAEC=AA=", "AAEC!AECAAA="})
+    check_refused({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}, "no readable base64 data");
+  for (const char *end : {"AAECAAECAAA=", "AAECAAECAAA"}) CHECK_THAT(complaint({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}), !ContainsSubstring("base64"));
+}
