@@ -273,6 +273,8 @@ JsonDocument::~JsonDocument() { take_apart(value_); }
 
 JsonDocument parse_json(const std::string &text, const std::string &where)
 {
+  if (const size_t zero = text.find('\0'); zero != std::string::npos) /* at which the library would end, in silence */
+    throw InputError(fmt::format("{}:{}: malformed JSON: a byte of 0; it stands in no text", where, line_and_column(text, zero + 1)));
   Builder builder(text, where);
   nlohmann::json::sax_parse(text, &builder);
   return std::move(builder.document);

@@ -26,6 +26,13 @@ struct Chunks {
   std::string json, binary;
 };
 
+/* Chunks are filled up to four bytes: this one with blanks, but some writers take zeros, as the other has them. */
+std::string without_padding(std::string json)
+{
+  for (int i = 0; i < 3 && json.ends_with('\0'); ++i) json.pop_back();
+  return json;
+}
+
 Chunks chunks_of(const std::string &bytes, const std::string &where)
 {
   const auto fail = [&](const char *why) {
@@ -42,7 +49,7 @@ Chunks chunks_of(const std::string &bytes, const std::string &where)
     if (room < 8 || number_at(bytes, at) > room - 8) fail("a chunk ends behind the file");
     const uint32_t length = number_at(bytes, at), type = number_at(bytes, at + 4);
     if ((number == 0) != (type == json_chunk)) fail("its first chunk, and that one alone, must be the JSON");
-    if (number == 0) chunks.json = bytes.substr(at + 8, length);
+    if (number == 0) chunks.json = without_padding(bytes.substr(at + 8, length));
     else if (number == 1 && type == binary_chunk) chunks.binary = bytes.substr(at + 8, length);
     at += 8 + size_t{length};
   }

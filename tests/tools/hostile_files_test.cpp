@@ -145,6 +145,18 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
   check_refused(gltf("missing.bin"), "buffers[0].uri");
 }
 
+TEST_CASE("hostile files: a zero byte ends no file", "[command]")
+{
+  const Scratch scratch;
+  const std::string zero(1, '\0'), json = R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":1}],"bodies":[{"shape":0}]})";
+  for (const std::string &text : {json + zero, json + zero + "garbage", json + "\n" + zero + "\n", zero + json, json.substr(0, 20) + zero + json.substr(20)}) {
+    write(scratch.file("zero.json"), text);
+    check_refused(run(scratch.file("zero.json")), "a byte of 0");
+    write(scratch.file("zero.gltf"), text);
+    check_refused(run(scratch.file("zero.gltf")), "a byte of 0");
+  }
+}
+
 TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 stands for something else", "[command]")
 {
   const Scratch scratch;
