@@ -82,10 +82,13 @@ const char *const node_keys[] = {"camera", "children",    "skin",    "matrix", "
 /* A matrix stands for the three others. */
 void check_transform(const JsonValue &json, const GltfNode &node)
 {
+  for (const auto &[key, size] : {std::pair{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}})
+    if (const auto list = json.find(key); list && list->array_size() != size_t(size))
+      list->fail(fmt::format("has {} numbers; {} are needed", list->array_size(), size));
   for (const char *key : {"translation", "rotation", "scale"})
     if (json.find("matrix") && json.find(key)) json.fail(fmt::format("matrix and {} exclude each other", key));
   const std::vector<double> &m = node.matrix;
-  if (m.size() == 16 && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+  if (!m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
     json.member("matrix").fail("the last row of the matrix (numbers 3, 7, 11 and 15) must be 0, 0, 0, 1");
 }
 
