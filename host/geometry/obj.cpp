@@ -125,7 +125,8 @@ int64_t ObjReader::corner(std::string_view word) const
   }
   if (first > 0) return first - 1;
   const auto before = static_cast<int64_t>(vertices.size());
-  if (-first > before) fail(fmt::format("a face counts back {} vertices before the first", -first - before), line_);
+  if (first < -before) /* the least of all has no opposite */
+    fail(fmt::format("a face counts back {} vertices before the first", -(uint64_t(first) + uint64_t(before))), line_);
   return before + first;
 }
 
