@@ -145,6 +145,21 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
   check_refused(gltf("missing.bin"), "buffers[0].uri");
 }
 
+TEST_CASE("hostile files: a file that a scene names and that is missing is called missing, from wherever the command runs", "[command]")
+{
+  const Scratch scratch;
+  files::create_directories(scratch.path / "below");
+  for (const char *name : {"missing.obj", "below/missing.obj", "nowhere/missing.obj"}) {
+    write(scratch.file("s.json"), mesh_scene(name));
+    for (const std::string &scene : std::vector<std::string>{"s.json", "./s.json", "below/../s.json", scratch.file("s.json")})
+      check_refused(run(scene), "No such file", "cd " + scratch.path.string() + ";");
+  }
+  for (const char *name : {"../missing.obj", "below/../../missing.obj"}) {
+    write(scratch.file("s.json"), mesh_scene(name));
+    check_refused(run("s.json"), "lies outside the folder of the scene", "cd " + scratch.path.string() + ";");
+  }
+}
+
 TEST_CASE("hostile files: a zero byte ends no file", "[command]")
 {
   const Scratch scratch;
