@@ -56,10 +56,24 @@ Chunks chunks_of(const std::string &bytes, const std::string &where)
   return chunks;
 }
 
+/* Of "2.1" the 1. */
+uint32_t minor_version(const JsonValue &json)
+{
+  const std::string text = json.text();
+  uint32_t minor = 0;
+  const char *begin = text.data() + 2, *end = text.data() + text.size();
+  const bool major = text.starts_with("2.") && text.size() > 2;
+  const auto [stop, error] = major ? std::from_chars(begin, end, minor) : std::from_chars_result{begin, std::errc::invalid_argument};
+  if (error != std::errc{} || stop != end) json.fail(fmt::format("is {}; glTF 2 is read", nlohmann::json(text).dump()));
+  return minor;
+}
+
 void check_version(const JsonValue &root)
 {
-  const JsonValue version = root.member("asset").member("version");
-  if (!version.text().starts_with("2.")) version.fail(fmt::format("is {}; glTF 2 is read", version.text()));
+  const JsonValue asset = root.member("asset"), version = asset.member("version");
+  minor_version(version); /* what a later one adds may be passed over, unless the file says that it may not */
+  if (const auto least = asset.find("minVersion"); least && minor_version(*least) > 0)
+    least->fail(fmt::format("is {}; glTF 2.0 is read, and a reader of 2.0 must refuse what asks for more", least->text()));
 }
 
 std::vector<double> read_numbers(const JsonValue &list)

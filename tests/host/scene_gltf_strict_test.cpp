@@ -281,3 +281,22 @@ TEST_CASE("glTF, strictly: corners that make no whole triangles")
     check_refused({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}, "no readable base64 data");
   for (const char *end : {"AAECAAECAAA=", "AAECAAECAAA"}) CHECK_THAT(complaint({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}), !ContainsSubstring("base64"));
 }
+
+TEST_CASE("glTF, strictly: the version, and the least that the file asks for")
+{
+  const auto said = [](const std::string &asset) {
+    TemporaryFile file(replaced(gltf({.nodes = cup("")}), R"({"version":"2.0"})", asset));
+    try {
+      read_scene_gltf(file.path);
+    } catch (const InputError &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char *least : {R"("3.0")", R"("2.1")", R"("1.0")", R"("2.")", R"("2.0x")", R"("two")", R"("")", "2", "2.0", "null", "{}", "[]", "true"})
+    CHECK_THAT(said(R"({"version":"2.0","minVersion":)" + std::string(least) + "}"), ContainsSubstring("asset.minVersion: is "));
+  for (const char *version : {R"("3.0")", R"("2.")", R"("2.x")", R"("2")", "2.0", "null"})
+    CHECK_THAT(said(R"({"version":)" + std::string(version) + "}"), ContainsSubstring("asset.version: is "));
+  CHECK(said(R"({"version":"2.0","minVersion":"2.0"})").empty());
+  CHECK(said(R"({"version":"2.1"})").empty());
+}
