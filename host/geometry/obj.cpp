@@ -82,11 +82,12 @@ float ObjReader::number(std::string_view word) const
 {
   float value = 0;
   const char *end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, value);
+  const char *start = word.data() + (word.starts_with("+") && !word.starts_with("+-") ? 1 : 0);
+  const auto [stop, error] = std::from_chars(start, end, value);
   if (error == std::errc::result_out_of_range &&
       stop == end) { /* too small for a float is none; too large is a mistake */
     double wide = 0;
-    const auto [wide_stop, wide_error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, wide);
+    const auto [wide_stop, wide_error] = std::from_chars(start, end, wide);
     if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return round_to_float(wide);
   }
   if (error != std::errc{} || stop != end || !std::isfinite(value))
