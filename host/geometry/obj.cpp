@@ -12,6 +12,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include "host/geometry/polygon_crossing.h"
 #include "host/input_file.h"
 
 namespace tandem {
@@ -32,6 +33,7 @@ public:
   ObjReader(const std::string &text, const std::string &where) : text_(text), where_(where) {}
   void read();
   void check_corners() const;
+  void check_crossings() const;
 
   std::vector<Vec3> vertices;
   std::vector<Face> faces;
@@ -163,6 +165,16 @@ void ObjReader::check_corners() const
              face.line);
 }
 
+/* Quads would be cut all the same, into triangles that overlap. */
+void ObjReader::check_crossings() const
+{
+  for (const Face &face : faces) {
+    std::vector<Vec3> corners;
+    for (const int64_t corner : face.corners) corners.push_back(vertices[size_t(corner)]);
+    if (crosses_itself(corners)) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
+  }
+}
+
 /* The same vertices and faces, and nothing that could be read in another way. */
 std::string plain_text(const ObjReader &read)
 {
@@ -200,6 +212,7 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
   ObjReader read(text, where);
   read.read();
   read.check_corners();
+  read.check_crossings();
   if (read.vertices.empty())
     throw InputError(fmt::format("{}: no vertices (lines 'v x y z'); is it an OBJ file?", where));
   ObjMesh mesh{read.vertices, {}};
