@@ -7,6 +7,7 @@
 
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/printable.h"
 #include "host/round_to_float.h"
 #include "shared/body_codes.h"
 
@@ -24,7 +25,7 @@ constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
 
 [[noreturn]] void refuse(const std::string &where, const std::string &what, const std::string &why)
 {
-  throw InputError(fmt::format("{}: {}: {}", where, what, why));
+  throw InputError(fmt::format("{}: {}: {}", printable(where), what, why));
 }
 
 template <class Vector> bool finite(const Vector &v)
@@ -36,7 +37,7 @@ template <class Vector> std::string text(const Vector &v) { return fmt::format("
 
 std::string label(const char *kind, size_t index, const std::string &name)
 {
-  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, printable(name));
 }
 
 /* One named check about one thing: `where: what: why` is put together only when it fails. */

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/printable.h"
 #include "host/scene_gltf_extensions.h"
 
 namespace tandem {
@@ -208,7 +209,7 @@ void read_animation(const JsonValue &animation, GltfDocument &document)
 std::string GltfDocument::label(int index) const
 {
   const std::string &name = node(index).name;
-  return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", name);
+  return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", printable(name));
 }
 
 void GltfDocument::refuse(int index, const std::string &what) const

@@ -300,3 +300,10 @@ TEST_CASE("glTF, strictly: the version, and the least that the file asks for")
   CHECK(said(R"({"version":"2.0","minVersion":"2.0"})").empty());
   CHECK(said(R"({"version":"2.1"})").empty());
 }
+
+TEST_CASE("glTF, strictly: a name that is printed is one printable line")
+{
+  const std::string node = replaced(cup(R"("mass":-1)"), "Cup", R"(a\nb\u0000c\u001b[31m\u0085\u2028d\u007f é)");
+  const std::string said = complaint({.nodes = node});
+  CHECK_THAT(said, ContainsSubstring(R"('a\nb\x00c\x1b[31m\x85\u2028d\x7f é')"));
+}

@@ -172,6 +172,21 @@ TEST_CASE("hostile files: a zero byte ends no file", "[command]")
   }
 }
 
+TEST_CASE("hostile files: what a mesh leaves out is said, and a name is one printable line", "[command]")
+{
+  const Scratch scratch;
+  const std::string sliver = R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[0,0,1],[1,0,0],[0.5,1e-9,0]],"triangles":[[0,1,2],[0,3,2],[1,2,0]]}],)";
+  write(scratch.file("sliver.json"), sliver + R"("bodies":[{"shape":0,"motion":"fixed"}]})");
+  const Result result = command(run(scratch.file("sliver.json")));
+  CHECK(result.status == 0);
+  CHECK(result.error.find("shape 0: mesh: ") != std::string::npos);
+  CHECK(result.error.find("1 repeated triangles and 1 without area left out\n") != std::string::npos);
+  write(scratch.file("name.json"), sliver + R"("bodies":[{"shape":0,"motion":"fixed","name":"a\nb\u0000\u001bc","mass":1e39}]})");
+  check_refused(run(scratch.file("name.json")), "mass");
+  write(scratch.file("name.json"), sliver + R"("bodies":[{"shape":0,"motion":"fixed","name":"a\nb\u0000\u001bc","linear_damping":-1}]})");
+  check_refused(run(scratch.file("name.json")), "body 0 'a\\nb\\x00\\x1bc': linear_damping");
+}
+
 TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 stands for something else", "[command]")
 {
   const Scratch scratch;
