@@ -356,6 +356,16 @@ TEST_CASE("hostile numbers: contact problems outside the range of floats", "[com
     check_refused(problem("1", large, "0.5"), "line 10");
     check_refused(problem("1", "-1", large), "line 11");
   }
+  const std::string sliding = contents(TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat"), entry = "2.0 0.0 0.0";
+  REQUIRE(sliding.find(entry) != std::string::npos);
+  for (const char *solver : {"pgs", "nncg", "jacobi"})
+    for (const char *large : {"18446744073709551616", "1e30", "3e38"}) {
+      check_refused(problem("1", "-" + std::string(large), "0.5") + " --solver " + solver, "the range of 32-bit numbers does not suffice");
+      for (const std::string &row : {"2.0 " + std::string(large) + " 0.0", "2.0 0.0 " + std::string(large)}) {
+        write(scratch.file("sliding.dat"), std::string(sliding).replace(sliding.find(entry), entry.size(), row));
+        check_refused("contact-problem " + scratch.file("sliding.dat") + " --solver " + solver, "the range of 32-bit numbers does not suffice");
+      }
+    }
   for (const char *small : {"1e-300", "1e-40", "0"}) check_refused(problem(small, "-1", "0.5"), "W[0][0] must be positive");
 }
 
