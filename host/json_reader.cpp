@@ -79,7 +79,10 @@ public:
   bool boolean(bool value) override { return add(value); }
   bool number_integer(number_integer_t value) override { return add(value); }
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
-  bool number_float(number_float_t value, const string_t &text) override { return add(value == 0 ? zero_or_least(text) : value); }
+  bool number_float(number_float_t value, const string_t &text) override
+  {
+    return add(value == 0 ? zero_or_least(text) : value);
+  }
   bool string(string_t &value) override { return add(std::move(value)); }
   bool binary(binary_t &) override { return false; } /* JSON as text has none */
   bool start_object(size_t) override { return open(nlohmann::json::object()); }
@@ -274,7 +277,8 @@ JsonDocument::~JsonDocument() { take_apart(value_); }
 JsonDocument parse_json(const std::string &text, const std::string &where)
 {
   if (const size_t zero = text.find('\0'); zero != std::string::npos) /* at which the library would end, in silence */
-    throw InputError(fmt::format("{}:{}: malformed JSON: a byte of 0; it stands in no text", where, line_and_column(text, zero + 1)));
+    throw InputError(fmt::format("{}:{}: malformed JSON: a byte of 0; it stands in no text", where,
+                                 line_and_column(text, zero + 1)));
   Builder builder(text, where);
   nlohmann::json::sax_parse(text, &builder);
   return std::move(builder.document);

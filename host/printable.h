@@ -17,8 +17,7 @@ inline std::string printable(const std::string &text)
     else if (byte(0) == 0xc2 && byte(1) >= 0x80 && byte(1) < 0xa0) {
       result += fmt::format("\\x{:02x}", byte(1));
       ++i;
-    }
-    else if (byte(0) == 0xe2 && byte(1) == 0x80 && (byte(2) == 0xa8 || byte(2) == 0xa9)) {
+    } else if (byte(0) == 0xe2 && byte(1) == 0x80 && (byte(2) == 0xa8 || byte(2) == 0xa9)) {
       result += byte(2) == 0xa8 ? "\\u2028" : "\\u2029";
       i += 2;
     } else result += text[i];

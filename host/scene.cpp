@@ -253,9 +253,13 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
 /* Vertices that are welded change no surface; triangles that are left out might have been meant. */
 std::string left_out_of(const Shape &shape)
 {
-  if (shape.mesh) return shape.mesh->findings.degenerate_triangles + shape.mesh->findings.duplicate_triangles > 0 ? cleaning_note(*shape.mesh) : "";
+  if (shape.mesh)
+    return shape.mesh->findings.degenerate_triangles + shape.mesh->findings.duplicate_triangles > 0
+               ? cleaning_note(*shape.mesh)
+               : "";
   for (size_t k = 0; shape.compound && k < shape.compound->children.size(); ++k)
-    if (const std::string note = left_out_of(shape.compound->children[k].shape); !note.empty()) return fmt::format("child {}: {}", k, note);
+    if (const std::string note = left_out_of(shape.compound->children[k].shape); !note.empty())
+      return fmt::format("child {}: {}", k, note);
   return "";
 }
 
@@ -288,7 +292,8 @@ std::vector<std::string> warnings_of(const Scene &scene, const std::string &wher
 {
   std::vector<std::string> warnings;
   for (size_t i = 0; i < scene.shapes.size(); ++i)
-    if (const std::string note = left_out_of(scene.shapes[i]); !note.empty()) warnings.push_back(fmt::format("{}: shape {}: {}", where, i, note));
+    if (const std::string note = left_out_of(scene.shapes[i]); !note.empty())
+      warnings.push_back(fmt::format("{}: shape {}: {}", where, i, note));
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body &body = scene.bodies[i];
     const bool from_shape = body.motion == Motion::dynamic && body.inertia == Vec3{0, 0, 0} && !body.infinite_inertia;

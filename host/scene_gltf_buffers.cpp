@@ -154,7 +154,8 @@ std::string GltfBuffers::read_buffer(const JsonValue &json, size_t index, const 
   else if (const std::string text = json.member("uri").text(); text.starts_with("data:")) {
     std::vector<unsigned char> decoded;
     std::string type;
-    if (!is_base64(text.substr(text.find(',') + 1)) || !tinygltf::DecodeDataURI(&decoded, type, text, length, false)) uri->fail("no readable base64 data");
+    if (!is_base64(text.substr(text.find(',') + 1)) || !tinygltf::DecodeDataURI(&decoded, type, text, length, false))
+      uri->fail("no readable base64 data");
     bytes.assign(decoded.begin(), decoded.end());
   } else bytes = read_file_beside(document_.where, percent_decoded(text), document_.outside, uri->place());
   if (bytes.size() < length) json.fail(fmt::format("has {} bytes; it says {}", bytes.size(), length));

@@ -64,7 +64,8 @@ uint32_t minor_version(const JsonValue &json)
   uint32_t minor = 0;
   const char *begin = text.data() + 2, *end = text.data() + text.size();
   const bool major = text.starts_with("2.") && text.size() > 2;
-  const auto [stop, error] = major ? std::from_chars(begin, end, minor) : std::from_chars_result{begin, std::errc::invalid_argument};
+  const auto [stop, error] =
+      major ? std::from_chars(begin, end, minor) : std::from_chars_result{begin, std::errc::invalid_argument};
   if (error != std::errc{} || stop != end) json.fail(fmt::format("is {}; glTF 2 is read", nlohmann::json(text).dump()));
   return minor;
 }
@@ -74,7 +75,8 @@ void check_version(const JsonValue &root)
   const JsonValue asset = root.member("asset"), version = asset.member("version");
   minor_version(version); /* what a later one adds may be passed over, unless the file says that it may not */
   if (const auto least = asset.find("minVersion"); least && minor_version(*least) > 0)
-    least->fail(fmt::format("is {}; glTF 2.0 is read, and a reader of 2.0 must refuse what asks for more", least->text()));
+    least->fail(
+        fmt::format("is {}; glTF 2.0 is read, and a reader of 2.0 must refuse what asks for more", least->text()));
 }
 
 std::vector<double> read_numbers(const JsonValue &list)

@@ -88,13 +88,18 @@ Json solution_json(const ContactProblemOptions &options, const std::string &back
 void require_finite(const ContactSolution &solution, const ContactProblemOptions &options)
 {
   const auto finite = [](double x) { return std::isfinite(x); };
-  const auto all_finite = [&](const std::array<double, 3> &impulse) { return std::all_of(impulse.begin(), impulse.end(), finite); };
+  const auto all_finite = [&](const std::array<double, 3> &impulse) {
+    return std::all_of(impulse.begin(), impulse.end(), finite);
+  };
   const auto &[natural, fischer_burmeister, cone_violation] = solution.residuals;
-  if (finite(natural) && finite(fischer_burmeister) && finite(cone_violation) && std::all_of(solution.impulse.begin(), solution.impulse.end(), all_finite)) return;
-  throw InputError(fmt::format("{}: the range of {} numbers does not suffice for --solver {}: what it computes from W, q and mu is not finite; "
-                               "use smaller units{}",
-                               options.file, options.solver == "nsgs" ? "64-bit" : "32-bit", options.solver,
-                               options.solver == "nsgs" ? "" : ", or --solver nsgs"));
+  if (finite(natural) && finite(fischer_burmeister) && finite(cone_violation) &&
+      std::all_of(solution.impulse.begin(), solution.impulse.end(), all_finite))
+    return;
+  throw InputError(fmt::format(
+      "{}: the range of {} numbers does not suffice for --solver {}: what it computes from W, q and mu is not finite; "
+      "use smaller units{}",
+      options.file, options.solver == "nsgs" ? "64-bit" : "32-bit", options.solver,
+      options.solver == "nsgs" ? "" : ", or --solver nsgs"));
 }
 
 int execute(const ContactProblemOptions &options)

@@ -71,8 +71,9 @@ void require_within_reach(std::span<const Vec3> points, const char *what, const 
   for (size_t i = 0; i < points.size(); ++i)
     for (float x : points[i])
       if (std::abs(x) > longest_length)
-        throw InputError(fmt::format("{}: {} {} is [{}, {}, {}]; at most {} is possible, so that what is computed from it stays a float",
-                                     where, what, i, points[i][0], points[i][1], points[i][2], longest_length));
+        throw InputError(fmt::format(
+            "{}: {} {} is [{}, {}, {}]; at most {} is possible, so that what is computed from it stays a float", where,
+            what, i, points[i][0], points[i][1], points[i][2], longest_length));
 }
 
 } // namespace tandem

@@ -28,7 +28,8 @@ Vector normal_of(std::span<const Vec3> corners)
   constexpr double cancelled = 1e-3; /* of the triangle of the farthest corners */
   Vector area;
   const Vector first = vector_of(corners[0]);
-  for (size_t i = 1; i + 1 < corners.size(); ++i) area += (vector_of(corners[i]) - first).cross(vector_of(corners[i + 1]) - first);
+  for (size_t i = 1; i + 1 < corners.size(); ++i)
+    area += (vector_of(corners[i]) - first).cross(vector_of(corners[i + 1]) - first);
   const Vector farthest = normal_of_farthest(corners);
   return area.norm() > cancelled * farthest.norm() ? area : farthest;
 }

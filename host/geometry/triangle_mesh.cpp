@@ -91,7 +91,8 @@ bool is_degenerate(const std::vector<Vec3> &vertices, const Triangle &t)
 
 void begin_with_plain_corner(const std::vector<Vec3> &vertices, Triangle &t)
 {
-  if (sine_at(vertices, t, 0) < plain_sine) std::rotate(t.begin(), t.begin() + ptrdiff_t(widest_corner(vertices, t)), t.end());
+  if (sine_at(vertices, t, 0) < plain_sine)
+    std::rotate(t.begin(), t.begin() + ptrdiff_t(widest_corner(vertices, t)), t.end());
 }
 
 Triangle smallest_first(Triangle t)
@@ -206,7 +207,9 @@ TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Trian
   mesh.findings.duplicate_triangles = uint32_t(triangles.size() - mesh.triangles.size());
   count_edges(mesh.triangles, mesh.findings);
   mesh.findings.degenerate_triangles = uint32_t(std::erase_if(mesh.triangles, [&](const Triangle &t) { return is_degenerate(mesh.vertices, t); }));
-  if (mesh.triangles.empty()) throw InputError(fmt::format("{}: all {} triangles of the mesh have no area that floats can tell", where, triangles.size()));
+  if (mesh.triangles.empty())
+    throw InputError(
+        fmt::format("{}: all {} triangles of the mesh have no area that floats can tell", where, triangles.size()));
   for (Triangle &t : mesh.triangles) begin_with_plain_corner(mesh.vertices, t);
   drop_unused_vertices(mesh);
   find_adjacency(mesh);

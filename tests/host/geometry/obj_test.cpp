@@ -75,8 +75,10 @@ TEST_CASE("obj: what is no shape is refused in one line with the file's name")
     CHECK(said.find('\n') == std::string::npos);
   }
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 4\n"), ContainsSubstring("a face names vertex 4, but there are 2"));
-  CHECK_THAT(refusal("f -9223372036854775808 2 3\n"), ContainsSubstring("line 1: a face counts back 9223372036854775808 vertices before the first"));
-  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9223372036854775808 2 3\n"), ContainsSubstring("line 4: a face counts back 9223372036854775805 vertices"));
+  CHECK_THAT(refusal("f -9223372036854775808 2 3\n"),
+             ContainsSubstring("line 1: a face counts back 9223372036854775808 vertices before the first"));
+  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9223372036854775808 2 3\n"),
+             ContainsSubstring("line 4: a face counts back 9223372036854775805 vertices"));
   for (const char *number : {"+-1", "-+1", "++1", "--1", "+", "+-inf", "+-1e-50"})
     CHECK_THAT(refusal("v 0 0 " + std::string(number) + "\n"), ContainsSubstring("is no finite number of 32 bits"));
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"), ContainsSubstring("a face counts back 7 vertices before the first"));

@@ -154,7 +154,8 @@ TEST_CASE("triangle mesh: thin triangles stay as long as floats give them a norm
 {
   CHECK(checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 2e-6f, 0}}, {{0, 1, 2}}).triangles.size() == 1);
   CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}), ContainsSubstring("hall.glb: all 1 triangles of the mesh have no area"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}), ContainsSubstring("have no area")); /* squared it is no float */
+  CHECK_THAT(refusal({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}),
+             ContainsSubstring("have no area")); /* squared it is no float */
 }
 
 TEST_CASE("triangle mesh: a strip stays however narrow it is, and floats find its normal")
@@ -183,7 +184,8 @@ TEST_CASE("triangle mesh: a vertex out of range is refused, whether a triangle t
       std::vector<Vec3> vertices = square;
       vertices.push_back({0, 0, 0});
       vertices.back()[axis] = far;
-      for (const std::vector<Triangle> &triangles : {std::vector<Triangle>{{0, 2, 1}}, {{0, 2, 1}, {0, 0, 4}}, {{0, 2, 1}, {0, 2, 4}}})
+      for (const std::vector<Triangle> &triangles :
+           {std::vector<Triangle>{{0, 2, 1}}, {{0, 2, 1}, {0, 0, 4}}, {{0, 2, 1}, {0, 2, 4}}})
         CHECK_THAT(refusal(vertices, triangles), ContainsSubstring("hall.glb: vertex 4 is ["));
     }
   std::vector<Vec3> vertices = square;
