@@ -57,6 +57,16 @@ bool is_below(const files::path &file, const files::path &folder)
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
+/* The same, if it can be told, whatever links lead there. What does not exist stays as it is written: it has a folder first. */
+files::path place_of(const files::path &path)
+{
+  std::error_code error;
+  const files::path whole = files::absolute(path.empty() ? "." : path, error);
+  const files::path place = error ? files::path() : files::weakly_canonical(whole, error);
+  if (error) refuse(path.string(), error.message());
+  return place;
+}
+
 } // namespace
 
 /* Without waiting, since a pipe opens only when somebody writes to it. */
@@ -77,14 +87,11 @@ std::string read_file_beside(const std::string &scene, const std::string &name, 
   if (name.empty() || name.find('\0') != std::string::npos)
     throw InputError(fmt::format("{}: \"{}\" is no name of a file", asks, name.c_str()));
   const files::path folder = files::path(scene).parent_path(), file = folder / name;
-  std::error_code error;
-  const files::path home = files::weakly_canonical(folder.empty() ? "." : folder, error),
-                    place = files::weakly_canonical(file, error);
-  if (outside == OutsideFiles::refused && (error || !is_below(place, home)))
-    throw InputError(fmt::format("{}: \"{}\" lies outside the folder of the scene; put the file there, or use "
-                                 "--allow-outside-files for a scene that you trust",
-                                 asks, name));
   try {
+    if (outside == OutsideFiles::refused && !is_below(place_of(file), place_of(folder)))
+      throw InputError(fmt::format("\"{}\" lies outside the folder of the scene; put the file there, or use "
+                                   "--allow-outside-files for a scene that you trust",
+                                   name));
     return read_file(file.string());
   } catch (const InputError &reason) {
     throw InputError(fmt::format("{}: {}", asks, reason.what()));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "host/round_to_float.h"
 
@@ -57,6 +58,15 @@ std::string plain_reason(const std::string &what)
   return bracket == std::string::npos ? what : what.substr(bracket + 2);
 }
 
+/* What is too small for a double is the least one, so that it is told from 0 later. */
+double zero_or_least(const std::string &text)
+{
+  const std::string digits = text.substr(0, text.find_first_of("eE"));
+  if (digits.find_first_of("123456789") == std::string::npos) return text.starts_with("-") ? -0.0 : 0.0;
+  const double least = std::numeric_limits<double>::denorm_min();
+  return text.starts_with("-") ? -least : least;
+}
+
 /* Builds a document as it is parsed: what an exception leaves half built is a JsonDocument, too. Duplicate keys would silently lose a
  * value; depth would end in a full stack. */
 class Builder : public nlohmann::json_sax<nlohmann::json> {
@@ -69,7 +79,10 @@ public:
   bool boolean(bool value) override { return add(value); }
   bool number_integer(number_integer_t value) override { return add(value); }
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
-  bool number_float(number_float_t value, const string_t &) override { return add(value); }
+  bool number_float(number_float_t value, const string_t &text) override
+  {
+    return add(value == 0 ? zero_or_least(text) : value);
+  }
   bool string(string_t &value) override { return add(std::move(value)); }
   bool binary(binary_t &) override { return false; } /* JSON as text has none */
   bool start_object(size_t) override { return open(nlohmann::json::object()); }
@@ -197,12 +210,26 @@ template <class Real> Real JsonValue::number_of() const
   return Real(result);
 }
 
-float JsonValue::number() const { return number_of<float>(); }
+float JsonValue::number() const
+{
+  const float rounded = coordinate();
+  if (rounded == 0 && value_->is_number() && value_->get<double>() != 0)
+    fail(fmt::format("is {}, which a 32-bit float rounds to 0; 0 itself or a larger number is needed", shown(*value_)));
+  return rounded;
+}
+
+float JsonValue::coordinate() const { return number_of<float>(); }
 double JsonValue::precise_number() const { return number_of<double>(); }
 
 Vec3 JsonValue::vec3() const
 {
   if (array_size() != 3) fail(fmt::format("is {}; an array of 3 numbers is needed", shown(*value_)));
+  return {element(0).coordinate(), element(1).coordinate(), element(2).coordinate()};
+}
+
+Vec3 JsonValue::magnitudes() const
+{
+  vec3();
   return {element(0).number(), element(1).number(), element(2).number()};
 }
 
@@ -215,7 +242,7 @@ Point JsonValue::point() const
 Quat JsonValue::quat() const
 {
   if (array_size() != 4) fail(fmt::format("is {}; an array of 4 numbers (x, y, z, w) is needed", shown(*value_)));
-  return {element(0).number(), element(1).number(), element(2).number(), element(3).number()};
+  return {element(0).coordinate(), element(1).coordinate(), element(2).coordinate(), element(3).coordinate()};
 }
 
 bool JsonValue::boolean() const
@@ -249,6 +276,9 @@ JsonDocument::~JsonDocument() { take_apart(value_); }
 
 JsonDocument parse_json(const std::string &text, const std::string &where)
 {
+  if (const size_t zero = text.find('\0'); zero != std::string::npos) /* at which the library would end, in silence */
+    throw InputError(fmt::format("{}:{}: malformed JSON: a byte of 0; it stands in no text", where,
+                                 line_and_column(text, zero + 1)));
   Builder builder(text, where);
   nlohmann::json::sax_parse(text, &builder);
   return std::move(builder.document);

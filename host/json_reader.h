@@ -41,10 +41,14 @@ public:
   size_t array_size() const; /* fails when it is not an array */
   JsonValue element(size_t index) const;
 
-  /* Finite floats: a number, or (JsonFloats) a string with a hexadecimal float such as "-0x1.8p+1". */
+  /* Finite floats: a number, or (JsonFloats) a string with a hexadecimal float such as "-0x1.8p+1". Fails for one that is not 0 but
+   * would be rounded to it, since 0 may stand for something else, as for a mass without end. */
   float number() const;
+  float coordinate()
+      const; /* the same of places, directions and speeds, among which 0 is one as any other: it may be rounded to */
   double precise_number() const; /* the same, of 64 bits */
-  Vec3 vec3() const;
+  Vec3 vec3() const;             /* of coordinates */
+  Vec3 magnitudes() const;       /* of numbers, such as moments and factors of a scale */
   Point point() const;
   Quat quat() const;
   bool boolean() const;

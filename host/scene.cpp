@@ -7,6 +7,7 @@
 
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/printable.h"
 #include "host/round_to_float.h"
 #include "shared/body_codes.h"
 
@@ -20,11 +21,11 @@ namespace {
 /* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined and squared;
  * distances are squared; masses and their inverses are added. */
 constexpr double farthest = 1e18;
-constexpr float longest = 1e9f, most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
+constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
 
 [[noreturn]] void refuse(const std::string &where, const std::string &what, const std::string &why)
 {
-  throw InputError(fmt::format("{}: {}: {}", where, what, why));
+  throw InputError(fmt::format("{}: {}: {}", printable(where), what, why));
 }
 
 template <class Vector> bool finite(const Vector &v)
@@ -36,7 +37,7 @@ template <class Vector> std::string text(const Vector &v) { return fmt::format("
 
 std::string label(const char *kind, size_t index, const std::string &name)
 {
-  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, name);
+  return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, printable(name));
 }
 
 /* One named check about one thing: `where: what: why` is put together only when it fails. */
@@ -77,7 +78,7 @@ struct Checker {
   void length(const char *field, float x) const
   {
     positive(field, x);
-    at_most(field, x, longest);
+    at_most(field, x, longest_length);
   }
   void mass(const char *field, float x) const
   {
@@ -118,7 +119,7 @@ void check_hull(const Shape &shape, const Checker &check)
 {
   if (!shape.hull) check.fail("a hull without points; hull_shape makes one");
   if (shape.hull->vertices.size() < 4) check.fail(fmt::format("a hull of {} vertices; at least 4 are needed", shape.hull->vertices.size()));
-  for (const Vec3 &vertex : shape.hull->vertices) check.within("a vertex of the hull", vertex, longest);
+  for (const Vec3 &vertex : shape.hull->vertices) check.within("a vertex of the hull", vertex, longest_length);
 }
 
 void check_shape(const Shape &shape, const Checker &check);
@@ -136,7 +137,7 @@ void check_child(const Child &child, const Checker &check)
   if (child.shape.type == ShapeType::half_space || child.shape.type == ShapeType::compound)
     check.fail("a half_space or compound cannot be a child; give a half_space a body of its own, and name a compound's children one by one");
   check_shape(child.shape, check);
-  check.within("position", child.position, longest);
+  check.within("position", child.position, longest_length);
   check_unit("orientation", child.orientation, check);
   check.positive("density", child.density);
 }
@@ -164,7 +165,7 @@ void check_shape(const Shape &shape, const Checker &check)
   case ShapeType::hull: check_hull(shape, check); return;
   case ShapeType::mesh:
     if (!shape.mesh) check.fail("a mesh without triangles; mesh_shape makes one");
-    for (const Vec3 &vertex : shape.mesh->vertices) check.within("a vertex of the mesh", vertex, longest);
+    for (const Vec3 &vertex : shape.mesh->vertices) check.within("a vertex of the mesh", vertex, longest_length);
     return;
   case ShapeType::compound: check_compound(shape, check); return;
   }
@@ -187,7 +188,7 @@ void check_pose(const Body &body, const Checker &check)
 {
   check.within("position", body.position, farthest);
   check_unit("orientation", body.orientation, check);
-  check.within("shape_position", body.shape_position, longest);
+  check.within("shape_position", body.shape_position, longest_length);
   check_unit("shape_orientation", body.shape_orientation, check);
   check.finite_vector("linear_velocity", body.linear_velocity);
   check.finite_vector("angular_velocity", body.angular_velocity);
@@ -249,6 +250,19 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   check_inertia(body, shape, check);
 }
 
+/* Vertices that are welded change no surface; triangles that are left out might have been meant. */
+std::string left_out_of(const Shape &shape)
+{
+  if (shape.mesh)
+    return shape.mesh->findings.degenerate_triangles + shape.mesh->findings.duplicate_triangles > 0
+               ? cleaning_note(*shape.mesh)
+               : "";
+  for (size_t k = 0; shape.compound && k < shape.compound->children.size(); ++k)
+    if (const std::string note = left_out_of(shape.compound->children[k].shape); !note.empty())
+      return fmt::format("child {}: {}", k, note);
+  return "";
+}
+
 std::string volume_doubt(const Shape &shape)
 {
   if (shape.mesh) return volume_warning(*shape.mesh);
@@ -277,6 +291,9 @@ void validate(const Scene &scene, const std::string &where)
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where)
 {
   std::vector<std::string> warnings;
+  for (size_t i = 0; i < scene.shapes.size(); ++i)
+    if (const std::string note = left_out_of(scene.shapes[i]); !note.empty())
+      warnings.push_back(fmt::format("{}: shape {}: {}", where, i, note));
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body &body = scene.bodies[i];
     const bool from_shape = body.motion == Motion::dynamic && body.inertia == Vec3{0, 0, 0} && !body.infinite_inertia;

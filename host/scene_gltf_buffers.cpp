@@ -114,6 +114,17 @@ std::string percent_decoded(const std::string &text)
   return result;
 }
 
+/* Groups of four characters, the last filled up with one = or two, or cut short. The library would end at the first =. */
+bool is_base64(const std::string &text)
+{
+  const size_t digits = std::min(text.find('='), text.size()), filled = text.size() - digits;
+  const bool plain = std::all_of(text.begin(), text.begin() + ptrdiff_t(digits), [](unsigned char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '+' || c == '/';
+  });
+  return plain && text.find_first_not_of('=', digits) == std::string::npos && digits % 4 != 1 &&
+         (filled == 0 || (filled <= 2 && text.size() % 4 == 0));
+}
+
 } // namespace
 
 JsonValue gltf_item(const GltfDocument &document, const char *list, size_t index, const std::string &where)
@@ -143,7 +154,8 @@ std::string GltfBuffers::read_buffer(const JsonValue &json, size_t index, const 
   else if (const std::string text = json.member("uri").text(); text.starts_with("data:")) {
     std::vector<unsigned char> decoded;
     std::string type;
-    if (!tinygltf::DecodeDataURI(&decoded, type, text, length, false)) uri->fail("no readable base64 data");
+    if (!is_base64(text.substr(text.find(',') + 1)) || !tinygltf::DecodeDataURI(&decoded, type, text, length, false))
+      uri->fail("no readable base64 data");
     bytes.assign(decoded.begin(), decoded.end());
   } else bytes = read_file_beside(document_.where, percent_decoded(text), document_.outside, uri->place());
   if (bytes.size() < length) json.fail(fmt::format("has {} bytes; it says {}", bytes.size(), length));

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/printable.h"
 #include "host/scene_gltf_extensions.h"
 
 namespace tandem {
@@ -26,6 +27,13 @@ struct Chunks {
   std::string json, binary;
 };
 
+/* Chunks are filled up to four bytes: this one with blanks, but some writers take zeros, as the other has them. */
+std::string without_padding(std::string json)
+{
+  for (int i = 0; i < 3 && json.ends_with('\0'); ++i) json.pop_back();
+  return json;
+}
+
 Chunks chunks_of(const std::string &bytes, const std::string &where)
 {
   const auto fail = [&](const char *why) {
@@ -42,17 +50,33 @@ Chunks chunks_of(const std::string &bytes, const std::string &where)
     if (room < 8 || number_at(bytes, at) > room - 8) fail("a chunk ends behind the file");
     const uint32_t length = number_at(bytes, at), type = number_at(bytes, at + 4);
     if ((number == 0) != (type == json_chunk)) fail("its first chunk, and that one alone, must be the JSON");
-    if (number == 0) chunks.json = bytes.substr(at + 8, length);
+    if (number == 0) chunks.json = without_padding(bytes.substr(at + 8, length));
     else if (number == 1 && type == binary_chunk) chunks.binary = bytes.substr(at + 8, length);
     at += 8 + size_t{length};
   }
   return chunks;
 }
 
+/* Of "2.1" the 1. */
+uint32_t minor_version(const JsonValue &json)
+{
+  const std::string text = json.text();
+  uint32_t minor = 0;
+  const char *begin = text.data() + 2, *end = text.data() + text.size();
+  const bool major = text.starts_with("2.") && text.size() > 2;
+  const auto [stop, error] =
+      major ? std::from_chars(begin, end, minor) : std::from_chars_result{begin, std::errc::invalid_argument};
+  if (error != std::errc{} || stop != end) json.fail(fmt::format("is {}; glTF 2 is read", nlohmann::json(text).dump()));
+  return minor;
+}
+
 void check_version(const JsonValue &root)
 {
-  const JsonValue version = root.member("asset").member("version");
-  if (!version.text().starts_with("2.")) version.fail(fmt::format("is {}; glTF 2 is read", version.text()));
+  const JsonValue asset = root.member("asset"), version = asset.member("version");
+  minor_version(version); /* what a later one adds may be passed over, unless the file says that it may not */
+  if (const auto least = asset.find("minVersion"); least && minor_version(*least) > 0)
+    least->fail(
+        fmt::format("is {}; glTF 2.0 is read, and a reader of 2.0 must refuse what asks for more", least->text()));
 }
 
 std::vector<double> read_numbers(const JsonValue &list)
@@ -75,10 +99,13 @@ const char *const node_keys[] = {"camera", "children",    "skin",    "matrix", "
 /* A matrix stands for the three others. */
 void check_transform(const JsonValue &json, const GltfNode &node)
 {
+  for (const auto &[key, size] : {std::pair{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}})
+    if (const auto list = json.find(key); list && list->array_size() != size_t(size))
+      list->fail(fmt::format("has {} numbers; {} are needed", list->array_size(), size));
   for (const char *key : {"translation", "rotation", "scale"})
     if (json.find("matrix") && json.find(key)) json.fail(fmt::format("matrix and {} exclude each other", key));
   const std::vector<double> &m = node.matrix;
-  if (m.size() == 16 && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
+  if (!m.empty() && (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1))
     json.member("matrix").fail("the last row of the matrix (numbers 3, 7, 11 and 15) must be 0, 0, 0, 1");
 }
 
@@ -184,7 +211,7 @@ void read_animation(const JsonValue &animation, GltfDocument &document)
 std::string GltfDocument::label(int index) const
 {
   const std::string &name = node(index).name;
-  return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", name);
+  return name.empty() ? fmt::format("node {}", index) : fmt::format("node '{}'", printable(name));
 }
 
 void GltfDocument::refuse(int index, const std::string &what) const

@@ -34,6 +34,15 @@ std::vector<uint32_t> all_of(size_t vertices)
   return indices;
 }
 
+/* Of the places 0 to count - 1 nothing may be left over. */
+void check_count(uint32_t mode, size_t count, const JsonValue &asks)
+{
+  if (mode < TINYGLTF_MODE_TRIANGLES) return;
+  if (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0)
+    asks.fail(fmt::format("the mesh lists {} corners of triangles; a multiple of 3 is needed", count));
+  if (count < 3) asks.fail(fmt::format("a strip or fan of the mesh has {} corners; at least 3 are needed", count));
+}
+
 /* Of the places 0 to count - 1: a list, a strip (every second one turned round) or a fan; none of points and lines. */
 std::vector<Triangle> triangles_of(uint32_t mode, uint32_t count)
 {
@@ -124,7 +133,9 @@ void GltfMeshes::append_primitive(const JsonValue &primitive, const Transform &p
   const auto base = uint32_t(mesh.vertices.size());
   append_vertices(points, indices, place, asks, mesh);
   const bool mirrored = is_mirrored(place);
-  for (const Triangle &t : triangles_of(mode_of(primitive), uint32_t(indices.size())))
+  const uint32_t mode = mode_of(primitive);
+  check_count(mode, indices.size(), asks);
+  for (const Triangle &t : triangles_of(mode, uint32_t(indices.size())))
     mesh.triangles.push_back({base + t[0], base + t[mirrored ? 2 : 1], base + t[mirrored ? 1 : 2]});
 }
 

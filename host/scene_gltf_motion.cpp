@@ -59,7 +59,7 @@ void read_inertia(const JsonValue &motion, Body &body)
 {
   std::optional<JsonValue> diagonal = motion.find("inertiaDiagonal");
   if (!diagonal) return;
-  body.inertia = diagonal->vec3();
+  body.inertia = diagonal->magnitudes();
   body.infinite_inertia = body.inertia == Vec3{0, 0, 0};
 }
 

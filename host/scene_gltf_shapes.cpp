@@ -63,7 +63,7 @@ Shape read_box(const JsonValue &json, const Vec3 &scale)
   static constexpr const char *keys[] = {"size", "extras", "extensions"};
   json.only_keys(keys);
   std::optional<JsonValue> size = json.find("size");
-  Vec3 edges = size ? size->vec3() : Vec3{1, 1, 1};
+  Vec3 edges = size ? size->magnitudes() : Vec3{1, 1, 1};
   return box_shape(0.5f * edges[0] * scale[0], 0.5f * edges[1] * scale[1], 0.5f * edges[2] * scale[2]);
 }
 

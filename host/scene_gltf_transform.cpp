@@ -74,32 +74,31 @@ bool is_mirrored(const Transform &t) { return determinant(t) < 0; }
 Transform local_transform(const GltfDocument &document, int index)
 {
   const GltfNode &node = document.node(index);
-  auto has = [&](const std::vector<double> &values, size_t size, const char *name) {
-    if (!values.empty() && values.size() != size)
-      document.refuse(index, fmt::format("{} has {} numbers; {} are needed", name, values.size(), size));
-    return !values.empty();
-  };
   Transform local;
-  if (has(node.matrix, 16, "matrix")) {
+  if (!node.matrix.empty()) {
     for (int j = 0; j < 3; ++j)
       for (int row = 0; row < 3; ++row) local.column[j][row] = node.matrix[size_t(4 * j + row)];
     for (int row = 0; row < 3; ++row) local.translation[row] = node.matrix[size_t(12 + row)];
     return local;
   }
-  if (has(node.rotation, 4, "rotation")) {
+  if (!node.rotation.empty()) {
     double length_squared = 0;
     for (double x : node.rotation) length_squared += x * x;
     if (!(length_squared > 0.99 && length_squared < 1.01)) document.refuse(index, "rotation is not a quaternion of length 1");
     rotation_columns(node.rotation, local);
   }
-  if (has(node.scale, 3, "scale"))
+  if (!node.scale.empty())
     for (int j = 0; j < 3; ++j)
       for (double &x : local.column[j]) x *= node.scale[size_t(j)];
-  if (has(node.translation, 3, "translation")) std::copy_n(node.translation.begin(), 3, local.translation);
+  if (!node.translation.empty()) std::copy_n(node.translation.begin(), 3, local.translation);
   return local;
 }
 
-bool is_scaled_to_nothing(const Transform &t) { return length(t.column[0]) == 0 && length(t.column[1]) == 0 && length(t.column[2]) == 0; }
+/* By the numbers themselves: the square of a small one is 0. */
+bool is_scaled_to_nothing(const Transform &t)
+{
+  return std::all_of(&t.column[0][0], &t.column[0][0] + 9, [](double x) { return x == 0; });
+}
 
 RigidPlace rigid_place(const GltfDocument &document, int index, const Transform &world)
 {

@@ -130,6 +130,13 @@ void take_densities(const JsonValue &bodies, Scene &scene, const std::string &wh
   for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
 }
 
+/* Of moments 0 stands for one without end, or for those of the shape. */
+void take_moments(const JsonValue &bodies, Scene &scene)
+{
+  for (size_t i = 0; i < scene.bodies.size(); ++i)
+    if (const auto moments = bodies.element(i).find("inertia")) scene.bodies[i].inertia = moments->magnitudes();
+}
+
 void check_version(const JsonValue &root)
 {
   if (!root.find("tandem_scene")) root.fail("\"tandem_scene\": 1 is missing; this is not a Tandem scene");
@@ -194,6 +201,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   if (auto materials = root.find("materials")) read_value(*materials, scene.materials);
   read_shapes(root.member("shapes"), outside, scene.shapes);
   read_value(root.member("bodies"), scene.bodies);
+  take_moments(root.member("bodies"), scene);
   take_densities(root.member("bodies"), scene, where);
   validate(scene, where);
   return scene;

@@ -90,7 +90,7 @@ void take_scale(const JsonValue &json, std::vector<Vec3> &points, std::vector<Tr
 {
   const std::optional<JsonValue> given = json.find("scale");
   if (!given) return;
-  const Vec3 scale = given->vec3();
+  const Vec3 scale = given->magnitudes();
   points = scaled(points, scale, given->place());
   if (scale[0] * scale[1] * scale[2] < 0) triangles = turned_round(triangles);
 }
@@ -124,7 +124,7 @@ Shape read_height_field(const JsonValue &json)
   const JsonValue list = json.member("heights"), spacing = json.member("spacing");
   if (spacing.array_size() != 2) spacing.fail("two numbers are needed: the spacing along x and along z");
   std::vector<float> heights(list.array_size());
-  for (size_t i = 0; i < heights.size(); ++i) heights[i] = list.element(i).number();
+  for (size_t i = 0; i < heights.size(); ++i) heights[i] = list.element(i).coordinate();
   return height_field_shape(heights, json.member("columns").unsigned_integer(), spacing.element(0).number(), spacing.element(1).number(), json.place());
 }
 
@@ -154,7 +154,7 @@ void read_size(const JsonValue &json, Name name, Shape &shape)
 {
   if (name == cone) shape = cone_shape(json.member("radius").number(), json.member("half_height").number());
   else if (name == sphere) shape = sphere_shape(json.member("radius").number());
-  else if (name == box) shape.size = json.member("half_extents").vec3();
+  else if (name == box) shape.size = json.member("half_extents").magnitudes();
   else if (name == capsule || name == cylinder) read_radii(json, shape);
 }
 
@@ -230,7 +230,7 @@ Shape read_shape(const JsonValue &json, OutsideFiles outside)
   else if (name == height_field) shape = read_height_field(json);
   else if (name == compound) shape = read_compound(json.member("children"), outside);
   else shape = {types[name], {0, 0, 0}};
-  if (size) shape.size = size->vec3();
+  if (size) shape.size = size->magnitudes();
   else read_size(json, name, shape);
   return shape;
 }

@@ -1,5 +1,6 @@
 /* contact_problem.cpp - `tandem contact-problem`: one frictional contact problem, one solver, its residual sweep by sweep. */
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -83,6 +84,24 @@ Json solution_json(const ContactProblemOptions &options, const std::string &back
           {"impulse", solution.impulse}};
 }
 
+/* Numbers that floats hold may have squares that they do not. */
+void require_finite(const ContactSolution &solution, const ContactProblemOptions &options)
+{
+  const auto finite = [](double x) { return std::isfinite(x); };
+  const auto all_finite = [&](const std::array<double, 3> &impulse) {
+    return std::all_of(impulse.begin(), impulse.end(), finite);
+  };
+  const auto &[natural, fischer_burmeister, cone_violation] = solution.residuals;
+  if (finite(natural) && finite(fischer_burmeister) && finite(cone_violation) &&
+      std::all_of(solution.impulse.begin(), solution.impulse.end(), all_finite))
+    return;
+  throw InputError(fmt::format(
+      "{}: the range of {} numbers does not suffice for --solver {}: what it computes from W, q and mu is not finite; "
+      "use smaller units{}",
+      options.file, options.solver == "nsgs" ? "64-bit" : "32-bit", options.solver,
+      options.solver == "nsgs" ? "" : ", or --solver nsgs"));
+}
+
 int execute(const ContactProblemOptions &options)
 {
   const ContactSolverSettings settings = settings_from(options);
@@ -91,6 +110,7 @@ int execute(const ContactProblemOptions &options)
   const ContactProblem problem = read_contact_problem(options.file);
   const std::unique_ptr<Backend> backend = make_backend(where, options.inexact);
   const ContactSolution solution = solve_contact_problem(problem, settings, *backend);
+  require_finite(solution, options);
   if (!options.json.takes_standard_output()) print_solution(options, where, problem, solution);
   options.json.write(solution_json(options, where, problem, solution));
   return solution.converged ? 0 : 1;

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "host/out_of_memory.h"
+#include "host/printable.h"
 #include "host/scene.h"
 #include "tools/command.h"
 #include "tools/failed_allocation.h"
@@ -29,7 +30,7 @@ int complain(std::string message, int status)
 {
   std::replace(message.begin(), message.end(), '\n', ' ');
   while (!message.empty() && message.back() == ' ') message.pop_back();
-  std::fputs(fmt::format("tandem: {}\n", message).c_str(), stderr);
+  std::fputs(fmt::format("tandem: {}\n", printable(message)).c_str(), stderr);
   return status;
 }
 

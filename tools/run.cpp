@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "host/animation.h"
+#include "host/printable.h"
 #include "host/world.h"
 #include "tools/command.h"
 #include "tools/event_file.h"
@@ -176,7 +177,7 @@ void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
 {
   for (const Quarantine &quarantine : world.quarantined())
     fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
-               quarantine.name, quarantine.step, quarantine.stage);
+               printable(quarantine.name), quarantine.step, quarantine.stage);
   if (!world.quarantined().empty() && !allow_quarantine)
     fmt::print(stderr, "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n", world.quarantined().size(),
                world.scene().bodies.size());

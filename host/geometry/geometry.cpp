@@ -65,4 +65,15 @@ void require_finite(std::span<const Vec3> points, const char *what, const std::s
                                      points[i][2]));
 }
 
+void require_within_reach(std::span<const Vec3> points, const char *what, const std::string &where)
+{
+  require_finite(points, what, where);
+  for (size_t i = 0; i < points.size(); ++i)
+    for (float x : points[i])
+      if (std::abs(x) > longest_length)
+        throw InputError(fmt::format(
+            "{}: {} {} is [{}, {}, {}]; at most {} is possible, so that what is computed from it stays a float", where,
+            what, i, points[i][0], points[i][1], points[i][2], longest_length));
+}
+
 } // namespace tandem

@@ -43,4 +43,10 @@ DistinctPoints distinct(std::span<const Vec3> points);
 /* Throws InputError naming the first that is NaN or infinite; `what` is "point" or "vertex". */
 void require_finite(std::span<const Vec3> points, const char *what, const std::string &where);
 
+/* The farthest that a size, or a place within a body, may reach in metres: what stages multiply of it stays a float. */
+inline constexpr float longest_length = 1e9f;
+
+/* The same, and throws for the first with a coordinate beyond longest_length. */
+void require_within_reach(std::span<const Vec3> points, const char *what, const std::string &where);
+
 } // namespace tandem

@@ -12,6 +12,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include "host/geometry/polygon_crossing.h"
 #include "host/input_file.h"
 
 namespace tandem {
@@ -32,6 +33,7 @@ public:
   ObjReader(const std::string &text, const std::string &where) : text_(text), where_(where) {}
   void read();
   void check_corners() const;
+  void check_crossings() const;
 
   std::vector<Vec3> vertices;
   std::vector<Face> faces;
@@ -82,11 +84,12 @@ float ObjReader::number(std::string_view word) const
 {
   float value = 0;
   const char *end = word.data() + word.size();
-  const auto [stop, error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, value);
+  const char *start = word.data() + (word.starts_with("+") && !word.starts_with("+-") ? 1 : 0);
+  const auto [stop, error] = std::from_chars(start, end, value);
   if (error == std::errc::result_out_of_range &&
       stop == end) { /* too small for a float is none; too large is a mistake */
     double wide = 0;
-    const auto [wide_stop, wide_error] = std::from_chars(word.data() + (word.starts_with("+") ? 1 : 0), end, wide);
+    const auto [wide_stop, wide_error] = std::from_chars(start, end, wide);
     if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return round_to_float(wide);
   }
   if (error != std::errc{} || stop != end || !std::isfinite(value))
@@ -125,7 +128,8 @@ int64_t ObjReader::corner(std::string_view word) const
   }
   if (first > 0) return first - 1;
   const auto before = static_cast<int64_t>(vertices.size());
-  if (-first > before) fail(fmt::format("a face counts back {} vertices before the first", -first - before), line_);
+  if (first < -before) /* the least of all has no opposite */
+    fail(fmt::format("a face counts back {} vertices before the first", -(uint64_t(first) + uint64_t(before))), line_);
   return before + first;
 }
 
@@ -159,6 +163,16 @@ void ObjReader::check_corners() const
       if (corner >= static_cast<int64_t>(vertices.size()))
         fail(fmt::format("a face names vertex {}, but there are {} (1 is the first)", corner + 1, vertices.size()),
              face.line);
+}
+
+/* Quads would be cut all the same, into triangles that overlap. */
+void ObjReader::check_crossings() const
+{
+  for (const Face &face : faces) {
+    std::vector<Vec3> corners;
+    for (const int64_t corner : face.corners) corners.push_back(vertices[size_t(corner)]);
+    if (crosses_itself(corners)) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
+  }
 }
 
 /* The same vertices and faces, and nothing that could be read in another way. */
@@ -198,6 +212,7 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
   ObjReader read(text, where);
   read.read();
   read.check_corners();
+  read.check_crossings();
   if (read.vertices.empty())
     throw InputError(fmt::format("{}: no vertices (lines 'v x y z'); is it an OBJ file?", where));
   ObjMesh mesh{read.vertices, {}};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/vector.h"
@@ -60,11 +61,38 @@ Vector doubled_area(const std::vector<Vec3> &vertices, const Triangle &t)
   return (vector_of(vertices[t[1]]) - a).cross(vector_of(vertices[t[2]]) - a);
 }
 
+Vector side_of(const std::vector<Vec3> &vertices, const Triangle &t, size_t corner)
+{
+  return vector_of(vertices[t[(corner + 1) % 3]]) - vector_of(vertices[t[corner]]);
+}
+
+/* Of the angle at a corner. */
+double sine_at(const std::vector<Vec3> &vertices, const Triangle &t, size_t corner)
+{
+  const double sides = side_of(vertices, t, corner).norm() * side_of(vertices, t, (corner + 2) % 3).norm();
+  return sides > 0 ? doubled_area(vertices, t).norm() / sides : 0;
+}
+
+/* The corner opposite the longest side: of a thin triangle the one at which the two sides say most about its plane. */
+size_t widest_corner(const std::vector<Vec3> &vertices, const Triangle &t)
+{
+  size_t longest = 0;
+  for (size_t side = 1; side < 3; ++side)
+    if (side_of(vertices, t, side).norm() > side_of(vertices, t, longest).norm()) longest = side;
+  return (longest + 2) % 3;
+}
+
+/* Kernels divide by the length of the doubled area, whose square must be a normal float. */
 bool is_degenerate(const std::vector<Vec3> &vertices, const Triangle &t)
 {
-  double longest = 0;
-  for (size_t i = 0; i < 3; ++i) longest = std::max(longest, (vector_of(vertices[t[i]]) - vector_of(vertices[t[(i + 1) % 3]])).norm());
-  return doubled_area(vertices, t).norm() <= degenerate_height * longest * longest;
+  return doubled_area(vertices, t).squared_norm() < double(std::numeric_limits<float>::min()) ||
+         sine_at(vertices, t, widest_corner(vertices, t)) <= degenerate_sine;
+}
+
+void begin_with_plain_corner(const std::vector<Vec3> &vertices, Triangle &t)
+{
+  if (sine_at(vertices, t, 0) < plain_sine)
+    std::rotate(t.begin(), t.begin() + ptrdiff_t(widest_corner(vertices, t)), t.end());
 }
 
 Triangle smallest_first(Triangle t)
@@ -168,7 +196,7 @@ void check_indices(size_t vertices, std::span<const Triangle> triangles, const s
 
 TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const std::string &where)
 {
-  require_finite(vertices, "vertex", where);
+  require_within_reach(vertices, "vertex", where);
   check_indices(vertices.size(), triangles, where);
   DistinctPoints welded = distinct(vertices);
   TriangleMesh mesh;
@@ -179,7 +207,10 @@ TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Trian
   mesh.findings.duplicate_triangles = uint32_t(triangles.size() - mesh.triangles.size());
   count_edges(mesh.triangles, mesh.findings);
   mesh.findings.degenerate_triangles = uint32_t(std::erase_if(mesh.triangles, [&](const Triangle &t) { return is_degenerate(mesh.vertices, t); }));
-  if (mesh.triangles.empty()) throw InputError(fmt::format("{}: all {} triangles of the mesh have no area", where, triangles.size()));
+  if (mesh.triangles.empty())
+    throw InputError(
+        fmt::format("{}: all {} triangles of the mesh have no area that floats can tell", where, triangles.size()));
+  for (Triangle &t : mesh.triangles) begin_with_plain_corner(mesh.vertices, t);
   drop_unused_vertices(mesh);
   find_adjacency(mesh);
   mesh.flat = is_flat_mesh(mesh.vertices);

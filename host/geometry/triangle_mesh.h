@@ -9,7 +9,7 @@
  *        /    \        _____|_____                \/
  *
  * Welded are vertices equal in every bit (zeros of either sign are equal). Left out, and counted: triangles named twice, and those too
- * thin for floats to have a normal. What remains may be open, flat, or badly wound: a static body can be so, a volume cannot.
+ * thin or too small for floats to have a normal. What remains may be open, flat, or badly wound: a static body can be so, a volume cannot.
  */
 #pragma once
 
@@ -26,8 +26,12 @@ enum class EdgeKind : uint32_t {
 
 /* Below a thousandth of a radian a bend counts as flat: the normals of small triangles in floats are not better. */
 constexpr double flat_edge_sine = 1e-3;
-/* A triangle is degenerate whose least height is at most this times its longest edge. */
-constexpr double degenerate_height = 1e-6;
+/* A triangle is degenerate if the sine of its widest angle is at most this: kernels cross the two sides there in floats, and from this
+ * sine on the normal is right to about 3%. A long strip, however narrow, has a right angle; a corner near the middle of the side
+ * beyond has none. */
+constexpr double degenerate_sine = 4e-6;
+/* A triangle with a smaller sine at its first corner, where kernels take the normal, begins with its widest angle instead. */
+constexpr double plain_sine = 1e-3;
 
 constexpr uint32_t no_triangle = 0xffffffffu;
 
@@ -57,7 +61,7 @@ struct TriangleMesh {
   bool flat = false; /* all vertices within the rounding of floats of one plane */
 };
 
-/* Throws InputError for vertices that are not finite, indices out of range, and no triangle left. */
+/* Throws InputError for vertices that are not finite or beyond longest_length, used or not, indices out of range, and no triangle left. */
 TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const std::string &where);
 
 /* The same from a plain list of indices, three a triangle; refuses a count that is no multiple of three. */

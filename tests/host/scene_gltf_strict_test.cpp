@@ -49,7 +49,6 @@ TEST_CASE("glTF, strictly: transforms of nodes")
 {
   for (const auto &[key, n] : {std::pair{"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}})
     for (const std::string &wrong : no_vectors(size_t(n))) {
-      if (wrong == "[]") continue; /* no numbers: as if there were none */
       check_refused({.nodes = cup("", 0, std::string("\"") + key + "\":" + wrong + ",")}, std::string("node 'Cup': ") + key);
     }
   const std::string matrix = R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],)";
@@ -242,4 +241,80 @@ TEST_CASE("glTF: binary files whose chunks do not fit are refused")
   CHECK_THAT(said(buffer + json, 2, 12 + whole.size()), ContainsSubstring("must be the JSON"));
   CHECK_THAT(said(json + json, 2, 12 + 2 * json.size()), ContainsSubstring("must be the JSON"));
   CHECK_THAT(said("", 2, 12), ContainsSubstring("ends within its first 20 bytes"));
+}
+
+TEST_CASE("glTF, strictly: what is not 0 but rounds to it does not stand for infinity")
+{
+  for (const char *small : {"1e-46", "-1e-46", "1e-300", "1e-400", "0.0000001e-9999"}) {
+    const std::string number(small);
+    check_refused({.nodes = cup("\"mass\":" + number)}, "node 'Cup': motion.mass: is ");
+    check_refused({.nodes = cup("\"mass\":1,\"inertiaDiagonal\":[1,1," + number + "]")},
+                  "node 'Cup': motion.inertiaDiagonal[2]: is ");
+    CHECK(complaint({.nodes = cup("\"linearVelocity\":[0,1," + number + "]")}).empty());
+    CHECK(complaint({.nodes = cup("", 0, "\"translation\":[0,1," + number + "],")}).empty());
+  }
+  for (const char *zero : {"0", "-0", "0.0", "0e-999", "-0.000E5"}) {
+    const Scene scene = loaded({.nodes = cup(std::string("\"mass\":") + zero)});
+    CHECK(scene.bodies[0].motion == Motion::kinematic);
+  }
+  CHECK(loaded({.nodes = cup("\"mass\":1e-35")}).bodies[0].motion == Motion::dynamic);
+  check_refused({.nodes = collider(0, R"("name":"Cup","scale":[1e-200,1e-200,1e-200],)")},
+                "node 'Cup': its scale is 0");
+}
+
+TEST_CASE("glTF, strictly: corners that make no whole triangles")
+{
+  const auto more = [](int mode, int count, bool indexed) {
+    return R"(,"meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":)" + std::to_string(mode) +
+           (indexed ? R"(,"indices":1)" : "") +
+           R"(}]}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+           std::to_string(indexed ? 3 : count) + R"(},{"bufferView":1,"componentType":5121,"type":"SCALAR","count":)" +
+           std::to_string(count) +
+           R"(}],"bufferViews":[{"buffer":0,"byteLength":84},{"buffer":0,"byteOffset":84,"byteLength":8}],"buffers":[{"byteLength":92,"uri":")" +
+           "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/" + /* 0 0 0, 1 0 0, 0 0 -1 */
+           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/AAAAAAAAAAAAAAAA" + "AAECAAECAAA=" + R"("}])";
+  };
+  for (const bool indexed : {false, true}) {
+    for (const int count : {1, 2, 4, 5, 7})
+      check_refused({.nodes = cup_of(R"("mesh":0)"), .more = more(4, count, indexed)}, "a multiple of 3 is needed");
+    for (const int mode : {5, 6})
+      for (const int count : {1, 2})
+        check_refused({.nodes = cup_of(R"("mesh":0)"), .more = more(mode, count, indexed)}, "at least 3 are needed");
+    for (const int count : {3, 6})
+      CHECK_THAT(complaint({.nodes = cup_of(R"("mesh":0)"), .more = more(4, count, indexed)}),
+                 !ContainsSubstring("needed"));
+  }
+  const auto with_end = [&](const std::string &end) { return replaced(more(4, 3, false), "AAECAAECAAA=", end); };
+  for (const char *end : {"AAECAAECAAA====", "AAECAAECAAA=x", "AAECAAECAAA=AAAA", "AAECAAEC=AA=", "AAEC!AECAAA="})
+    check_refused({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}, "no readable base64 data");
+  for (const char *end : {"AAECAAECAAA=", "AAECAAECAAA"})
+    CHECK_THAT(complaint({.nodes = cup_of(R"("mesh":0)"), .more = with_end(end)}), !ContainsSubstring("base64"));
+}
+
+TEST_CASE("glTF, strictly: the version, and the least that the file asks for")
+{
+  const auto said = [](const std::string &asset) {
+    TemporaryFile file(replaced(gltf({.nodes = cup("")}), R"({"version":"2.0"})", asset));
+    try {
+      read_scene_gltf(file.path);
+    } catch (const InputError &error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  for (const char *least : {R"("3.0")", R"("2.1")", R"("1.0")", R"("2.")", R"("2.0x")", R"("two")", R"("")", "2", "2.0",
+                            "null", "{}", "[]", "true"})
+    CHECK_THAT(said(R"({"version":"2.0","minVersion":)" + std::string(least) + "}"),
+               ContainsSubstring("asset.minVersion: is "));
+  for (const char *version : {R"("3.0")", R"("2.")", R"("2.x")", R"("2")", "2.0", "null"})
+    CHECK_THAT(said(R"({"version":)" + std::string(version) + "}"), ContainsSubstring("asset.version: is "));
+  CHECK(said(R"({"version":"2.0","minVersion":"2.0"})").empty());
+  CHECK(said(R"({"version":"2.1"})").empty());
+}
+
+TEST_CASE("glTF, strictly: a name that is printed is one printable line")
+{
+  const std::string node = replaced(cup(R"("mass":-1)"), "Cup", R"(a\nb\u0000c\u001b[31m\u0085\u2028d\u007f é)");
+  const std::string said = complaint({.nodes = node});
+  CHECK_THAT(said, ContainsSubstring(R"('a\nb\x00c\x1b[31m\x85\u2028d\x7f é')"));
 }

@@ -258,7 +258,7 @@ TEST_CASE("damaged node trees and files are refused")
   CHECK_THAT(complaint({.nodes = collider(0, R"("rotation":[0,0,0,0],)")}),
              ContainsSubstring("node 0: rotation is not a quaternion"));
   CHECK_THAT(complaint({.nodes = collider(0, R"("translation":[1,2],)")}),
-             ContainsSubstring("node 0: translation has 2 numbers"));
+             ContainsSubstring("node 0: translation: has 2 numbers"));
   CHECK_THAT(complaint({.nodes = collider(0),
                         .more = R"(,"extensionsRequired":["KHR_interactivity"])"}),
              ContainsSubstring("required extension KHR_interactivity is not supported yet"));

@@ -145,6 +145,86 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
   check_refused(gltf("missing.bin"), "buffers[0].uri");
 }
 
+TEST_CASE(
+    "hostile files: a file that a scene names and that is missing is called missing, from wherever the command runs",
+    "[command]")
+{
+  const Scratch scratch;
+  files::create_directories(scratch.path / "below");
+  for (const char *name : {"missing.obj", "below/missing.obj", "nowhere/missing.obj"}) {
+    write(scratch.file("s.json"), mesh_scene(name));
+    for (const std::string &scene :
+         std::vector<std::string>{"s.json", "./s.json", "below/../s.json", scratch.file("s.json")})
+      check_refused(run(scene), "No such file", "cd " + scratch.path.string() + ";");
+  }
+  for (const char *name : {"../missing.obj", "below/../../missing.obj"}) {
+    write(scratch.file("s.json"), mesh_scene(name));
+    check_refused(run("s.json"), "lies outside the folder of the scene", "cd " + scratch.path.string() + ";");
+  }
+}
+
+TEST_CASE("hostile files: a zero byte ends no file", "[command]")
+{
+  const Scratch scratch;
+  const std::string zero(1, '\0'),
+      json = R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":1}],"bodies":[{"shape":0}]})";
+  for (const std::string &text : {json + zero, json + zero + "garbage", json + "\n" + zero + "\n", zero + json,
+                                  json.substr(0, 20) + zero + json.substr(20)}) {
+    write(scratch.file("zero.json"), text);
+    check_refused(run(scratch.file("zero.json")), "a byte of 0");
+    write(scratch.file("zero.gltf"), text);
+    check_refused(run(scratch.file("zero.gltf")), "a byte of 0");
+  }
+}
+
+TEST_CASE("hostile files: what a mesh leaves out is said, and a name is one printable line", "[command]")
+{
+  const Scratch scratch;
+  const std::string sliver =
+      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[0,0,1],[1,0,0],[0.5,1e-9,0]],"triangles":[[0,1,2],[0,3,2],[1,2,0]]}],)";
+  write(scratch.file("sliver.json"), sliver + R"("bodies":[{"shape":0,"motion":"fixed"}]})");
+  const Result result = command(run(scratch.file("sliver.json")));
+  CHECK(result.status == 0);
+  CHECK(result.error.find("shape 0: mesh: ") != std::string::npos);
+  CHECK(result.error.find("1 repeated triangles and 1 without area left out\n") != std::string::npos);
+  write(scratch.file("name.json"),
+        sliver + R"("bodies":[{"shape":0,"motion":"fixed","name":"a\nb\u0000\u001bc","mass":1e39}]})");
+  check_refused(run(scratch.file("name.json")), "mass");
+  write(scratch.file("name.json"),
+        sliver + R"("bodies":[{"shape":0,"motion":"fixed","name":"a\nb\u0000\u001bc","linear_damping":-1}]})");
+  check_refused(run(scratch.file("name.json")), "body 0 'a\\nb\\x00\\x1bc': linear_damping");
+}
+
+TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 stands for something else", "[command]")
+{
+  const Scratch scratch;
+  const auto body = [&](const std::string &members, const std::string &scale = "[1,1,1]") {
+    write(
+        scratch.file("small.json"),
+        R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[3,0,0],[0,2,0],[0,0,1]],"triangles":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]],"scale":)" +
+            scale + R"(}],"bodies":[{"shape":0,"motion":"fixed",)" + members + "}]}");
+    return run(scratch.file("small.json"));
+  };
+  for (const char *small : {"1e-46", "-1e-300", "1e-999"}) {
+    check_refused(body("\"mass\":" + std::string(small)), "bodies[0].mass: is ");
+    check_refused(body("\"inertia\":[1,1," + std::string(small) + "]"), "bodies[0].inertia[2]: is ");
+    check_refused(body("\"linear_damping\":" + std::string(small)), "bodies[0].linear_damping: is ");
+    check_refused(body("\"mass\":1", "[1,1," + std::string(small) + "]"), "shapes[0].scale[2]: is ");
+    CHECK(command(body("\"linear_velocity\":[0,0," + std::string(small) + "]")).status == 0);
+  }
+}
+
+TEST_CASE("hostile numbers: a ball rests on a strip of 20 km by 1 cm", "[command]")
+{
+  const Scratch scratch;
+  write(
+      scratch.file("strip.json"),
+      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[-10000,0,-0.005],[-10000,0,0.005],[10000,0,0.005],[10000,0,-0.005]],)"
+      R"("triangles":[[0,1,2],[0,2,3]]},{"type":"sphere","radius":0.5}],"bodies":[{"motion":"fixed","shape":0},{"shape":1,"position":[100,0.5,0]}]})");
+  const Json json = json_of("run " + scratch.file("strip.json") + " --steps 10 --on serial");
+  CHECK(json["contacts"].get<int>() > 0);
+}
+
 TEST_CASE("hostile files: an output that cannot be written is one line and status 2, and no file is lost", "[command]")
 {
   const Scratch scratch;
@@ -288,6 +368,18 @@ TEST_CASE("hostile numbers: contact problems outside the range of floats", "[com
     check_refused(problem("1", large, "0.5"), "line 10");
     check_refused(problem("1", "-1", large), "line 11");
   }
+  const std::string sliding = contents(TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat"), entry = "2.0 0.0 0.0";
+  REQUIRE(sliding.find(entry) != std::string::npos);
+  for (const char *solver : {"pgs", "nncg", "jacobi"})
+    for (const char *large : {"18446744073709551616", "1e30", "3e38"}) {
+      check_refused(problem("1", "-" + std::string(large), "0.5") + " --solver " + solver,
+                    "the range of 32-bit numbers does not suffice");
+      for (const std::string &row : {"2.0 " + std::string(large) + " 0.0", "2.0 0.0 " + std::string(large)}) {
+        write(scratch.file("sliding.dat"), std::string(sliding).replace(sliding.find(entry), entry.size(), row));
+        check_refused("contact-problem " + scratch.file("sliding.dat") + " --solver " + solver,
+                      "the range of 32-bit numbers does not suffice");
+      }
+    }
   for (const char *small : {"1e-300", "1e-40", "0"}) check_refused(problem(small, "-1", "0.5"), "W[0][0] must be positive");
 }
 

@@ -75,6 +75,12 @@ TEST_CASE("obj: what is no shape is refused in one line with the file's name")
     CHECK(said.find('\n') == std::string::npos);
   }
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 4\n"), ContainsSubstring("a face names vertex 4, but there are 2"));
+  CHECK_THAT(refusal("f -9223372036854775808 2 3\n"),
+             ContainsSubstring("line 1: a face counts back 9223372036854775808 vertices before the first"));
+  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -9223372036854775808 2 3\n"),
+             ContainsSubstring("line 4: a face counts back 9223372036854775805 vertices"));
+  for (const char *number : {"+-1", "-+1", "++1", "--1", "+", "+-inf", "+-1e-50"})
+    CHECK_THAT(refusal("v 0 0 " + std::string(number) + "\n"), ContainsSubstring("is no finite number of 32 bits"));
   CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"), ContainsSubstring("a face counts back 7 vertices before the first"));
   CHECK_THAT(complaint([] { load_obj("/no/such/file.obj"); }), ContainsSubstring("/no/such/file.obj"));
 }
@@ -117,4 +123,32 @@ TEST_CASE("obj: what is written in other ways is read all the same")
   REQUIRE(colored.vertices.size() == 3);
   CHECK(colored.vertices[1] == Vec3{1, 2, 3});
   CHECK(colored.vertices[2] == Vec3{0, 0, 0});
+}
+
+TEST_CASE("obj: a polygon that crosses itself is refused, in any plane and with any number of corners")
+{
+  const auto polygon = [](const std::vector<std::array<double, 2>> &corners, int plane, double lean) {
+    std::string text, face = "f";
+    for (size_t i = 0; i < corners.size(); ++i) {
+      double v[3] = {};
+      v[plane] = corners[i][0], v[(plane + 1) % 3] = corners[i][1], v[(plane + 2) % 3] = lean * corners[i][0];
+      text += "v " + std::to_string(v[0]) + " " + std::to_string(v[1]) + " " + std::to_string(v[2]) + "\n";
+      face += " " + std::to_string(i + 1);
+    }
+    return text + face + "\n";
+  };
+  for (int plane = 0; plane < 3; ++plane)
+    for (const double lean : {0.0, 0.5, -3.0}) {
+      INFO("plane " << plane << ", lean " << lean);
+      const auto crosses = [&](const std::vector<std::array<double, 2>> &corners) {
+        return refusal(polygon(corners, plane, lean)).find("a polygon crosses itself") != std::string::npos;
+      };
+      CHECK(crosses({{0, 0}, {1, 1}, {1, 0}, {0, 1}})); /* its halves cancel */
+      CHECK(crosses({{0, 0}, {4, 4}, {4, 0}, {0, 1}}));
+      CHECK(crosses({{0, 0}, {1, 3}, {2, 0}, {-0.5, 2}, {2.5, 2}})); /* a star */
+      CHECK_FALSE(crosses({{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
+      CHECK_FALSE(crosses({{0, 0}, {0, 1}, {1, 1}, {1, 0}}));
+      CHECK_FALSE(crosses({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}));
+    }
+  CHECK(refusal("v 0 0 0\nv 1 0.5 0\nv 1 0 1\nv 0 0.5 1\nf 1 2 3 4\n").empty()); /* a saddle, in no plane */
 }

@@ -154,6 +154,43 @@ TEST_CASE("triangle mesh: thin triangles stay as long as floats give them a norm
 {
   CHECK(checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 2e-6f, 0}}, {{0, 1, 2}}).triangles.size() == 1);
   CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}), ContainsSubstring("hall.glb: all 1 triangles of the mesh have no area"));
+  CHECK_THAT(refusal({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}),
+             ContainsSubstring("have no area")); /* squared it is no float */
+}
+
+TEST_CASE("triangle mesh: a strip stays however narrow it is, and floats find its normal")
+{
+  for (const float width : {1.0f, 1e-2f, 1e-4f, 1e-8f})
+    for (size_t turn = 0; turn < 3; ++turn) {
+      const std::vector<Vec3> vertices{{-1e4f, 0, 0}, {-1e4f, 0, width}, {1e4f, 0, width}, {1e4f, 0, 0}};
+      std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}};
+      for (Triangle &t : triangles) std::rotate(t.begin(), t.begin() + ptrdiff_t(turn), t.end());
+      const TriangleMesh mesh = checked_mesh(vertices, triangles);
+      INFO("width " << width << ", turned " << turn);
+      REQUIRE(mesh.triangles.size() == 2);
+      CHECK(count(mesh, EdgeKind::flat) == 1);
+      for (const Triangle &t : mesh.triangles) { /* as the kernels do it: at the first corner, in floats */
+        const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+        const float up = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
+        CHECK(up == Approx(2e4f * width));
+      }
+    }
+}
+
+TEST_CASE("triangle mesh: a vertex out of range is refused, whether a triangle that stays names it or not")
+{
+  for (const float far : {1.1e9f, -3e38f})
+    for (size_t axis = 0; axis < 3; ++axis) {
+      std::vector<Vec3> vertices = square;
+      vertices.push_back({0, 0, 0});
+      vertices.back()[axis] = far;
+      for (const std::vector<Triangle> &triangles :
+           {std::vector<Triangle>{{0, 2, 1}}, {{0, 2, 1}, {0, 0, 4}}, {{0, 2, 1}, {0, 2, 4}}})
+        CHECK_THAT(refusal(vertices, triangles), ContainsSubstring("hall.glb: vertex 4 is ["));
+    }
+  std::vector<Vec3> vertices = square;
+  vertices.push_back({1e9f, -1e9f, 1e9f});
+  CHECK(checked_mesh(vertices, {{0, 2, 1}}).findings.unused_vertices == 2);
 }
 
 TEST_CASE("triangle mesh: open, badly wound and branching meshes say so")
