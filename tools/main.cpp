@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,6 +19,7 @@
 
 #include "host/out_of_memory.h"
 #include "host/scene.h"
+#include "minicl/worker_threads.h"
 #include "tools/command.h"
 #include "tools/failed_allocation.h"
 
@@ -68,26 +70,31 @@ std::string typed(int count, char **arguments)
   return text;
 }
 
-/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn. The
- * words for it are ready beforehand. */
+/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn; a library's
+ * thread throws where it cannot start another. The words for it are ready beforehand. */
 std::string last_words;
 std::terminate_handler usual_end = nullptr;
 
-void put_last_words() noexcept
+template <class... Values> [[noreturn]] void end_with_line(const char *format, Values... values) noexcept
 {
   char line[1024];
-  const int length = std::snprintf(line, sizeof line, "tandem: out of memory in `%.900s` (the last allocation that failed was of %zu bytes)\n", last_words.c_str(),
-                                   failed_allocation_bytes());
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, static_cast<size_t>(length));
+  const int length = std::snprintf(line, sizeof line - 1, format, values...);
+  const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);
+  std::replace(line, line + size, '\n', ' ');
+  line[size] = '\n';
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, size + 1);
+  _exit(1);
 }
 
-[[noreturn]] void end_without_memory()
+/* What the machine refuses is said and ends with a status. Anything else is a defect of ours, and ends as such. */
+[[noreturn]] void end_uncaught()
 {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc &) {
-    put_last_words();
-    _exit(1);
+    end_with_line("tandem: out of memory in `%.800s` (the last allocation that failed was of %zu bytes)", last_words.c_str(), failed_allocation_bytes());
+  } catch (const std::runtime_error &error) {
+    end_with_line("tandem: `%.400s` cannot go on, and nothing could be saved: %.400s", last_words.c_str(), error.what());
   } catch (...) {
   }
   usual_end();
@@ -96,9 +103,8 @@ void put_last_words() noexcept
 
 void prepare_last_words(int count, char **arguments)
 {
-  usual_end = std::set_terminate(end_without_memory);
+  usual_end = std::set_terminate(end_uncaught);
   last_words = typed(count, arguments);
-  std::replace(last_words.begin(), last_words.end(), '\n', ' ');
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -119,8 +125,12 @@ std::vector<Command> add_commands(CLI::App &parser)
 
 int execute_parsed(const std::vector<Command> &commands)
 {
-  for (const Command &command : commands)
-    if (command.parser->parsed()) return command.execute();
+  for (const Command &command : commands) {
+    if (!command.parser->parsed()) continue;
+    const int status = command.execute();
+    const std::string shortage = minicl::thread_shortage();
+    return shortage.empty() ? status : complain(shortage, status);
+  }
   throw InputError("no command given; `tandem --help` lists what there is");
 }
 
