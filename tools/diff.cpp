@@ -190,8 +190,9 @@ int execute(const DiffOptions &options)
   request.steps = options.scene.steps();
   std::string not_planted;
   request.tamper = planted(options.plant, request.backends.size() - 1, not_planted);
-  options.json.check();
-  const Scene scene = options.scene.scene();
+  DistinctFiles files;
+  options.json.check(files);
+  const Scene scene = options.scene.scene(files);
   Progress progress("comparing", request.steps);
   request.after_step = [&](uint64_t done) { progress.update(done); };
   const Comparison comparison = compare_backends(scene, request);

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "host/out_of_memory.h"
+#include "host/output_file.h"
 #include "host/scene.h"
 #include "minicl/worker_threads.h"
 #include "tools/command.h"
@@ -33,6 +34,22 @@ int complain(std::string message, int status)
   while (!message.empty() && message.back() == ' ') message.pop_back();
   std::fputs(fmt::format("tandem: {}\n", message).c_str(), stderr);
   return status;
+}
+
+void end_as_asked(int signal)
+{
+  remove_unfinished_files();
+  ::raise(signal); /* which ends the process now, and who asked sees that it did */
+}
+
+/* But for what the process was started to ignore, as by nohup. */
+void clean_up_when_asked_to_end()
+{
+  struct sigaction action {}, before {};
+  action.sa_handler = end_as_asked;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
 }
 
 /* A file opened later would else take the number of an output that is closed, and what is printed would land in it. */
@@ -82,6 +99,7 @@ template <class... Values> [[noreturn]] void end_with_line(const char *format, V
   const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);
   std::replace(line, line + size, '\n', ' ');
   line[size] = '\n';
+  remove_unfinished_files();
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, size + 1);
   _exit(1);
 }
@@ -140,7 +158,8 @@ int parse_and_execute(int count, char **arguments)
                   "tandem");
   parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
-                "Exit status: 0 fine, 1 the check failed, 2 bad use or input, or an output that cannot be written.");
+                "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room that --max-pairs allows, a device;\n"
+                "2 bad use or input, or an output that cannot be written.");
   const std::vector<Command> commands = add_commands(parser);
   try {
     parser.parse(count, arguments);
@@ -177,7 +196,8 @@ int guarded(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-  std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN); /* a write that cannot be is an error like others */
+  tandem::clean_up_when_asked_to_end();
   tandem::prepare_last_words(count, arguments);
   tandem::keep_standard_files_apart();
   return tandem::with_output_written(tandem::guarded(count, arguments));
