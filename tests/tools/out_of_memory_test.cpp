@@ -55,7 +55,32 @@ TEST_CASE("a limit of pairs ends a run with one line that names it, and help tel
   check_one_line(result);
   CHECK(result.error.find("200 are the most (--max-pairs, Settings::max_pairs)") != std::string::npos);
   CHECK(run_within(4'000'000, "run --help").out.find("--max-pairs") != std::string::npos);
+  for (const char *help : {"--help", "run --help", "diff --help", "stability --help"}) {
+    const std::string text = run_within(4'000'000, help).out;
+    CAPTURE(help, text);
+    CHECK(text.find("did not suffice") != std::string::npos);
+    CHECK(text.find("memory") != std::string::npos);
+  }
   CHECK(run_within(4'000'000, "run rolling --max-pairs 268435457").status == 2);
+}
+
+/* A case that memory does not suffice for shows nothing of its solver. */
+TEST_CASE("a batch of cases that memory does not suffice for ends as a run does, and counts no case as failed")
+{
+  const command_line::Scratch folder;
+  int refused = 0;
+  for (uint64_t kilobytes = 30'000; kilobytes < 80'000; kilobytes += 2'000) {
+    const Result result = run_within(kilobytes, "stability --quick --solvers soft-step --only pyramid-80 --on serial --cases-in-parallel 1 --out " + folder.file("out"));
+    CAPTURE(kilobytes, result.out, result.error);
+    CHECK(result.out.find("nan") == std::string::npos);
+    if (result.status == 0) break;
+    if (result.status == 127) continue;
+    CHECK(result.status == 1);
+    check_one_line(result);
+    CHECK(result.error.find("out of memory") != std::string::npos);
+    ++refused;
+  }
+  CHECK(refused > 0);
 }
 
 #endif
