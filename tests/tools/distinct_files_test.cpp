@@ -81,12 +81,12 @@ TEST_CASE("distinct files: an output in the place of an input is refused, whatev
 TEST_CASE("distinct files: what a scene names is an input too", "[command]")
 {
   const Scratch folder;
-  std::ofstream(folder.file("hull.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-  std::ofstream(folder.file("scene.json")) << R"({"tandem_scene": 1, "shapes": [{"type": "hull", "obj": "hull.obj"}], "bodies": [{}]})";
+  std::ofstream(folder.file("tetrahedron.obj")) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  std::ofstream(folder.file("scene.json")) << R"({"tandem_scene": 1, "shapes": [{"type": "mesh", "obj": "tetrahedron.obj"}], "bodies": [{"shape": 0, "motion": "fixed"}]})";
   const Result read = in_folder(folder, "plan scene.json");
   CAPTURE(read.error);
   REQUIRE(read.status == 0);
-  check_clash(folder, "run scene.json --steps 1000000000 --json hull.obj", "SCENE reads this file");
+  check_clash(folder, "run scene.json --steps 1000000000 --json tetrahedron.obj", "SCENE reads this file");
 }
 
 TEST_CASE("distinct files: devices take any number of outputs, and distinct ones are written", "[command]")
