@@ -210,26 +210,41 @@ Comparison Lockstep::run()
     if (request_.after_step) request_.after_step(result_.steps);
   }
   result_.equal = !result_.first_difference;
+  result_.quarantined = worlds[0]->quarantined();
   return result_;
 }
+
+bool holds(const Memory &memory, Buffer buffer, size_t scalar) { return (scalar + 1) * scalar_bytes(buffer) <= memory.bytes(buffer); }
 
 void change_in_memory(Memory &memory, Buffer buffer, size_t scalar)
 {
   const size_t width = scalar_bytes(buffer);
-  if ((scalar + 1) * width > memory.bytes(buffer)) return;
   uint64_t value = 0;
   memory.download(buffer, &value, width, scalar * width);
   change_least(buffer, &value);
   memory.upload(buffer, &value, width, scalar * width);
 }
 
+/* Empty if the error can be planted behind this launch. */
+std::string what_is_missing(const PlantedError &error, const Memory &memory, const Launch &launch)
+{
+  const std::vector<Buffer> written = buffers_written(launch);
+  if (std::find(written.begin(), written.end(), error.buffer) == written.end()) return fmt::format("{} does not write {}", row_of(error.kernel).name, row_of(error.buffer).name);
+  if (holds(memory, error.buffer, error.scalar)) return {};
+  return fmt::format("{} holds {} numbers then, counted from 0", row_of(error.buffer).name, memory.bytes(error.buffer) / scalar_bytes(error.buffer));
+}
+
 } // namespace
 
-Tamper plant(const PlantedError &error)
+Tamper plant(const PlantedError &error, std::string *missing)
 {
+  if (missing) *missing = fmt::format("{} does not run in step {}", row_of(error.kernel).name, error.step);
   /* The world that this step was planted in: a fresh world of the same index (the second run) gets it again. */
-  return [error, done = static_cast<World *>(nullptr)](size_t index, uint64_t step, World &world, const Launch &launch) mutable {
+  return [error, missing, done = static_cast<World *>(nullptr)](size_t index, uint64_t step, World &world, const Launch &launch) mutable {
     if (index != error.world || step != error.step || launch.kernel != error.kernel || done == &world) return;
+    const std::string why = what_is_missing(error, world.memory(), launch);
+    if (missing) *missing = why;
+    if (!why.empty()) return;
     done = &world;
     change_in_memory(world.memory(), error.buffer, error.scalar);
   };

@@ -32,7 +32,8 @@ struct PlantedError {
   Buffer buffer{};
   size_t scalar = 0;
 };
-Tamper plant(const PlantedError &error);
+/* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the tamper. */
+Tamper plant(const PlantedError &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
   Settings settings;
@@ -67,6 +68,7 @@ struct Comparison {
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;
   std::optional<Difference> first_difference;
+  std::vector<Quarantine> quarantined;    /* on the first backend */
   std::optional<BatchFault> batch_fault; /* the first on any backend; only with Settings::check */
 };
 

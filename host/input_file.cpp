@@ -21,6 +21,8 @@ namespace files = std::filesystem;
 
 constexpr size_t most_bytes = size_t{4} << 30; /* a .glb holds no more */
 
+thread_local FilesRead *watching = nullptr;
+
 struct OpenFile {
   int descriptor;
   ~OpenFile()
@@ -69,6 +71,9 @@ files::path place_of(const files::path &path)
 
 } // namespace
 
+FilesRead::FilesRead() { watching = this; }
+FilesRead::~FilesRead() { watching = nullptr; }
+
 /* Without waiting, since a pipe opens only when somebody writes to it. */
 std::string read_file(const std::string &path)
 {
@@ -78,6 +83,7 @@ std::string read_file(const std::string &path)
   if (S_ISDIR(status.st_mode)) refuse(path, std::strerror(EISDIR));
   if (!S_ISREG(status.st_mode)) refuse(path, "it is a pipe, a device or a socket; a regular file is needed");
   if (static_cast<size_t>(status.st_size) > most_bytes) refuse(path, "it is larger than 4 GiB");
+  if (watching) watching->paths.push_back(path);
   return contents_of(file, path, static_cast<size_t>(status.st_size));
 }
 

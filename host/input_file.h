@@ -6,10 +6,22 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace tandem {
 
 enum class OutsideFiles { refused, allowed };
+
+/* The names of the files that this thread reads while it lives, so that no output takes their place. One at a time. */
+class FilesRead {
+public:
+  FilesRead();
+  ~FilesRead();
+  FilesRead(const FilesRead &) = delete;
+  FilesRead &operator=(const FilesRead &) = delete;
+
+  std::vector<std::string> paths;
+};
 
 /* The whole file. InputError where it cannot be read, is no regular file, or is larger than 4 GiB. */
 std::string read_file(const std::string &path);

@@ -1,8 +1,10 @@
 /* output_file.cpp - see output_file.h. */
 #include "host/output_file.h"
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 
@@ -43,6 +45,32 @@ int make_beside(const std::string &target, std::string &name)
   return -1;
 }
 
+/* In places that never move, so that a handler of signals can read them whatever it interrupted. */
+struct Unfinished {
+  enum State { none, being_named, named };
+  std::atomic<int> state{none};
+  std::array<char, PATH_MAX> name{};
+};
+std::array<Unfinished, 32> unfinished;
+
+/* Its place, for forget(); -1 if all are taken. */
+int remember(const std::string &name)
+{
+  for (size_t k = 0; k < unfinished.size() && name.size() < PATH_MAX; ++k) {
+    int expected = Unfinished::none;
+    if (!unfinished[k].state.compare_exchange_strong(expected, Unfinished::being_named)) continue;
+    std::memcpy(unfinished[k].name.data(), name.c_str(), name.size() + 1);
+    unfinished[k].state = Unfinished::named;
+    return static_cast<int>(k);
+  }
+  return -1;
+}
+
+void forget(int place)
+{
+  if (place >= 0) unfinished[static_cast<size_t>(place)].state = Unfinished::none;
+}
+
 int nameless()
 {
   const File file(std::tmpfile());
@@ -75,6 +103,7 @@ void OutputFile::open_beside(const std::string &path)
 {
   target_ = behind_links(path);
   descriptor_ = make_beside(target_, beside_);
+  if (descriptor_ >= 0) remembered_ = remember(beside_);
   if (descriptor_ >= 0) return;
   const int reason = errno;
   beside_.clear();
@@ -87,6 +116,14 @@ OutputFile::~OutputFile()
 {
   if (descriptor_ >= 0) ::close(descriptor_);
   if (!beside_.empty()) ::unlink(beside_.c_str());
+  forget(remembered_);
+}
+
+/* It has become the target. */
+void OutputFile::forget_beside()
+{
+  forget(std::exchange(remembered_, -1));
+  beside_.clear();
 }
 
 void OutputFile::fail(int error) const
@@ -121,7 +158,7 @@ void OutputFile::commit()
   flush();
   const bool named = !beside_.empty();
   if (!direct_ && (!named || ::rename(beside_.c_str(), target_.c_str()) != 0)) copy_to_target();
-  else beside_.clear();
+  else forget_beside();
   close();
 }
 
@@ -150,6 +187,23 @@ void OutputFile::check(const std::string &path, const std::string &label)
   if (direct && ::access(path.c_str(), W_OK) != 0)
     throw InputError(fmt::format("{}: cannot write: {}", label, std::strerror(errno)));
   if (!direct) OutputFile(path, label);
+}
+
+void remove_unfinished_files() noexcept
+{
+  for (const Unfinished &file : unfinished)
+    if (file.state == Unfinished::named) ::unlink(file.name.data());
+}
+
+bool is_same_file(const std::string &one, const std::string &other)
+{
+  struct stat first {}, second {};
+  const bool exists = ::stat(one.c_str(), &first) == 0;
+  if (exists != (::stat(other.c_str(), &second) == 0)) return false;
+  if (exists) return !S_ISCHR(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
+  std::error_code error;
+  const auto place = [&](const std::string &path) { return files::weakly_canonical(files::absolute(behind_links(path), error), error); };
+  return place(one) == place(other) && !error;
 }
 
 File nameless_file_beside(const std::string &path)

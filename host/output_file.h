@@ -36,12 +36,21 @@ private:
   void close();
   void put(int descriptor, std::string_view bytes) const;
   void copy_to_target();
+  void forget_beside();
 
   std::string label_, target_, beside_; /* beside_: the file that was made here, if it has a name */
-  int descriptor_ = -1;
+  int descriptor_ = -1, remembered_ = -1; /* as what remove_unfinished_files() knows it */
   bool direct_ = false;
   std::string buffer_;
 };
+
+/* For a process that is about to end without destructors; safe in a handler of signals. Of more than a few dozen at once the later ones
+ * stay. */
+void remove_unfinished_files() noexcept;
+
+/* Whether what is written to one would take the place of the other, or of what is to be written there. Devices such as /dev/null take
+ * whatever comes. */
+bool is_same_file(const std::string &one, const std::string &other);
 
 /* For reading and writing, without a name, so that nothing of it stays; on the disk of `path` where that can be. Null, and errno, where
  * there is no room for it. */

@@ -6,13 +6,11 @@
 #include <bit>
 #include <chrono>
 #include <memory>
-#include <mutex>
 #include <new>
 #include <numeric>
 #include <utility>
 
 #include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -23,6 +21,7 @@
 #include "minicl/kernel_table.h"
 #include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"
+#include "minicl/worker_threads.h"
 #include "shared/parallel/length.h"
 #include "shared/platform.h"
 
@@ -57,20 +56,6 @@ namespace {
 /* About how many items one task should have: small kernels stay on one thread. */
 constexpr uint32_t items_per_task = 256;
 
-/* More threads than processors, when asked for: results must not depend on it, and tests look. Of several controls TBB
- * obeys the least, so there is one, which only grows. */
-void allow_threads(size_t threads)
-{
-  static std::mutex mutex;
-  static std::unique_ptr<tbb::global_control> control;
-  static size_t allowed = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (threads <= allowed) return;
-  control.reset();
-  control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, threads);
-  allowed = threads;
-}
-
 /* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
 const KernelTable &scalar_table([[maybe_unused]] const Options &options)
 {
@@ -94,11 +79,11 @@ Storage &storage_for([[maybe_unused]] const Options &options)
 class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
-      : name_(name), order_(options.order), arena_(static_cast<int>(options.threads)), threads_(options.threads),
+      : name_(name), order_(options.order), threads_(options.threads),
         scalar_(scalar_table(options)),
         lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(storage_for(options))
   {
-    allow_threads(options.threads);
+    want_threads(options.threads);
   }
 
   const std::string &name() const override { return name_; }
@@ -156,6 +141,7 @@ private:
       body(begin, end);
     };
     if (threads_ == 1 || last - first <= grain) return exact(first, last);
+    open_arena();
     LaunchOrder order;
     order.launch_begins();
     arena_.execute([&, step = uint64_t{step_of_launch}] {
@@ -168,6 +154,13 @@ private:
       });
     });
     order.launch_ends();
+  }
+
+  /* TBB complains of an arena that is larger than what it may start. */
+  void open_arena()
+  {
+    const size_t granted = settle_threads();
+    if (!arena_.is_active()) arena_.initialize(static_cast<int>(std::min<size_t>(threads_, granted)));
   }
 
   /* Without an order among threads, in which the thread sanitizer would then not see races. */
@@ -193,7 +186,7 @@ private:
 
   std::string name_;
   Order order_;
-  tbb::task_arena arena_;
+  tbb::task_arena arena_; /* opened by the first launch that is split */
   uint32_t threads_;
   const KernelTable &scalar_;
   const KernelTable *lanes_;

@@ -95,8 +95,9 @@ int execute_broadphase(const BenchOptions &options)
   request.allow_inexact = options.inexact;
   request.bodies = {1000, 10000, 100000, 1000000};
   if (!options.count.empty()) request.bodies = {static_cast<uint32_t>(whole_number("--n", options.count, 2, most_bodies))};
-  options.json.check();
-  check_writable("--chart", options.chart);
+  DistinctFiles files;
+  options.json.check(files);
+  files.writes("--chart", options.chart);
   const bool prints = !options.json.takes_standard_output();
   const std::vector<BroadphaseScene> scenes = bench_broadphase(request, prints ? print_scene : [](const BroadphaseScene &) {});
   if (prints) fmt::print("on {}: medians, ms a frame, {}\n", options.on, broadphase_time);

@@ -106,7 +106,9 @@ int execute(const ContactProblemOptions &options)
 {
   const ContactSolverSettings settings = settings_from(options);
   const std::string where = backend_from(options);
-  options.json.check();
+  DistinctFiles files;
+  files.reads("FILE", options.file);
+  options.json.check(files);
   const ContactProblem problem = read_contact_problem(options.file);
   const std::unique_ptr<Backend> backend = make_backend(where, options.inexact);
   const ContactSolution solution = solve_contact_problem(problem, settings, *backend);

@@ -33,7 +33,8 @@ void add_options(CLI::App &parser, DiffOptions &options)
   options.scene.add_events_flag(parser);
   parser.add_option("--json", options.json.path, "write the verdict as JSON; - for standard output")->type_name("FILE");
   parser.footer("After every kernel of every step each buffer that it wrote is compared as a whole.\n"
-                "Exit status: 0 equal, 1 different.");
+                "Exit status: 0 equal, also where bodies stopped being finite alike (which is said); 1 different, or a batch is wrong, or memory or the room that\n"
+                "--max-pairs allows did not suffice; 2 bad use or input, a --plant that plants nothing, or an output that cannot be written.");
 }
 
 std::vector<std::string> split(const std::string &text, char separator)
@@ -61,7 +62,7 @@ Buffer buffer_named(const std::string &name)
   throw InputError(fmt::format("--plant: no buffer '{}'; `tandem plan SCENE` lists them", name));
 }
 
-Tamper planted(const std::string &text, size_t world)
+Tamper planted(const std::string &text, size_t world, std::string &missing)
 {
   if (text.empty()) return {};
   const std::vector<std::string> parts = split(text, ':');
@@ -72,7 +73,7 @@ Tamper planted(const std::string &text, size_t world)
   error.buffer = buffer_named(parts[1]);
   error.scalar = whole_number("--plant, number", parts[2], 0, uint64_t{1} << 40);
   if (parts.size() == 4) error.step = whole_number("--plant, step", parts[3], 0, 1'000'000'000);
-  return plant(error);
+  return plant(error, &missing);
 }
 
 /* The scene text may hold characters that a shell would take apart. */
@@ -132,6 +133,7 @@ Json comparison_json(const Comparison &comparison, const ComparisonRequest &requ
           {"steps", comparison.steps},
           {"kernels_compared", comparison.kernels_compared},
           {"bytes_compared", comparison.bytes_compared},
+          {"quarantined", comparison.quarantined.size()},
           {"first_difference", difference ? difference_json(*difference, scene, options, comparison.broadphase.name) : Json(nullptr)}};
 }
 
@@ -170,6 +172,14 @@ void print_difference(const Difference &difference, const Scene &scene, const Sc
   if (!gdb.empty()) fmt::print("\nTo stop there (debug build):\n  {}\n", gdb);
 }
 
+/* No difference between backends, but no result either. */
+std::string quarantine_text(const std::vector<Quarantine> &lost, const std::string &backend, const Scene &scene)
+{
+  const Quarantine &first = lost.front();
+  return fmt::format("{} of {} bodies stopped being finite on {} and were taken out, first body {} '{}' in step {} ({})", lost.size(), scene.bodies.size(), backend,
+                     first.body, first.name, first.step, first.stage);
+}
+
 int execute(const DiffOptions &options)
 {
   ComparisonRequest request;
@@ -178,13 +188,17 @@ int execute(const DiffOptions &options)
   request.backends = split_backends(options.between);
   if (request.backends.size() < 2) throw InputError(fmt::format("--between {}: name at least two backends", options.between));
   request.steps = options.scene.steps();
-  request.tamper = planted(options.plant, request.backends.size() - 1);
-  options.json.check();
-  const Scene scene = options.scene.scene();
+  std::string not_planted;
+  request.tamper = planted(options.plant, request.backends.size() - 1, not_planted);
+  DistinctFiles files;
+  options.json.check(files);
+  const Scene scene = options.scene.scene(files);
   Progress progress("comparing", request.steps);
   request.after_step = [&](uint64_t done) { progress.update(done); };
   const Comparison comparison = compare_backends(scene, request);
   progress.clear();
+  if (comparison.equal && !not_planted.empty())
+    throw InputError(fmt::format("--plant {}: nothing was planted in {} steps: {}", options.plant, comparison.steps, not_planted));
   if (!options.json.takes_standard_output()) {
     if (request.settings.broadphase == "auto") fmt::print("Broadphase on all of them: {} ({})\n", comparison.broadphase.name, comparison.broadphase.why);
     if (comparison.equal) fmt::print("EQUAL");
@@ -194,6 +208,7 @@ int execute(const DiffOptions &options)
                bytes_text(comparison.bytes_compared));
   }
   options.json.write(comparison_json(comparison, request, scene, options.scene));
+  if (!comparison.quarantined.empty()) fmt::print(stderr, "tandem: {}\n", quarantine_text(comparison.quarantined, request.backends.front(), scene));
   if (comparison.batch_fault) fmt::print(stderr, "tandem: {}\n", describe(*comparison.batch_fault));
   return comparison.equal && !comparison.batch_fault ? 0 : 1;
 }

@@ -7,6 +7,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -18,7 +19,9 @@
 
 #include "host/out_of_memory.h"
 #include "host/printable.h"
+#include "host/output_file.h"
 #include "host/scene.h"
+#include "minicl/worker_threads.h"
 #include "tools/command.h"
 #include "tools/failed_allocation.h"
 
@@ -32,6 +35,22 @@ int complain(std::string message, int status)
   while (!message.empty() && message.back() == ' ') message.pop_back();
   std::fputs(fmt::format("tandem: {}\n", printable(message)).c_str(), stderr);
   return status;
+}
+
+void end_as_asked(int signal)
+{
+  remove_unfinished_files();
+  ::raise(signal); /* which ends the process now, and who asked sees that it did */
+}
+
+/* But for what the process was started to ignore, as by nohup. */
+void clean_up_when_asked_to_end()
+{
+  struct sigaction action {}, before {};
+  action.sa_handler = end_as_asked;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
 }
 
 /* A file opened later would else take the number of an output that is closed, and what is printed would land in it. */
@@ -69,26 +88,32 @@ std::string typed(int count, char **arguments)
   return text;
 }
 
-/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn. The
- * words for it are ready beforehand. */
+/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn; a library's
+ * thread throws where it cannot start another. The words for it are ready beforehand. */
 std::string last_words;
 std::terminate_handler usual_end = nullptr;
 
-void put_last_words() noexcept
+template <class... Values> [[noreturn]] void end_with_line(const char *format, Values... values) noexcept
 {
   char line[1024];
-  const int length = std::snprintf(line, sizeof line, "tandem: out of memory in `%.900s` (the last allocation that failed was of %zu bytes)\n", last_words.c_str(),
-                                   failed_allocation_bytes());
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, static_cast<size_t>(length));
+  const int length = std::snprintf(line, sizeof line - 1, format, values...);
+  const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);
+  std::replace(line, line + size, '\n', ' ');
+  line[size] = '\n';
+  remove_unfinished_files();
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line, size + 1);
+  _exit(1);
 }
 
-[[noreturn]] void end_without_memory()
+/* What the machine refuses is said and ends with a status. Anything else is a defect of ours, and ends as such. */
+[[noreturn]] void end_uncaught()
 {
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc &) {
-    put_last_words();
-    _exit(1);
+    end_with_line("tandem: out of memory in `%.800s` (the last allocation that failed was of %zu bytes)", last_words.c_str(), failed_allocation_bytes());
+  } catch (const std::runtime_error &error) {
+    end_with_line("tandem: `%.400s` cannot go on, and nothing could be saved: %.400s", last_words.c_str(), error.what());
   } catch (...) {
   }
   usual_end();
@@ -97,9 +122,8 @@ void put_last_words() noexcept
 
 void prepare_last_words(int count, char **arguments)
 {
-  usual_end = std::set_terminate(end_without_memory);
+  usual_end = std::set_terminate(end_uncaught);
   last_words = typed(count, arguments);
-  std::replace(last_words.begin(), last_words.end(), '\n', ' ');
 }
 
 /* "`tandem run --help`" for the subcommand that was being parsed. */
@@ -120,8 +144,12 @@ std::vector<Command> add_commands(CLI::App &parser)
 
 int execute_parsed(const std::vector<Command> &commands)
 {
-  for (const Command &command : commands)
-    if (command.parser->parsed()) return command.execute();
+  for (const Command &command : commands) {
+    if (!command.parser->parsed()) continue;
+    const int status = command.execute();
+    const std::string shortage = minicl::thread_shortage();
+    return shortage.empty() ? status : complain(shortage, status);
+  }
   throw InputError("no command given; `tandem --help` lists what there is");
 }
 
@@ -131,7 +159,8 @@ int parse_and_execute(int count, char **arguments)
                   "tandem");
   parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
-                "Exit status: 0 fine, 1 the check failed, 2 bad use or input, or an output that cannot be written.");
+                "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room that --max-pairs allows, a device;\n"
+                "2 bad use or input, or an output that cannot be written.");
   const std::vector<Command> commands = add_commands(parser);
   try {
     parser.parse(count, arguments);
@@ -168,7 +197,8 @@ int guarded(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-  std::signal(SIGPIPE, SIG_IGN); /* a write to a pipe that nobody reads is an error like others */
+  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN); /* a write that cannot be is an error like others */
+  tandem::clean_up_when_asked_to_end();
   tandem::prepare_last_words(count, arguments);
   tandem::keep_standard_files_apart();
   return tandem::with_output_written(tandem::guarded(count, arguments));

@@ -16,7 +16,7 @@ std::string label_of(const std::string &option, const std::string &path) { retur
 
 void check_writable(const std::string &option, const std::string &path)
 {
-  if (!path.empty() && path != "-") OutputFile::check(path, label_of(option, path));
+  if (!path.empty()) OutputFile::check(path, label_of(option, path));
 }
 
 void write_file(const std::string &option, const std::string &path, std::string_view contents)
@@ -24,6 +24,17 @@ void write_file(const std::string &option, const std::string &path, std::string_
   OutputFile file(path, label_of(option, path));
   file.write(contents);
   file.commit();
+}
+
+void JsonOutput::check(DistinctFiles &files) const
+{
+  if (!takes_standard_output()) files.writes("--json", path);
+}
+
+void JsonOutput::check() const
+{
+  DistinctFiles files;
+  check(files);
 }
 
 void JsonOutput::write(const Json &json) const

@@ -11,13 +11,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tools/distinct_files.h"
+
 namespace tandem {
 
 /* Keys keep the order in which they are added. */
 using Json = nlohmann::ordered_json;
 
 /* InputError naming the option unless `path` can be opened for writing; an existing file is left as it is.
- * Empty paths and "-" pass. */
+ * An empty path passes. */
 void check_writable(const std::string &option, const std::string &path);
 
 /* Whole or not at all (host/output_file.h); InputError if the disk will not take it. */
@@ -28,7 +30,8 @@ class JsonOutput {
 public:
   std::string path;
 
-  void check() const { check_writable("--json", path); }
+  void check(DistinctFiles &files) const;
+  void check() const; /* where there is no other file */
   /* With "-" standard output belongs to the JSON, so commands leave their tables out. */
   bool takes_standard_output() const { return path == "-"; }
   void write(const Json &json) const;

@@ -165,8 +165,9 @@ int execute(const PlanOptions &options)
   Settings settings = options.scene.settings();
   const std::string broadphase = settings.broadphase;
   const Placement placement = options.scene.placement();
-  options.json.check();
-  const Scene scene = options.scene.scene();
+  DistinctFiles files;
+  options.json.check(files);
+  const Scene scene = options.scene.scene(files);
   World chosen(scene, settings, placement);
   settings.specialise = false;
   settings.broadphase = chosen.settings().broadphase;

@@ -39,21 +39,21 @@ void add_options(CLI::App &parser, RunOptions &options)
   parser.add_option("--events", options.events, "write which bodies begin, go on and cease to touch in each step, and how hard")->type_name("F.json");
   parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
   parser.add_flag("--allow-quarantine", options.allow_quarantine, "exit status 0 also where bodies stopped being finite and were taken out");
-  parser.footer("Exit status: 0 fine, 1 a body stopped being finite or a batch is wrong, 2 bad use or input, or an output that cannot be written.\n"
+  parser.footer("Exit status: 0 fine, 1 a body stopped being finite, a batch is wrong, or memory or the room that --max-pairs allows did not suffice, 2 bad use or input, or an output that cannot be written.\n"
                 "Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
                 "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
                 "stages alone.");
 }
 
-void check_files(const RunOptions &options)
+void check_files(const RunOptions &options, DistinctFiles &files)
 {
   const auto [width, height] = size_of_image(options.image_size);
   if (!options.camera.empty()) camera_from(options.camera, width, height);
-  check_writable("--image", options.image);
-  check_writable("--save", options.save);
-  check_writable("--trace", options.trace);
-  check_writable("--events", options.events);
-  options.json.check();
+  files.writes("--image", options.image);
+  files.writes("--save", options.save);
+  files.writes("--trace", options.trace);
+  files.writes("--events", options.events);
+  options.json.check(files);
 }
 
 /* The animation while it is recorded; nothing without --save. */
@@ -225,8 +225,9 @@ int execute(const RunOptions &options)
   settings.events = !options.events.empty();
   const Placement placement = options.scene.placement();
   const uint64_t steps = options.scene.steps();
-  check_files(options);
-  World world(options.scene.scene(), settings, placement);
+  DistinctFiles files;
+  check_files(options, files);
+  World world(options.scene.scene(files), settings, placement);
   const Outcome outcome = simulate(world, options, steps);
   save_image(options, world);
   if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/input_file.h"
 #include "host/out_of_memory.h"
 #include "host/scene_catalog.h"
 
@@ -118,10 +119,12 @@ Placement SceneOptions::placement() const
 
 uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1, most_steps); }
 
-Scene SceneOptions::scene() const
+Scene SceneOptions::scene(DistinctFiles &files) const
 {
   const auto load = [&] {
+    const FilesRead read;
     Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
+    for (const std::string &path : read.paths) files.reads("SCENE", path);
     for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
     return scene;
   };

@@ -8,6 +8,7 @@
 
 #include "host/scene.h"
 #include "host/settings.h"
+#include "tools/distinct_files.h"
 
 namespace tandem {
 
@@ -28,7 +29,8 @@ public:
   Settings settings() const;
   Placement placement() const;
   uint64_t steps() const;
-  Scene scene() const;
+  /* InputError also where one of `files` is written and the scene is read from it. */
+  Scene scene(DistinctFiles &files) const;
   const std::string &scene_text() const { return scene_; }
 
   /* The options that differ from their defaults, as they would be typed again; `broadphase` is the one that was used, which auto does not say. */

@@ -76,12 +76,12 @@ std::vector<std::string> chosen_solvers(const StabilityOptions &options)
 }
 
 /* The folder is made before the first case runs: a long run must not end without its results. */
-void prepare_folder(const std::string &folder)
+void prepare_folder(const std::string &folder, DistinctFiles &files)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder)) throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error.message()));
-  check_writable("--out", folder + "/stability.json");
+  for (const char *name : {"stability.json", "figures.csv", "index.html"}) files.writes("--out", folder + "/" + name);
 }
 
 std::string verdict(const stability::Outcome &outcome)
@@ -191,10 +191,12 @@ int run_cases(const StabilityOptions &options)
   const Placement placement{options.on, {}, options.inexact};
   const Length length = options.quick ? Length::quick : Length::full;
   if (options.out.empty()) throw InputError("--out DIR is needed: the folder for the page, stability.json and figures.csv");
-  options.json.check();
+  DistinctFiles files;
   check_backend(placement);
-  prepare_folder(options.out);
+  prepare_folder(options.out, files);
+  options.json.check(files);
   if (!options.into.empty()) page_for_table(options.into);
+  files.writes("--table-in", options.into);
   size_t told = 0;
   const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)}, [&](const stability::Results &so_far) {
     save(options, stability::results_json(so_far));
@@ -284,7 +286,7 @@ Command stability_command(CLI::App &parser)
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
   command->add_flag("--list", options->list, "name the cases");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
-  command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not, 2 for bad use.");
+  command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not or if memory did not suffice, 2 for bad use or an output that cannot be written.");
   command->add_flag("--quick", options->quick, "shorter versions of the long cases, named as such");
   return {command, [options] { return execute(*options); }};
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/opencl/installed_drivers.h"
 #include "host/opencl/probe.h"
 #include "minicl/floating_point.h"
 #include "shared/platform.h"
@@ -99,11 +100,20 @@ std::vector<Candidate> ask_drivers()
   return candidates;
 }
 
+/* In a child (probe.h). */
+void ask_and_tell()
+{
+  cl_uint platforms = 0;
+  if (!ask_drivers().empty() || (clGetPlatformIDs(0, nullptr, &platforms) == CL_SUCCESS && platforms > 0)) return;
+  const std::string why = why_drivers_do_not_load();
+  if (!why.empty()) throw DriverFault(fmt::format("no installed OpenCL driver can be used; {}", why));
+}
+
 } // namespace
 
 std::vector<Candidate> find_candidates()
 {
-  static const std::string fault = driver_fault([] { ask_drivers(); });
+  static const std::string fault = driver_fault(ask_and_tell);
   if (!fault.empty()) throw DeviceError(fault);
   return ask_drivers();
 }

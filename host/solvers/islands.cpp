@@ -15,6 +15,7 @@
 
 #include "host/solvers/island_solver.h"
 #include "minicl/floating_point.h"
+#include "minicl/worker_threads.h"
 
 #define TANDEM_REFERENCE
 namespace tandem::in_double {
@@ -388,6 +389,7 @@ void solve_islands(const Launch &launch, Memory &memory)
   Rows rows(memory, counts);
   const std::vector<std::vector<uint32_t>> islands = find_islands(rows);
   std::vector<Outcome> outcomes(islands.size(), Outcome::left);
+  minicl::settle_threads();
   tbb::parallel_for(size_t{0}, islands.size(), [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); });
   if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; })) rows.write(memory);
   write_counts(memory, outcomes, islands, counts[COUNT_DIRECT_STALLED]);

@@ -67,11 +67,33 @@ TEST_CASE("failing drivers: a run on the CPU asks no driver, and one without pla
 }
 #endif
 
+#if defined(TANDEM_COMMAND) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_CASE("failing drivers: an installed driver that does not load is no missing one", "[command]")
+{
+  const command_line::Scratch folder;
+  std::ofstream(folder.file("gone.icd")) << "/nowhere/libgone.so\n";
+  const std::string environment = "OCL_ICD_VENDORS=" + folder.path.string() + "/";
+  command_line::check_refused("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl", "gone.icd: /nowhere/libgone.so: cannot open shared object file", environment);
+  CHECK(command_line::command("devices", environment).out.find("gone.icd: /nowhere/libgone.so") != std::string::npos);
+}
+
+TEST_CASE("failing drivers: without descriptors nobody says that none is installed", "[command]")
+{
+  for (const char *descriptors : {"4", "5", "6", "7"}) {
+    const command_line::Result result = command_line::command("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl", std::string("ulimit -n ") + descriptors + ";");
+    CAPTURE(descriptors, result.error);
+    CHECK(result.status == 2);
+    CHECK(result.error.find("Too many open files") != std::string::npos);
+  }
+}
+#endif
+
 TEST_CASE("the probe tells what came back from what did not")
 {
   using tandem::opencl::driver_fault;
   CHECK(driver_fault([] {}).empty());
   CHECK(driver_fault([] { throw std::runtime_error("known to the parent"); }).empty());
+  CHECK(driver_fault([] { throw tandem::opencl::DriverFault("known to the child alone"); }) == "known to the child alone");
   CHECK(driver_fault([] { std::abort(); }).find("crashed (Aborted)") != std::string::npos);
   CHECK(driver_fault([] { std::raise(SIGSEGV); }).find("crashed (Segmentation fault)") != std::string::npos);
   CHECK(driver_fault([] { _exit(0); }).find("ended the process (status 0)") != std::string::npos);

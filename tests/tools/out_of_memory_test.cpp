@@ -6,6 +6,10 @@
 #include <regex>
 #include <string>
 
+#include "host/faults.h"
+#include "host/out_of_memory.h"
+#include "tools/stability/cases.h"
+
 using command_line::Result;
 
 namespace {
@@ -55,7 +59,31 @@ TEST_CASE("a limit of pairs ends a run with one line that names it, and help tel
   check_one_line(result);
   CHECK(result.error.find("200 are the most (--max-pairs, Settings::max_pairs)") != std::string::npos);
   CHECK(run_within(4'000'000, "run --help").out.find("--max-pairs") != std::string::npos);
+  for (const char *help : {"--help", "run --help", "diff --help", "stability --help"}) {
+    const std::string text = run_within(4'000'000, help).out;
+    CAPTURE(help, text);
+    CHECK(text.find("did not suffice") != std::string::npos);
+    CHECK(text.find("memory") != std::string::npos);
+  }
   CHECK(run_within(4'000'000, "run rolling --max-pairs 268435457").status == 2);
+}
+
+/* A case that memory does not suffice for shows nothing of its solver. */
+TEST_CASE("a case that memory does not suffice for is no failed case")
+{
+  using namespace tandem;
+  const std::vector<stability::Case> cases = stability::all_cases();
+  faults::hook = [](faults::Site site) { return site == faults::Site::allocation; };
+  bool told = false;
+  try {
+    stability::run_case(cases.front(), stability::Length::brief, "soft-step", {"serial", {}, false}, {});
+  } catch (const OutOfMemory &) {
+    told = true;
+  } catch (const std::bad_alloc &) {
+    told = true;
+  }
+  faults::hook = nullptr;
+  CHECK(told);
 }
 
 #endif

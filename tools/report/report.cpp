@@ -139,14 +139,13 @@ ReportRequest request_of(const ReportOptions &options)
 }
 
 /* Refused before minutes are spent on what could not be written. */
-std::string usable_folder(const std::string &folder)
+void prepare_folder(const std::string &folder, DistinctFiles &files)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error ? error.message() : "a file of this name is there"));
-  for (const char *name : {"report.html", "report.csv", "report.json"}) check_writable("--out", (std::filesystem::path(folder) / name).string());
-  return folder;
+  for (const char *name : {"report.html", "report.csv", "report.json"}) files.writes("--out", (std::filesystem::path(folder) / name).string());
 }
 
 void write_report(const Report &report, const ReportOptions &options)
@@ -167,8 +166,10 @@ void write_report(const Report &report, const ReportOptions &options)
 int execute(const ReportOptions &options)
 {
   const ReportRequest request = request_of(options);
-  options.json.check();
-  usable_folder(options.out);
+  DistinctFiles files;
+  for (const std::string &file : request.problems) files.reads("--problems", file);
+  prepare_folder(options.out, files);
+  options.json.check(files);
   const Report report = collect_report(request);
   write_report(report, options);
   if (report.unequal() == 0) return 0;

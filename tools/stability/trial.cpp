@@ -5,8 +5,11 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include <fmt/format.h>
+
+#include "host/out_of_memory.h"
 
 namespace tandem::stability {
 namespace {
@@ -152,6 +155,10 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
     World world(trial.scene, settings, placement);
     simulate(outcome, records, world, trial, after_step);
     conclude(outcome, records, world, trial.poisoned);
+  } catch (const std::bad_alloc &) {
+    throw; /* says nothing of the case */
+  } catch (const OutOfMemory &) {
+    throw;
   } catch (const std::exception &error) {
     fail(outcome, trial, error.what());
   }

@@ -123,7 +123,7 @@ struct Outcome {
 /* The trial's settings with this solver, and its own substeps and iterations where the case leaves them open. */
 Settings settings_of(const Trial &trial, const std::string &solver);
 
-/* Runs to the end, or until the first body is lost; what a device or solver throws becomes a failed outcome, with the
+/* Runs to the end, or until the first body is lost; what a device or solver throws, but for want of memory, becomes a failed outcome, with the
  * reason as its note. `after_step(done, of)` may be empty. */
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});

@@ -1,0 +1,33 @@
+/* distinct_files.cpp - see distinct_files.h. */
+#include "tools/distinct_files.h"
+
+#include <fmt/format.h>
+
+#include "host/output_file.h"
+#include "host/scene.h"
+#include "tools/output.h"
+
+namespace tandem {
+
+void DistinctFiles::reads(const std::string &name, const std::string &path)
+{
+  for (const Use &use : written_)
+    if (is_same_file(path, use.path))
+      throw InputError(fmt::format("{} {}: {} reads this file; write to another one", use.name, use.path, name));
+  read_.push_back({name, path});
+}
+
+void DistinctFiles::writes(const std::string &option, const std::string &path)
+{
+  if (path.empty()) return;
+  for (const Use &use : read_)
+    if (is_same_file(path, use.path))
+      throw InputError(fmt::format("{} {}: {} reads this file; write to another one", option, path, use.name));
+  for (const Use &use : written_)
+    if (is_same_file(path, use.path))
+      throw InputError(fmt::format("{} {}: {} writes this file too; each output needs one of its own", option, path, use.name));
+  check_writable(option, path);
+  written_.push_back({option, path});
+}
+
+} // namespace tandem
