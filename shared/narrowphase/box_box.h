@@ -294,7 +294,7 @@ SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
   manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
   speculation s = speculation_of(parameters, start, pair.moves, pair.way, pair.least);
-  encounter met = encounter_of(s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
+  encounter met = encounter_of(parameters, s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
   box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
   manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);

@@ -107,7 +107,7 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   speculation s = speculation_of(parameters, m, moves, way, least);
   s.asked = s.asked & (fastest_turning(moves) > zero);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);
+    encounter met = encounter_of(parameters, s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);
     box_and_plane then = box_and_plane_after(pair, moves, choose(met.at_impact, met.time, zero));
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);

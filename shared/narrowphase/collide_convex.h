@@ -185,7 +185,7 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   journey way = journey_of_step(parameters, moves, least, bounding_radius_of(&shape));
   speculation s = speculation_of(parameters, m, moves, way, least);
   if (s.asked && fastest_turning(moves) > R(0.0)) {
-    encounter met = meet_plane(&shape, up, &height, moves.a, radius, moves.b, way, s);
+    encounter met = meet_plane(parameters, &shape, up, &height, moves.a, radius, moves.b, way, s);
     if (met.at_impact) m = convex_on_half_space(&shape, up, height, reach);
     to_plane = offset_after(to_plane, moves, met.at_impact ? met.time : R(0.0));
     m = as_seen_from_start(parameters, m, met, to_plane, moves);

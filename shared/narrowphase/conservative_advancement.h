@@ -125,22 +125,14 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
   return met;
 }
 
-/* Of contacts that the step does not reach. */
-SHARED encounter encounter_missed(speculation s)
-{
-  encounter met = {0, 1, s.swings, R(0.0)};
-  return met;
-}
-
 /* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts are to be those
  * of that moment. */
-SHARED encounter meet(convex *first, convex *second, vec3 offset, pair_motion moves, journey way, speculation s)
+SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset, pair_motion moves, journey way, speculation s)
 {
-  if (!s.reached) return encounter_missed(s);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex a = moving_convex_of(first, none, moves.a.linear, moves.a.angular, moves.radius_a);
   moving_convex b = moving_convex_of(second, offset, moves.b.linear, moves.b.angular, moves.radius_b);
-  encounter met = encounter_of(s, first_impact(&a, &b, way).at, way);
+  encounter met = encounter_of(parameters, s, s.reached ? first_impact(&a, &b, way).at : start_advancement(0), way);
   if (met.at_impact) {
     *first = shape_at(&a, a.linear, met.time);
     *second = shape_at(&b, a.linear, met.time);
@@ -149,12 +141,11 @@ SHARED encounter meet(convex *first, convex *second, vec3 offset, pair_motion mo
 }
 
 /* The same for a body seen from its own centre above a plane; `height` becomes that of the plane then. */
-SHARED encounter meet_plane(convex *shape, vec3 up, real *height, motion body, real radius, motion plane, journey way, speculation s)
+SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height, motion body, real radius, motion plane, journey way, speculation s)
 {
-  if (!s.reached) return encounter_missed(s);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex moving = moving_convex_of(shape, none, body.linear, body.angular, radius);
-  encounter met = encounter_of(s, first_impact_on_plane(&moving, up, *height, plane.linear, way).at, way);
+  encounter met = encounter_of(parameters, s, s.reached ? first_impact_on_plane(&moving, up, *height, plane.linear, way).at : start_advancement(0), way);
   if (met.at_impact) {
     *shape = shape_at(&moving, moving.linear, met.time);
     *height = *height - inner(up, subtract(body.linear, plane.linear)) * met.time;

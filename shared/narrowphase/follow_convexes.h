@@ -24,7 +24,7 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   journey way = journey_of_query(parameters, query);
   speculation s = speculation_of_query(parameters, query, start, way);
   way.far = way.far || !has_points(start);
-  encounter met = meet(&query->first, &query->second, query->offset, query->moves, way, s);
+  encounter met = meet(parameters, &query->first, &query->second, query->offset, query->moves, way, s);
   if (!met.at_impact && !met.missed) return start;
   manifold m = start;
   if (met.at_impact) m = contact_of_query(parameters, query, method);

@@ -113,9 +113,11 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   journey way = journey_of_step(parameters, moves, least, radius + shape.w);
   speculation s = speculation_of(parameters, m, moves, way, least);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
+    encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));
-    m = choose_manifold(met.at_impact, sphere_box_contact(then), m);
+    manifold later = sphere_box_contact(then);
+    later = kept_within(later, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, later.normal));
+    m = choose_manifold(met.at_impact, later, m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
   }
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);

@@ -148,43 +148,59 @@ SHARED real least_separation(manifold m)
 }
 
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
-SHARED mask swings_far(GLOBAL const Parameters *parameters, pair_motion moves, real least)
-{
-  return fastest_turning(moves) * parameters->step > FAR_SHARE * least;
-}
+SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
 /* impact_time of contacts that the motion of the step may pass, until a kernel of its own has followed them. Not below 0: rusticl
  * makes -0 of the other side of a choice between -1 and 0. */
 #define AHEAD R(1e30)
 
-/* Which speculative contacts, all of whose points are ahead of touching, are to be followed: those that the step reaches, or those
- * of a body that swings far. */
-typedef struct { mask asked, reached, swings; } speculation;
+/* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of
+ * the step reaches, which are followed, and those of a body that swings far. */
+typedef struct { mask asked, reached, a_swings, b_swings; } speculation;
 
 SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, pair_motion moves, journey way, real least)
 {
   real gap = least_separation(m);
-  mask ahead = has_points(m) & (gap > way.touching);
   speculation s;
-  s.swings = swings_far(parameters, moves, least);
+  s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
+  s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
+  mask ahead = has_points(m) & (gap > way.touching);
   s.reached = ahead & (closing_speed(moves, m.normal) * parameters->step > gap);
-  s.asked = s.reached | (ahead & s.swings);
+  s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   return s;
 }
 
-/* What becomes of the contacts that were followed. Neither mask: they stay. */
+/* What becomes of the contacts that were asked for. None of the masks: they stay. */
 typedef struct {
   mask at_impact; /* they are replaced by those of `time` */
   mask missed;
-  mask swings;
+  mask a_swings, b_swings;
   real time; /* s */
 } encounter;
 
-/* A pair that does not come far meets as it stands at the start. */
-SHARED encounter encounter_of(speculation s, advancement at, journey way)
+/* A pair that does not come far meets as it stands at the start. One that misses while one of it swings far is looked at as it is at
+ * the end of the step (guard_of). */
+SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s, advancement at, journey way)
 {
-  encounter met = {s.asked & at.hits & way.far & (at.time > R(0.0)), s.asked & (!at.hits), s.swings, at.time};
+  mask missed = s.asked & (!at.hits), meets = s.asked & at.hits & way.far & (at.time > R(0.0));
+  mask one_swings = (s.a_swings | s.b_swings) & (!(s.a_swings & s.b_swings));
+  encounter met = {meets | (missed & one_swings), missed, s.a_swings, s.b_swings, choose(at.hits, at.time, (real)parameters->step)};
   return met;
+}
+
+/* Of bodies that miss each other while one swings far, the contacts of the end of the step: what others or gravity add must not bring
+ * them nearer than they are then. In the centre of the one that swings, where its turning moves nothing, so that their own motion
+ * ends ahead of it; where that of the other moves the point by much, it is left out. So it is where a rotor swings that nothing
+ * pushes: it sweeps all around it. */
+SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset, pair_motion moves)
+{
+  vec3 point = choose3(a_swings, make_vec3(R(0.0), R(0.0), R(0.0)), offset);
+  real gap = least_separation(end), turning = length_of(choose3(a_swings, moves.b.angular, moves.a.angular));
+  mask quiet = turning * length_of(offset) * parameters->step < R(0.25) * gap;
+  mask pushed = choose(a_swings, moves.a.inverse_mass, moves.b.inverse_mass) > R(0.0);
+  manifold guard = single_contact(end.normal, point, gap, has_points(end) & quiet & pushed);
+  guard.code = end.code;
+  return guard;
 }
 
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
@@ -193,12 +209,12 @@ SHARED encounter encounter_of(speculation s, advancement at, journey way)
  * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
 {
-  manifold m = found;
+  manifold m = choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
     real closing = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    mask idle = (!met.swings) & (closing * parameters->step < m.point[slot].w);
-    m.kept[slot] = m.kept[slot] & (idle | (!met.missed));
+    mask idle = (!(met.a_swings | met.b_swings)) & (closing * parameters->step < m.point[slot].w);
+    m.kept[slot] = m.kept[slot] & (idle | (!met.missed) | met.at_impact);
     m.point[slot].w = choose(met.at_impact, m.point[slot].w + closing * met.time, m.point[slot].w);
   }
   m.impact_time = choose(met.at_impact, met.time, (real)R(0.0));
