@@ -1,5 +1,6 @@
 /* main.cpp - the command `tandem`: parses, runs one subcommand, turns errors into one line. */
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -95,6 +96,8 @@ std::terminate_handler usual_end = nullptr;
 
 template <class... Values> [[noreturn]] void end_with_line(const char *format, Values... values) noexcept
 {
+  static std::atomic_flag said = ATOMIC_FLAG_INIT;
+  while (said.test_and_set()) ::pause(); /* another thread is saying it, and ends them all */
   char line[1024];
   const int length = std::snprintf(line, sizeof line - 1, format, values...);
   const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);

@@ -278,6 +278,9 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }
 
+/* Cosine of the angle up to which the axis of two edges counts as that of the faces. */
+#define NEARLY_ALONG R(0.95)
+
 /* The contacts that the boxes may pass, in a kernel of their own: it takes twice the registers, for which all pairs would pay. */
 SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
                               GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
@@ -296,7 +299,10 @@ SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   speculation s = speculation_of(parameters, start, pair.moves, pair.way, pair.least);
   encounter met = encounter_of(parameters, s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
-  box_pair touching = along_best_axis(then, then.offset, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
+  box_pair faces = along_best_axis(then, then.offset, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
+  box_pair edges = along_edges(faces.edges_lead, faces);
+  mask inclined = faces.edges_lead & (inner(edges.normal, faces.normal) < NEARLY_ALONG);
+  box_pair touching = along_edges(inclined, faces); /* what grazes an edge is turned aside by its slope */
   manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);
   met.at_impact = met.at_impact & has_points(m); /* rounded edges may meet without a contact */
   m = as_seen_from_start(parameters, choose_manifold(met.at_impact, m, start), met, then.offset, pair.moves);

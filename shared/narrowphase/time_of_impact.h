@@ -37,8 +37,8 @@
 #define TOUCHING_SHARE R(1e-3)
 /* For the contacts of a step this share is enough, and no more than that of the slop is asked for: a pair that rolls along with hardly
  * a gap has then met, and need not be followed. */
-#define TOUCHING_SHARE_OF_STEP R(5e-3)
-#define TOUCHING_SLOP R(0.1)
+#define TOUCHING_SHARE_OF_STEP R(1e-3)
+#define TOUCHING_SLOP R(0.02)
 
 /* Two bodies that move evenly. radius: that turning swings round; 0 for a sphere in the middle of its body. */
 typedef struct {

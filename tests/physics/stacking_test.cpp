@@ -88,7 +88,7 @@ TEST_CASE("a stack stands 20 km from the origin", "[physics]")
   CHECK(deepest < 0.004);
 }
 
-TEST_CASE("cubes that fall in a heap sink no deeper than the fastest comes within a step, and not for long", "[physics]")
+TEST_CASE("cubes that fall in a heap sink no deeper than two of the fastest close within a step, and not for long", "[physics]")
 {
   Scene scene = load_scene("falling-boxes:n=600");
   const bool as_hulls = GENERATE(false, true);
@@ -100,7 +100,7 @@ TEST_CASE("cubes that fall in a heap sink no deeper than the fastest comes withi
     for (const BodyState &body : world.bodies()) fastest = std::max(fastest, vector_of(body.linear_velocity).norm());
     world.step();
     /* Contacts are found once a step: what comes nearer without one is stopped in the next. */
-    REQUIRE(world.statistics().max_penetration <= fastest * world.settings().step);
+    REQUIRE(world.statistics().max_penetration <= 2 * fastest * world.settings().step);
   }
   CHECK(world.statistics().max_penetration < 0.1 * 0.5); /* what is parted slowly (DEEP_SHARE of a half extent) */
 }
