@@ -35,9 +35,7 @@
 #define ROUGHLY R(0.1)
 /* Of the least size: shapes this close count as touching. */
 #define TOUCHING_SHARE R(1e-3)
-/* For the contacts of a step this share is enough, and no more than that of the slop is asked for: a pair that rolls along with hardly
- * a gap has then met, and need not be followed. */
-#define TOUCHING_SHARE_OF_STEP R(1e-3)
+/* Of the slop: nor need they come closer than this within a step. */
 #define TOUCHING_SLOP R(0.02)
 
 /* Two bodies that move evenly. radius: that turning swings round; 0 for a sphere in the middle of its body. */
@@ -90,8 +88,7 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
   real horizon = parameters->step + parameters->speculative_distance / fastest;
-  real enough = minimum(least * (TOUCHING_SHARE_OF_STEP / TOUCHING_SHARE), parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE));
-  journey way = journey_of(fastest, horizon, enough, size);
+  journey way = journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
   way.roughly = ROUGHLY;
   way.far = fastest * parameters->step > FAR_SHARE * least;
   return way;
