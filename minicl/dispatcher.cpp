@@ -6,6 +6,7 @@
 #include <bit>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <new>
 #include <numeric>
 #include <utility>
@@ -144,7 +145,7 @@ private:
     open_arena();
     LaunchOrder order;
     order.launch_begins();
-    arena_.execute([&, step = uint64_t{step_of_launch}] {
+    arena_->execute([&, step = uint64_t{step_of_launch}] {
       tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) TANDEM_UNWATCHED {
         order.items_begin();
         step_of_launch = step;
@@ -160,7 +161,7 @@ private:
   void open_arena()
   {
     const size_t granted = settle_threads();
-    if (!arena_.is_active()) arena_.initialize(static_cast<int>(std::min<size_t>(threads_, granted)));
+    if (!arena_) arena_.emplace(static_cast<int>(std::min<size_t>(threads_, granted)));
   }
 
   /* Without an order among threads, in which the thread sanitizer would then not see races. */
@@ -186,7 +187,7 @@ private:
 
   std::string name_;
   Order order_;
-  tbb::task_arena arena_; /* opened by the first launch that is split */
+  std::optional<tbb::task_arena> arena_; /* opened by the first launch that is split */
   uint32_t threads_;
   const KernelTable &scalar_;
   const KernelTable *lanes_;
