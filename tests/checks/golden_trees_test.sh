@@ -5,13 +5,7 @@ set -eu
 in_tree=$1 root=$2/golden-trees
 unset CI TANDEM_WITHOUT_COMPILERS
 
-expect() { # STATUS COMMAND...
-  wanted=$1 found=0
-  shift
-  said=$("$@" 2>&1) || found=$?
-  [ "$wanted" = failed ] && [ "$found" != 0 ] && [ "$found" != 77 ] && return 0
-  [ "$found" = "$wanted" ] || { printf '%s\n%s: status %s, not %s\n' "$said" "$*" "$found" "$wanted"; exit 1; }
-}
+. "$(dirname "$0")/expect.sh"
 
 rm -rf "$root"
 mkdir -p "$root/build/golden-built/bin"

@@ -5,13 +5,7 @@ set -eu
 tests=$1 tandem=$2 scripts=$3 directory=$4
 export OCL_ICD_VENDORS=/nonexistent OPENCL_VENDOR_PATH=/nonexistent TANDEM_SHARED_DATA=/nonexistent
 
-expect() { # STATUS COMMAND...
-  wanted=$1 found=0
-  shift
-  said=$("$@" 2>&1) || found=$?
-  [ "$wanted" = failed ] && [ "$found" != 0 ] && [ "$found" != 77 ] && return 0
-  [ "$found" = "$wanted" ] || { printf '%s\n%s: status %s, not %s\n' "$said" "$*" "$found" "$wanted"; exit 1; }
-}
+. "$(dirname "$0")/expect.sh"
 
 programs=$directory/programs-without-oclgrind
 mkdir -p "$programs"
