@@ -26,7 +26,7 @@
 #include <tuple>
 
 namespace tandem {
-struct Pose {
+struct FramePose {
   Vec3 position;
   Quat orientation;
 };
@@ -39,10 +39,10 @@ struct ColoredMesh {
 
 struct RecordedBody {
   std::string name;
-  Pose rest;     /* in the first frame */
+  FramePose rest;     /* in the first frame */
   Vec3 scale;    /* from the mesh to the body's size */
   uint32_t mesh; /* index into Recording::meshes */
-  Pose shape;    /* in the body */
+  FramePose shape;    /* in the body */
 };
 
 struct Recording {
@@ -53,7 +53,7 @@ struct Recording {
     throw InputError(fmt::format("{}: {}: {}", path, what, std::strerror(errno ? errno : EIO)));
   }
   void put(const void *data, size_t bytes) { target.write({static_cast<const char *>(data), bytes}); }
-  uint64_t pose_bytes(size_t body_count) const { return uint64_t(body_count) * times.size() * sizeof(Pose); }
+  uint64_t pose_bytes(size_t body_count) const { return uint64_t(body_count) * times.size() * sizeof(FramePose); }
 
   std::string path;
   uint32_t stride;
@@ -66,7 +66,7 @@ struct Recording {
   std::vector<ColoredMesh> meshes;
   std::vector<uint32_t> moving; /* bodies that may move: all but fixed ones */
   std::vector<bool> moved;      /* parallel to moving */
-  std::vector<Pose> last;       /* parallel to moving */
+  std::vector<FramePose> last;       /* parallel to moving */
 };
 
 namespace {
@@ -185,7 +185,7 @@ Vec3 scale_of(const Shape &shape, float reach)
   return has_unit_mesh(shape.type) ? shape.size : Vec3{1, 1, 1};
 }
 
-bool same_pose(const Pose &a, const Pose &b) { return a.position == b.position && a.orientation == b.orientation; }
+bool same_pose(const FramePose &a, const FramePose &b) { return a.position == b.position && a.orientation == b.orientation; }
 
 uint32_t color_of(const Scene &scene, size_t index)
 {
@@ -243,7 +243,7 @@ Layout layout_of(const Recording &r)
   return layout;
 }
 
-constexpr Pose no_pose{{0, 0, 0}, {0, 0, 0, 1}};
+constexpr FramePose no_pose{{0, 0, 0}, {0, 0, 0, 1}};
 
 /* The nodes of bodies have their numbers; those of shapes with a pose come after them. */
 void write_nodes(JsonStream &json, const Recording &r)
@@ -381,12 +381,12 @@ Quat nearer_sign(Quat q, const Quat &before)
 }
 
 /* The poses of one frame of the bodies moving[low] … */
-void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &row)
+void read_row(const Recording &r, size_t frame, size_t low, std::vector<FramePose> &row)
 {
   errno = 0;
-  auto at = off_t((frame * r.moving.size() + low) * sizeof(Pose));
+  auto at = off_t((frame * r.moving.size() + low) * sizeof(FramePose));
   if (fseeko(r.spool.get(), at, SEEK_SET) != 0 ||
-      std::fread(row.data(), sizeof(Pose), row.size(), r.spool.get()) != row.size())
+      std::fread(row.data(), sizeof(FramePose), row.size(), r.spool.get()) != row.size())
     r.fail("cannot read back the recorded frames");
 }
 
@@ -394,16 +394,16 @@ void read_row(const Recording &r, size_t frame, size_t low, std::vector<Pose> &r
 void write_poses(Recording &r, const Layout &layout)
 {
   const std::vector<uint32_t> &animated = layout.animated;
-  const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(Pose))));
+  const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(FramePose))));
   for (size_t begin = 0; begin < animated.size(); begin += per_block) {
     size_t bodies = std::min(per_block, animated.size() - begin), low = animated[begin];
-    std::vector<Pose> row(animated[begin + bodies - 1] - low + 1);
+    std::vector<FramePose> row(animated[begin + bodies - 1] - low + 1);
     std::vector<Vec3> translations(bodies * frames);
     std::vector<Quat> rotations(bodies * frames);
     for (size_t frame = 0; frame < frames; ++frame) {
       read_row(r, frame, low, row);
       for (size_t k = 0; k < bodies; ++k) {
-        const Pose &pose = row[animated[begin + k] - low];
+        const FramePose &pose = row[animated[begin + k] - low];
         size_t at = k * frames + frame;
         translations[at] = pose.position;
         rotations[at] = frame == 0 ? pose.orientation : nearer_sign(pose.orientation, rotations[at - 1]);
@@ -466,7 +466,7 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
     if (!same_pose(r.last[k], r.bodies[body].rest)) r.moved[k] = true;
   }
   errno = 0;
-  if (std::fwrite(r.last.data(), sizeof(Pose), r.last.size(), r.spool.get()) != r.last.size()) r.fail("cannot write the frames that wait for the end");
+  if (std::fwrite(r.last.data(), sizeof(FramePose), r.last.size(), r.spool.get()) != r.last.size()) r.fail("cannot write the frames that wait for the end");
 }
 
 void AnimationWriter::finish()

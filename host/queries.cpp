@@ -8,10 +8,10 @@
 
 #include "host/body_buffers.h"
 #include "host/broadphases/broadphase.h"
+#include "host/finite_vector.h"
 #include "host/geometry/convex_hull.h"
 #include "host/hull_strips.h"
 #include "host/primitives.h"
-#include "host/round_to_float.h"
 #include "host/shape_bounds.h"
 #include "shared/platform.h"
 
@@ -20,11 +20,6 @@ namespace {
 
 [[noreturn]] void refuse(const char *what, size_t index, const std::string &why) { throw InputError(fmt::format("{} {}: {}", what, index, why)); }
 
-template <class Vector> bool finite(const Vector &v)
-{
-  return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
-}
-template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
 double length(const Vec3 &v) { return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]); }
 
 /* Squares of lengths are taken in float. */
@@ -167,9 +162,9 @@ void check_rays(std::span<const Ray> rays)
   check_number(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     const Ray &ray = rays[i];
-    if (!finite(ray.origin)) refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", text(ray.origin)));
-    if (!finite(ray.direction) || !(length(ray.direction) >= shortest && length(ray.direction) <= longest))
-      refuse("ray", i, fmt::format("direction is {}; a vector of a length from {} to {} is needed", text(ray.direction), shortest, longest));
+    if (!is_finite_vector(ray.origin)) refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", vector_text(ray.origin)));
+    if (!is_finite_vector(ray.direction) || !(length(ray.direction) >= shortest && length(ray.direction) <= longest))
+      refuse("ray", i, fmt::format("direction is {}; a vector of a length from {} to {} is needed", vector_text(ray.direction), shortest, longest));
     if (!(ray.reach >= 0)) refuse("ray", i, fmt::format("reach is {}; a number of at least 0 is needed", ray.reach));
   }
 }
@@ -179,11 +174,11 @@ void check_boxes(std::span<const QueryBox> boxes)
   check_number(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
     const QueryBox &box = boxes[i];
-    if (!finite(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", text(box.center)));
+    if (!is_finite_vector(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", vector_text(box.center)));
     const bool negative = box.half_extents[0] < 0 || box.half_extents[1] < 0 || box.half_extents[2] < 0;
-    if (!finite(box.half_extents) || negative) refuse("box", i, fmt::format("half extents are {}; three finite numbers of at least 0 are needed", text(box.half_extents)));
-    if (!finite(box.displacement) || length(box.displacement) > longest)
-      refuse("box", i, fmt::format("displacement is {}; a vector of at most {} is needed", text(box.displacement), longest));
+    if (!is_finite_vector(box.half_extents) || negative) refuse("box", i, fmt::format("half extents are {}; three finite numbers of at least 0 are needed", vector_text(box.half_extents)));
+    if (!is_finite_vector(box.displacement) || length(box.displacement) > longest)
+      refuse("box", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(box.displacement), longest));
   }
 }
 
@@ -194,9 +189,9 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
   if (poses.size() != displacements.size())
     throw InputError(fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (!finite(poses[i].position)) refuse("sweep", i, fmt::format("position is {}; three finite numbers are needed", text(poses[i].position)));
-    if (!finite(displacements[i]) || length(displacements[i]) > longest)
-      refuse("sweep", i, fmt::format("displacement is {}; a vector of at most {} is needed", text(displacements[i]), longest));
+    if (!is_finite_vector(poses[i].position)) refuse("sweep", i, fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
+    if (!is_finite_vector(displacements[i]) || length(displacements[i]) > longest)
+      refuse("sweep", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
     const Quat &q = poses[i].orientation;
     const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
     if (!(std::abs(square - 1) < 2e-3))

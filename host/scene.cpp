@@ -5,10 +5,10 @@
  */
 #include "host/scene.h"
 
+#include "host/finite_vector.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/printable.h"
-#include "host/round_to_float.h"
 #include "shared/body_codes.h"
 
 #include <algorithm>
@@ -28,13 +28,6 @@ constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
   throw InputError(fmt::format("{}: {}: {}", printable(where), what, why));
 }
 
-template <class Vector> bool finite(const Vector &v)
-{
-  return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
-}
-
-template <class Vector> std::string text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
-
 std::string label(const char *kind, size_t index, const std::string &name)
 {
   return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, printable(name));
@@ -51,7 +44,7 @@ struct Checker {
 
   template <class Vector> void finite_vector(const char *field, const Vector &v) const
   {
-    if (!finite(v)) fail(fmt::format("{} is {}; three finite numbers are needed", field, text(v)));
+    if (!is_finite_vector(v)) fail(fmt::format("{} is {}; three finite numbers are needed", field, vector_text(v)));
   }
   void at_least_zero(const char *field, float x) const
   {
@@ -275,8 +268,8 @@ std::string volume_doubt(const Shape &shape)
 
 void validate(const Scene &scene, const std::string &where)
 {
-  if (!finite(scene.gravity))
-    refuse(where, "gravity", "is " + text(scene.gravity) + "; three finite numbers are needed");
+  if (!is_finite_vector(scene.gravity))
+    refuse(where, "gravity", "is " + vector_text(scene.gravity) + "; three finite numbers are needed");
   if (scene.materials.empty()) refuse(where, "materials", "there are none; a scene needs at least one");
   if (scene.materials.size() > MOST_MATERIALS)
     refuse(where, "materials", fmt::format("there are {}; at most {}", scene.materials.size(), MOST_MATERIALS));

@@ -16,7 +16,7 @@ using namespace scene_builders;
 namespace {
 
 /* Mass from the volume, kg / m^3. */
-void finish(Scene &scene, Body &body, double density)
+void finish_body(Scene &scene, Body &body, double density)
 {
   take_mass_properties(scene, body);
   body.mass = round_to_float(density * mass_properties_of(scene.shapes[body.shape]).mass);
@@ -51,7 +51,7 @@ Scene hulls_on_mesh(const SceneValues &v)
     const uint32_t shape = random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
     Body &body = add_body(scene, shape, grid.place(i, 0.05, random));
     body.orientation = random.orientation();
-    finish(scene, body, 1000);
+    finish_body(scene, body, 1000);
   }
   return scene;
 }
@@ -109,7 +109,7 @@ Scene compounds(const SceneValues &v)
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     Body &body = add_body(scene, uint32_t(i % 4), grid.place(i, 0.05, random));
     body.orientation = random.orientation();
-    finish(scene, body, 600);
+    finish_body(scene, body, 600);
   }
   return scene;
 }

@@ -15,7 +15,7 @@ using namespace scene_builders;
 namespace {
 
 /* Mass from 1,000 kg / m^3 of a ball of that radius, centre and axes from the shape. */
-void finish(Scene &scene, Body &body, double radius)
+void finish_stone(Scene &scene, Body &body, double radius)
 {
   body.mass = round_to_float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
   take_mass_properties(scene, body);
@@ -38,7 +38,7 @@ Scene convex_hulls(const SceneValues &v)
     const uint32_t shape = random.below(kinds_of_stone); /* drawn first: arguments are evaluated in whatever order the compiler likes */
     Body &body = add_body(scene, shape, grid.place(i, jitter, random));
     body.orientation = random.orientation();
-    finish(scene, body, 0.35);
+    finish_stone(scene, body, 0.35);
   }
   return scene;
 }
@@ -60,7 +60,7 @@ Scene shapes(const SceneValues &v)
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     Body &body = add_body(scene, uint32_t(i) % movable, grid.place(i, jitter, random));
     body.orientation = random.orientation();
-    finish(scene, body, 0.35);
+    finish_stone(scene, body, 0.35);
   }
   return scene;
 }
@@ -125,7 +125,7 @@ Scene thin_wall(const SceneValues &v)
     body.continuous = true;
     body.filter_group = 2;
     body.filter_mask = 1; /* the wall alone */
-    finish(scene, body, 0.02);
+    finish_stone(scene, body, 0.02);
   }
   return scene;
 }

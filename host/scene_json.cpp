@@ -137,7 +137,7 @@ void take_moments(const JsonValue &bodies, Scene &scene)
     if (const auto moments = bodies.element(i).find("inertia")) scene.bodies[i].inertia = moments->magnitudes();
 }
 
-void check_version(const JsonValue &root)
+void check_format(const JsonValue &root)
 {
   if (!root.find("tandem_scene")) root.fail("\"tandem_scene\": 1 is missing; this is not a Tandem scene");
   JsonValue version = root.member("tandem_scene");
@@ -193,7 +193,7 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
   const JsonDocument document = parse_json(text, where);
   const JsonValue root(document.value(), where);
-  check_version(root);
+  check_format(root);
   root.only_keys(keys);
   Scene scene;
   if (auto name = root.find("name")) read_value(*name, scene.name);

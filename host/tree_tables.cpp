@@ -39,9 +39,9 @@ Bounds bounds_of_box(const ShapeBox &box)
   return bounds;
 }
 
-class Builder {
+class TableBuilder {
 public:
-  explicit Builder(const Scene &scene) : scene_(scene) {}
+  explicit TableBuilder(const Scene &scene) : scene_(scene) {}
 
   TreeTables build()
   {
@@ -133,7 +133,7 @@ private:
 
 uint32_t children_of(const Shape &shape) { return shape.compound ? count_of(shape.compound->children.size()) : 0; }
 
-TreeTables tree_tables(const Scene &scene) { return Builder(scene).build(); }
+TreeTables tree_tables(const Scene &scene) { return TableBuilder(scene).build(); }
 
 void upload_trees(Memory &memory, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order)
 {

@@ -70,9 +70,9 @@ void check(std::span<const Bounds> boxes, const std::string &where)
     }
 }
 
-class Builder {
+class HierarchyBuilder {
 public:
-  Builder(std::span<const Bounds> boxes, const std::string &where) : boxes_(boxes), order_(boxes.size())
+  HierarchyBuilder(std::span<const Bounds> boxes, const std::string &where) : boxes_(boxes), order_(boxes.size())
   {
     std::iota(order_.begin(), order_.end(), 0u);
     bvh_.quantisation = quantisation_of(bounds({0, boxes.size(), 0}), where);
@@ -217,7 +217,7 @@ uint32_t depth_bound(size_t primitives) { return 2 * uint32_t(std::bit_width(pri
 Bvh build_bvh(std::span<const Bounds> boxes, const std::string &where)
 {
   check(boxes, where);
-  return Builder(boxes, where).build();
+  return HierarchyBuilder(boxes, where).build();
 }
 
 QuantisedBounds quantised(const Quantisation &quantisation, const Bounds &box)

@@ -23,7 +23,7 @@ constexpr std::string_view passed_over[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
     "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
-struct Face {
+struct ObjFace {
   std::vector<int64_t> corners; /* from 0 */
   size_t line;
 };
@@ -36,7 +36,7 @@ public:
   void check_crossings() const;
 
   std::vector<Vec3> vertices;
-  std::vector<Face> faces;
+  std::vector<ObjFace> faces;
 
 private:
   [[noreturn]] void fail(const std::string &why, size_t line) const
@@ -136,7 +136,7 @@ int64_t ObjReader::corner(std::string_view word) const
 void ObjReader::read_face(const std::vector<std::string_view> &words)
 {
   if (words.size() < 4) fail(fmt::format("a face of {} corners; three are needed at least", words.size() - 1), line_);
-  Face &face = faces.emplace_back();
+  ObjFace &face = faces.emplace_back();
   face.line = line_;
   for (size_t k = 1; k < words.size(); ++k) face.corners.push_back(corner(words[k]));
 }
@@ -158,7 +158,7 @@ void ObjReader::read()
 /* Faces may stand before their vertices. */
 void ObjReader::check_corners() const
 {
-  for (const Face &face : faces)
+  for (const ObjFace &face : faces)
     for (const int64_t corner : face.corners)
       if (corner >= static_cast<int64_t>(vertices.size()))
         fail(fmt::format("a face names vertex {}, but there are {} (1 is the first)", corner + 1, vertices.size()),
@@ -168,7 +168,7 @@ void ObjReader::check_corners() const
 /* Quads would be cut all the same, into triangles that overlap. */
 void ObjReader::check_crossings() const
 {
-  for (const Face &face : faces) {
+  for (const ObjFace &face : faces) {
     std::vector<Vec3> corners;
     for (const int64_t corner : face.corners) corners.push_back(vertices[size_t(corner)]);
     if (crosses_itself(corners)) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
@@ -180,7 +180,7 @@ std::string plain_text(const ObjReader &read)
 {
   std::string text;
   for (const Vec3 &v : read.vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
-  for (const Face &face : read.faces) {
+  for (const ObjFace &face : read.faces) {
     text += "f";
     for (const int64_t corner : face.corners) text += fmt::format(" {}", corner + 1);
     text += "\n";
@@ -219,7 +219,7 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
   if (read.faces.empty()) return mesh;
   mesh.triangles = triangles_of(read, where);
   size_t expected = 0;
-  for (const Face &face : read.faces) expected += face.corners.size() - 2;
+  for (const ObjFace &face : read.faces) expected += face.corners.size() - 2;
   if (mesh.triangles.size() != expected)
     throw InputError(fmt::format(
         "{}: a polygon crosses itself, or its corners lie in one line: it cannot be cut into triangles; give triangles",

@@ -16,7 +16,7 @@ void launch_pass(StepLaunches &step, MassSplit &tail, uint32_t pass)
   tail.solve(pass, tail_iterations);
 }
 
-void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   step.begin_substep(substep);
   warm_start_contacts(step, tail);
@@ -35,7 +35,7 @@ void launch_direct(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_direct_substep(step, tail, substep);
   apply_restitution(step, tail);
   if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {island_pass_bouncing});
 }

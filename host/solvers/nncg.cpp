@@ -29,7 +29,7 @@ void launch_sweeps(StepLaunches &step, MassSplit &tail, uint32_t pass)
   }
 }
 
-void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_nncg_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   step.begin_substep(substep);
   warm_start_contacts(step, tail);
@@ -45,7 +45,7 @@ void launch_nncg(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_nncg_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

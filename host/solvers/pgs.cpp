@@ -6,7 +6,7 @@
 namespace tandem {
 namespace {
 
-void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_pgs_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   const uint32_t sweeps = step.settings().iterations;
   step.begin_substep(substep);
@@ -33,7 +33,7 @@ void launch_pgs(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_pgs_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

@@ -21,7 +21,7 @@ uint32_t passes_of(const StepLaunches &step, const MassSplit &tail, uint32_t sub
 }
 
 /* Later substeps find the impulses of the colours in solver_push; the tail adds its own each time. */
-void launch_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_soft_step_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 {
   step.begin_substep(substep);
   if (substep == 0) step.for_each_color(Kernel::warm_start);
@@ -38,7 +38,7 @@ void launch_soft_step(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, tail, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_soft_step_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

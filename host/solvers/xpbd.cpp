@@ -11,7 +11,7 @@ namespace {
  * as much; others keep the one pass of the paper. */
 uint32_t velocity_passes(const StepLaunches &step) { return step.plan().colors > COLOR_LIMIT ? 8 : 1; }
 
-void launch_substep(StepLaunches &step, uint32_t substep)
+void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
 {
   step.begin_substep(substep);
   warm_start_rolling(step);
@@ -28,7 +28,7 @@ void launch_substep(StepLaunches &step, uint32_t substep)
 void launch_xpbd(StepLaunches &step)
 {
   step.run(Kernel::xpbd_prepare);
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_substep(step, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
   if (!step.has(FEATURE_RESTITUTION)) return;
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
