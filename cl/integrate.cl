@@ -58,11 +58,11 @@ __kernel void finish_step(__global uint *counts, uint colors, RANGE)
 
 __kernel void commit_bodies(__global const row *solver_velocity, __global const row *solver_delta,
                             __global const row *solver_orientation, __global const row *previous_body_position,
-                            __global row *body_position, __global row *body_orientation,
+                            __global const row *body_mass, __global row *body_position, __global row *body_orientation,
                             __global row *body_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, previous_body_position, body_position,
+  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, previous_body_position, body_mass, body_position,
                      body_orientation, body_velocity, i);
 }
 

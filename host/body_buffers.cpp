@@ -97,7 +97,7 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
     std::copy(place.begin(), place.end(), &position[2 * i]);
     orientation[i] = {q[0], q[1], q[2], q[3]};
     velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
-    velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), 0);
+    velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor);
   }
   upload_all(memory, Buffer::body_mass, mass);
   upload_all(memory, Buffer::body_position, position);
@@ -171,8 +171,9 @@ void upload_body(Memory &memory, uint32_t index, const BodyState &state)
   const Quat q = unit(state.orientation);
   const auto place = place_of(state.position);
   const row orientation{q[0], q[1], q[2], q[3]};
-  const float inverse_mass = memory.read<row>(Buffer::body_velocity, 1, 2 * size_t{index}).front().w;
-  write_state(memory, index, {place, orientation, {row_of_vec(state.linear_velocity, inverse_mass), row_of_vec(state.angular_velocity, 0)}, 0});
+  const auto velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const row linear = row_of_vec(state.linear_velocity, velocity[0].w), angular = row_of_vec(state.angular_velocity, velocity[1].w);
+  write_state(memory, index, {place, orientation, {linear, angular}, 0});
 }
 
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)

@@ -57,12 +57,14 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 }
 
 SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
-                               GLOBAL const row *previous_body_position, GLOBAL row *body_position, GLOBAL row *body_orientation,
-                               GLOBAL row *body_velocity, item_index i)
+                               GLOBAL const row *previous_body_position, GLOBAL const row *body_mass, GLOBAL row *body_position,
+                               GLOBAL row *body_orientation, GLOBAL row *body_velocity, item_index i)
 {
   store_place(body_position, i, moved_place(load_place(previous_body_position, i), xyz(load_row(solver_delta, i * 2u))));
   store_row(body_orientation, i, load_row(solver_orientation, i));
-  store_motion(body_velocity, i, load_motion(solver_velocity, i));
+  motion m = load_motion(solver_velocity, i);
+  store_row(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
+  store_row(body_velocity, i * 2u + 1u, extend(m.angular, load_row(body_mass, i * 2u).w));
 }
 
 SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i) { cached_start[i] = pair_start[i]; }

@@ -182,7 +182,7 @@ SHARED box_pair along_edges(mask wanted, box_pair pair)
 /* The manifold of two boxes as they stand. Seen along the normal of a face, edges that will meet may still pass beside each other. */
 SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, pair_motion moves)
 {
-  real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, pair.normal);
+  real reach = reach_of_pair(parameters, moves, pair.normal);
   mask near = wanted & (pair.gap < reach), on_edges = pair.code >= 6u;
   manifold none = single_contact(pair.normal, pair.offset, reach, near & (!near));
   manifold on_face = kept_within(with_face_contacts(none, near & (!on_edges), pair), reach);
@@ -238,10 +238,7 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
 {
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
   moving_boxes pair;
-  pair.moves.a = load_motion(velocities, a);
-  pair.moves.b = load_motion(velocities, b);
-  pair.moves.radius_a = shape_a.w;
-  pair.moves.radius_b = shape_b.w;
+  pair.moves = load_pair_motion(velocities, parameters, a, b, shape_a.w, shape_b.w);
   pair.boxes.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
   pair.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
   pair.boxes.offset = pair.boxes.normal = offset_between(positions, a, b);

@@ -97,9 +97,9 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   real zero = R(0.0), least = least_of(xyz(shape));
   box_and_plane pair = {oriented_box_of(load_row(orientations, body), xyz(shape)), offset_between(positions, plane, body),
                         axis_y(rotation_of(quat_from(load_row(orientations, plane)))), box_first};
-  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), choose(box_first, shape.w, zero), choose(box_first, zero, shape.w)};
+  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(box_first, shape.w, zero), choose(box_first, zero, shape.w));
   vec3 normal = choose3(box_first, negate(pair.outward), pair.outward);
-  real reach = reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, normal);
+  real reach = reach_of_pair(parameters, moves, normal);
   manifold m = box_plane_contact(pair, reach);
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */

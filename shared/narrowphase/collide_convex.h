@@ -46,9 +46,9 @@ SHARED int takes_part(uint shape) { return shape == SHAPE_SPHERE || shape == SHA
 /* Whatever the normal will be, no gap is closed faster than the bodies approach. */
 SHARED real widest_reach(GLOBAL const Parameters *parameters, pair_motion moves)
 {
-  vec3 approach = subtract(moves.a.linear, moves.b.linear);
+  vec3 approach = subtract(subtract(moves.a.linear, moves.b.linear), moves.fall);
   real speed = length_of(approach);
-  return reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
+  return reach_of_pair(parameters, moves, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
 }
 
 SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, real thickness, uint method)
@@ -80,11 +80,8 @@ SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLO
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return QUERY_OF_OTHERS;
-  query->moves.a = load_motion(velocities, a);
-  query->moves.b = load_motion(velocities, b);
   real around_a = load_row(shapes, a).w, around_b = load_row(shapes, b).w;
-  query->moves.radius_a = choose(shape_a == SHAPE_SPHERE, R(0.0), around_a);
-  query->moves.radius_b = choose(shape_b == SHAPE_SPHERE, R(0.0), around_b);
+  query->moves = load_pair_motion(velocities, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a), choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
   query->offset = offset_between(positions, a, b);
   real farthest = around_a + around_b + query->reach;
@@ -98,7 +95,7 @@ SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLO
 
 SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  return kept_within(m, reach_of(parameters, query->moves.a, query->moves.radius_a, query->moves.b, query->moves.radius_b, m.normal));
+  return kept_within(m, reach_of_pair(parameters, query->moves, m.normal));
 }
 
 /* The manifold of the shapes as the query has them. */
@@ -177,8 +174,8 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
                              part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
   vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
   real radius = load_row(shapes, body).w, height = inner(up, to_plane), least = least_size(&shape);
-  pair_motion moves = {load_motion(velocities, body), load_motion(velocities, plane), radius, R(0.0)};
-  real reach = reach_of(parameters, moves.a, radius, moves.b, R(0.0), negate(up));
+  pair_motion moves = load_pair_motion(velocities, parameters, body, plane, radius, R(0.0));
+  real reach = reach_of_pair(parameters, moves, negate(up));
   manifold m = convex_on_half_space(&shape, up, height, reach);
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */

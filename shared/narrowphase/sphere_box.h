@@ -106,9 +106,9 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   vec4 shape = load_row(shapes, box);
   real zero = R(0.0), radius = load_row(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
   sphere_and_box pair = {offset_between(positions, box, sphere), xyz(shape), radius, rotation_of(quat_from(load_row(orientations, box))), sphere_first};
-  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), choose(sphere_first, zero, shape.w), choose(sphere_first, shape.w, zero)};
+  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(sphere_first, zero, shape.w), choose(sphere_first, shape.w, zero));
   manifold m = sphere_box_contact(pair);
-  m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
+  m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius + shape.w);
   speculation s = speculation_of(parameters, m, moves, way, least);
@@ -116,7 +116,7 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
     encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));
     manifold later = sphere_box_contact(then);
-    later = kept_within(later, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, later.normal));
+    later = kept_within(later, reach_of_pair(parameters, moves, later.normal));
     m = choose_manifold(met.at_impact, later, m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
   }

@@ -47,9 +47,9 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
 
   real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x, least = minimum(radius_a, radius_b);
   vec3 between = offset_between(positions, a, b), aside = parting_direction(a, b);
-  pair_motion moves = {load_motion(velocities, a), load_motion(velocities, b), R(0.0), R(0.0)};
+  pair_motion moves = load_pair_motion(velocities, parameters, a, b, R(0.0), R(0.0));
   manifold m = spheres_contact(between, radius_a, radius_b, aside);
-  m = kept_within(m, reach_of(parameters, moves.a, moves.radius_a, moves.b, moves.radius_b, m.normal));
+  m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
   speculation s = speculation_of(parameters, m, moves, way, least);

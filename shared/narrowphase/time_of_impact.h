@@ -38,11 +38,31 @@
 /* Of the slop: nor need they come closer than this within a step. */
 #define TOUCHING_SLOP R(0.02)
 
-/* Two bodies that move evenly. radius: that turning swings round; 0 for a sphere in the middle of its body. */
+/* Two bodies that move evenly: as far within the step as gravity brings them. radius: that turning swings round; 0 for a sphere in the
+ * middle of its body. fall: what of the velocity of a against b is gravity's. */
 typedef struct {
   motion a, b;
   real radius_a, radius_b;
+  vec3 fall;
 } pair_motion;
+
+SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a, natural b, real radius_a, real radius_b)
+{
+  vec3 fall_a = mean_fall(velocities, parameters, a), fall_b = mean_fall(velocities, parameters, b);
+  pair_motion m = {load_motion(velocities, a), load_motion(velocities, b), radius_a, radius_b, subtract(fall_a, fall_b)};
+  m.a.linear = add(m.a.linear, fall_a);
+  m.b.linear = add(m.b.linear, fall_b);
+  return m;
+}
+
+/* A body without a contact falls on the exact parabola, one with a contact nearly (integrate/positions.h), so contacts are made no
+ * earlier for gravity: the speculative distance is enough. */
+SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
+{
+  motion a = m.a;
+  a.linear = subtract(a.linear, m.fall);
+  return reach_of(parameters, a, m.radius_a, m.b, m.radius_b, normal);
+}
 
 /* At most this fast the gap along a unit normal from a to b closes. */
 SHARED real closing_speed(pair_motion m, vec3 normal)
@@ -144,6 +164,15 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
+/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so a plane of one that nothing pushes turns into the other at most
+ * this fast, m/s. Of two that can be pushed each takes half, and what others do to them is more. */
+SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
+{
+  real zero = R(0.0), turning_a = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero);
+  real turning_b = choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
+  return (turning_a + turning_b) * length_of(subtract(m.b.linear, m.a.linear)) * parameters->step;
+}
+
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
@@ -162,7 +191,7 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
   mask ahead = has_points(m) & (gap > way.touching);
-  s.reached = ahead & (closing_speed(moves, m.normal) * parameters->step > gap);
+  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves)) * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   return s;
 }
@@ -185,32 +214,32 @@ SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s
   return met;
 }
 
-/* Of bodies that miss each other while one swings far, the contacts of the end of the step: what others or gravity add must not bring
- * them nearer than they are then. In the centre of the one that swings, where its turning moves nothing, so that their own motion
- * ends ahead of it; where that of the other moves the point by much, it is left out. So it is where a rotor swings that nothing
- * pushes: it sweeps all around it. */
+/* Of a body that swings far and misses what nothing pushes, the contacts of the end of the step: what others add must not bring it nearer
+ * than it is then. In its centre, where its turning moves nothing, so that its own motion ends ahead of it; where that of the other
+ * moves the point by much, it is left out. Of two that can be pushed neither is guarded: their arms would leave the centre. */
 SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset, pair_motion moves)
 {
   vec3 point = choose3(a_swings, make_vec3(R(0.0), R(0.0), R(0.0)), offset);
   real gap = least_separation(end), turning = length_of(choose3(a_swings, moves.b.angular, moves.a.angular));
   mask quiet = turning * length_of(offset) * parameters->step < R(0.25) * gap;
-  mask pushed = choose(a_swings, moves.a.inverse_mass, moves.b.inverse_mass) > R(0.0);
-  manifold guard = single_contact(end.normal, point, gap, has_points(end) & quiet & pushed);
+  real pushed = choose(a_swings, moves.a.inverse_mass, moves.b.inverse_mass), other = choose(a_swings, moves.b.inverse_mass, moves.a.inverse_mass);
+  manifold guard = single_contact(end.normal, point, gap, has_points(end) & quiet & (pushed > R(0.0)) & (other == R(0.0)));
   guard.code = end.code;
   return guard;
 }
 
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
  * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
- * the contacts at the start, those that their own motion does not reach, if they do not swing: gravity or others may push them.
+ * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them.
  * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
 {
   manifold m = choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
+  real by_slide = closing_by_slide(parameters, moves);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
     real closing = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    mask idle = (!(met.a_swings | met.b_swings)) & (closing * parameters->step < m.point[slot].w);
+    mask idle = (!(met.a_swings | met.b_swings)) & ((closing + by_slide) * parameters->step < m.point[slot].w);
     m.kept[slot] = m.kept[slot] & (idle | (!met.missed) | met.at_impact);
     m.point[slot].w = choose(met.at_impact, m.point[slot].w + closing * met.time, m.point[slot].w);
   }

@@ -49,11 +49,16 @@ enum class Obstacle { face, edge, corner, thin, mesh_edge, mesh_box, compound, f
 constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,     Obstacle::corner,     Obstacle::thin,         Obstacle::mesh_edge,
                                   Obstacle::mesh_box, Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
 
-Shape mesh_of_box(float x, float y, float z)
+std::vector<Vec3> corners_of_box(float x, float y, float z)
 {
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
-  return mesh_shape(corners, std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "box");
+  return corners;
+}
+
+Shape mesh_of_box(float x, float y, float z)
+{
+  return mesh_shape(corners_of_box(x, y, z), std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "box");
 }
 
 Child child(const Shape &shape, const Vec3 &position)
@@ -155,7 +160,110 @@ double largest_change(const Scene &scene, const Settings &settings, double speed
   return largest;
 }
 
+double logarithmic(Random &random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
+
+Shape hull_of_box(float x, float y, float z)
+{
+  return hull_shape(corners_of_box(x, y, z), "box");
+}
+
+/* Bodies without spin fall straight down beside boxes, hulls and meshes of boxes. */
+Scene falls(uint64_t seed, double step)
+{
+  Random random(seed);
+  Scene scene = empty_scene({0, -10, 0});
+  scene.materials[0].restitution = 0.3f;
+  for (int lane = 0; lane < 240; ++lane) {
+    const Shape obstacles_here[] = {box_shape(0.5f, 0.5f, 0.5f), hull_of_box(0.5f, 0.5f, 0.5f), mesh_of_box(0.5f, 0.5f, 0.5f)};
+    const Shape movers[] = {sphere_shape(0.05f), box_shape(0.05f, 0.05f, 0.05f), capsule_shape(0.05f, 0.1f), hull_of_box(0.05f, 0.05f, 0.05f)};
+    add_body(scene, Motion::fixed, obstacles_here[lane % 3], {0, 0, apart * lane});
+    const double speed = logarithmic(random, 1, 30), height = 0.17 + random.uniform(0, 1) * speed * step;
+    Body &body = add_body(scene, Motion::dynamic, movers[lane / 3 % 4], {0.55 + logarithmic(random, 0.001, 0.02), 0.5 + height, apart * lane});
+    body.linear_velocity = {0, float(-speed), 0};
+  }
+  return scene;
+}
+
+/* Of all bodies that move freely: how far a velocity is, in parts of itself, from what gravity alone makes of it. */
+double farthest_from_free_fall(const Scene &scene, Settings settings, double step, int steps)
+{
+  settings.step = float(step);
+  World world(scene, settings, {"tbb", {}});
+  run(world, steps);
+  const std::vector<BodyState> after = world.bodies();
+  double farthest = 0;
+  for (size_t i = 0; i < after.size(); ++i) {
+    const Body &body = scene.bodies[i];
+    if (body.motion != Motion::dynamic) continue;
+    const Vector expected = vector_of(body.linear_velocity) + steps * step * vector_of(scene.gravity);
+    const double scale = std::max(expected.norm(), 0.1);
+    farthest = std::max(farthest, (vector_of(after[i].linear_velocity) - expected).norm() / scale);
+  }
+  return farthest;
+}
+
+/* A body spins beside another that is free, too, and slides past it: the spheres around the two never touch. */
+Scene spinners(uint64_t seed)
+{
+  Random random(seed);
+  Scene scene = empty_scene({0, 0, 0});
+  scene.materials[0].restitution = 0.5f;
+  for (int lane = 0; lane < 96; ++lane) {
+    const float size = float(logarithmic(random, 0.03, 0.5)), thin = size * float(random.uniform(0.05, 0.3));
+    const Shape shapes[] = {box_shape(size, thin, thin), hull_of_box(size, thin, thin), capsule_shape(thin, size)};
+    const double reach = std::hypot(size, thin * std::sqrt(2)) + thin, x = random.uniform(0, 1) < 0.5 ? 0.1 + reach : 0.2 + reach;
+    const Shape other = x > 0.15 + reach ? sphere_shape(0.2f) : box_shape(0.1f, 1, 1);
+    add_solid(scene, other, {0, 0, 10.0 * lane});
+    Body &body = add_solid(scene, shapes[lane % 3], {x + logarithmic(random, 0.001, 0.02), 0, 10.0 * lane}, any_turn(random));
+    body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 20, 400));
+    body.linear_velocity = {0, float(random.uniform(-1, 1) * logarithmic(random, 0.1, 30)), 0};
+  }
+  return scene;
+}
+
+/* Balls fly by boxes that something turns, farther off than these reach. */
+Scene past_turning_boxes(uint64_t seed)
+{
+  Random random(seed);
+  Scene scene = empty_scene({0, 0, 0});
+  scene.materials[0].restitution = 0.5f;
+  for (int lane = 0; lane < 400; ++lane) {
+    const Vec3 size = {float(logarithmic(random, 0.02, 0.5)), float(logarithmic(random, 0.02, 0.5)), float(logarithmic(random, 0.02, 0.5))};
+    Body &box = add_body(scene, Motion::kinematic, box_shape(size[0], size[1], size[2]), {0, 0, 10.0 * lane});
+    box.orientation = any_turn(random);
+    box.angular_velocity = vec3_of(direction(random) * logarithmic(random, 1, 30));
+    const double radius = logarithmic(random, 0.02, 0.3), speed = logarithmic(random, 1, 300);
+    const double beside = vector_of(size).norm() + radius + logarithmic(random, 0.001, 0.1);
+    Body &ball = add_solid(scene, sphere_shape(float(radius)), {-random.uniform(0, 1) * speed / 60, beside, 10.0 * lane});
+    ball.linear_velocity = {float(speed), 0, 0};
+  }
+  return scene;
+}
+
 } // namespace
+
+TEST_CASE("what misses goes on while it falls, in every solver", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (uint64_t seed : {1, 2, 3})
+    for (double step : {1.0 / 60, 1.0 / 30}) {
+      CAPTURE(solver, seed, step);
+      CHECK(farthest_from_free_fall(falls(seed, step), settings_for(solver), step, 2) < 5e-4);
+    }
+}
+
+TEST_CASE("what misses goes on: bodies that spin beside free ones, and past what turns", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (uint64_t seed : {1, 2, 3}) {
+    CAPTURE(solver, seed);
+    Settings coarse = settings_for(solver);
+    coarse.substeps = 1;
+    CHECK(farthest_from_free_fall(spinners(seed), settings_for(solver), 1.0 / 60, 30) < 5e-4);
+    CHECK(farthest_from_free_fall(spinners(seed), coarse, 1.0 / 30, 30) < 5e-4);
+    CHECK(farthest_from_free_fall(past_turning_boxes(seed), settings_for(solver), 1.0 / 60, 4) < 5e-4);
+  }
+}
 
 TEST_CASE("what misses goes on: energy is kept beside faces, edges, corners, meshes, compounds and rotors", "[physics]")
 {

@@ -169,7 +169,7 @@ TEST_CASE("every narrowphase carries a pile of every shape", "[physics]")
   Settings settings;
   settings.narrowphase = narrowphase;
   World world(load_scene("shapes:n=100"), settings);
-  const Pile pile = settled(world, 300);
+  const Pile pile = settled(world, 420); /* one shape wedged among others sinks for a while */
   CAPTURE(narrowphase, pile.deepest, pile.lowest, pile.farthest);
   CHECK(pile.deepest < (narrowphase == "gjk-sampled" ? 0.015 : 0.01));
   CHECK(pile.lowest > 0.05);
