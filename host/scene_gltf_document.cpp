@@ -244,7 +244,7 @@ bool GltfDocument::uses(const std::string &extension) const
 std::optional<JsonValue> gltf_extension_of(const JsonValue &owner, const char *name)
 {
   const std::optional<JsonValue> extensions = owner.find("extensions");
-  return extensions && !extensions->is_null() ? extensions->find(name) : std::nullopt;
+  return extensions ? extensions->find(name) : std::nullopt;
 }
 
 int gltf_index(const JsonValue &json, const char *what, size_t count)

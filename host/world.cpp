@@ -28,6 +28,7 @@
 #include "host/step.h"
 #include "minicl/floating_point.h"
 #include "shared/batching/limits.h"
+#include "shared/broadphase/near_limits.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -359,13 +360,16 @@ struct World::Implementation {
     if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last: it forgets what is known */
   }
 
+  /* The pairs among what did not fit are not known then. */
+  bool near_list_overflows() const { return plan.known[COUNT_NEAR_NEEDED] > uint64_t{NEAR_PER_PAIR} * plan.capacity_pairs; }
+
   /* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs none. */
   void grow_pairs(uint32_t needed, bool &may_forget)
   {
     if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
     if (needed > settings.max_pairs)
       throw std::runtime_error(fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
-                                           needed == UINT32_MAX ? "at least " : "", needed, settings.max_pairs));
+                                           needed == UINT32_MAX || near_list_overflows() ? "at least " : "", needed, settings.max_pairs));
     ++statistics.overflow;
     enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
     guess_counts();

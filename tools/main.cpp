@@ -136,6 +136,15 @@ std::string where_to_look(const CLI::App &parser)
   return fmt::format("`tandem {}--help` lists what there is", parsed.empty() ? "" : parsed.front()->get_name() + " ");
 }
 
+/* As of a variable of a shell that is not set: nothing is meant by it, or something else than nothing. */
+void refuse_empty_values(const CLI::App &parser)
+{
+  for (const CLI::Option *option : parser.get_options())
+    for (const std::string &value : option->results())
+      if (value.empty()) throw InputError(fmt::format("{} '': a value is needed; leave the option out for its default", option->get_name()));
+  for (const CLI::App *command : parser.get_subcommands()) refuse_empty_values(*command);
+}
+
 std::vector<Command> add_commands(CLI::App &parser)
 {
   std::vector<Command> commands = {devices_command(parser), scenes_command(parser), run_command(parser),
@@ -175,6 +184,7 @@ int parse_and_execute(int count, char **arguments)
   } catch (const CLI::ParseError &error) {
     return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);
   }
+  refuse_empty_values(parser);
   return execute_parsed(commands);
 }
 

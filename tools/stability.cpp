@@ -1,7 +1,6 @@
 /* stability.cpp - `tandem stability`: stiff and extreme cases, each with its figure and bound, solver by solver. */
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -9,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "host/backend_list.h"
+#include "host/input_file.h"
 #include "host/world.h"
 #include "tools/command.h"
 #include "tools/output.h"
@@ -176,12 +176,9 @@ void tell_end(const StabilityOptions &options, const stability::Results &results
  * it. */
 std::string page_for_table(const std::string &path)
 {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  if (!file) throw InputError(fmt::format("--table-in {}: cannot be read", path));
-  stability::with_table(text.str(), "", path);
-  return text.str();
+  const std::string text = read_file(path);
+  stability::with_table(text, "", path);
+  return text;
 }
 
 int run_cases(const StabilityOptions &options)

@@ -78,6 +78,8 @@ TEST_CASE("glTF, strictly: what nodes and scenes name")
   check_refused({.nodes = cup("", 0, R"("tranlation":[0,3,0],)")}, "node 'Cup': tranlation: unknown key");
   check_refused({.nodes = R"({"name":7})"}, ": nodes[0].name: is 7; a string is needed");
   check_refused({.nodes = "7"}, ": nodes[0]: is 7; an object is needed");
+  for (const char *wrong : {"null", "5", "[]"})
+    check_refused({.nodes = std::string(R"({"name":"Cup","extensions":)") + wrong + "}"}, "an object is needed");
 }
 
 TEST_CASE("glTF, strictly: numbers of the two extensions")

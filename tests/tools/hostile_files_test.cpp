@@ -107,7 +107,32 @@ TEST_CASE("hostile files: pipes and devices are no scenes, buffers or problems",
   refused(run(scratch.file("mesh.json")));
   write(scratch.file("mesh.gltf"), gltf_scene("pipe.bin"));
   refused(run(scratch.file("mesh.gltf")));
+  for (const std::string &page : {scratch.file("pipe.dat"), std::string("/dev/zero")})
+    refused("stability --quick --only flip --solvers soft-step --out " + scratch.file("results") + " --table-in " + page);
   check_refused(run(scratch.path.string() + "/.json"), "No such file");
+}
+
+TEST_CASE("hostile options: an empty value is no value", "[command]")
+{
+  const Scratch scratch;
+  for (const char *option : {"json", "save", "image", "events", "trace", "place", "substeps", "iterations", "steps", "solver"})
+    check_refused("run " + tiny + " --" + option + " ''", std::string("--") + option);
+  check_refused("diff " + tiny + " --between serial,tbb --steps 2 --plant ''", "--plant '': a value is needed");
+  check_refused("stability --quick --only flip --out " + scratch.file("results") + " --table-in ''", "--table-in");
+}
+
+TEST_CASE("hostile files: no output goes where the command prints", "[command]")
+{
+  const Scratch scratch;
+  const std::string printed = scratch.file("printed"), into = " > " + printed;
+  for (const char *option : {"events", "trace", "save", "image"}) {
+    for (const std::string &place : {printed, std::string("/dev/stdout")})
+      for (const char *json : {"", " --json -"})
+        check_refused("run " + tiny + " --steps 1 --on serial --" + option + " " + place + json + into, "this is standard output");
+    CHECK(contents(printed).empty());
+    check_refused("run " + tiny + " --steps 1 --on serial --" + option + " -", "a file is needed");
+  }
+  CHECK(command("run " + tiny + " --steps 1 --on serial --events /dev/null > /dev/null").status == 0);
 }
 
 TEST_CASE("hostile files: what a scene names lies below its folder", "[command]")
@@ -174,6 +199,11 @@ TEST_CASE("hostile files: a zero byte ends no file", "[command]")
     check_refused(run(scratch.file("zero.json")), "a byte of 0");
     write(scratch.file("zero.gltf"), text);
     check_refused(run(scratch.file("zero.gltf")), "a byte of 0");
+  }
+  write(scratch.file("mesh.json"), mesh_scene("zero.obj"));
+  for (const std::string &text : {zero + triangle, "v 0 0 0\n# a " + zero + " remark\n" + triangle, triangle + zero}) {
+    write(scratch.file("zero.obj"), text);
+    check_refused(run(scratch.file("mesh.json")), "holds a byte of 0");
   }
 }
 
