@@ -75,6 +75,7 @@ void check_message(const std::string &message)
 {
   INFO(message);
   CHECK(message.size() > 30);
+  CHECK(message.find('\n') == std::string::npos);
   CHECK((message.find("bytes") != std::string::npos || message.find("launch") != std::string::npos || message.find("kernel") != std::string::npos ||
          message.find("OpenCL device") != std::string::npos || message.find("out of memory") != std::string::npos));
 }
@@ -122,6 +123,7 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
       {"set_body", [](World &world) { world.set_body(0, world.bodies()[0]); }},
       {"events", [&](World &world) { if (settings.events) world.contact_events(); }},
   };
+  uint64_t failures = 0;
   for (const auto &[name, call] : calls)
     for (uint64_t nth = 0;; nth += stride) {
       CAPTURE(scene.name, placement.on, name, nth);
@@ -130,6 +132,7 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
       world.step();
       const Outcome outcome = attempt(nth, true, [&] { call(world); });
       if (outcome.struck && !outcome.message.empty()) check_message(outcome.message);
+      failures += outcome.struck && !outcome.message.empty();
       if (!outcome.struck) REQUIRE(outcome.message.empty());
       REQUIRE(world.state_hash() == undisturbed[2]);
       for (int k = 3; k <= 4; ++k) {
@@ -138,6 +141,7 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
       }
       if (!outcome.struck) break;
     }
+  CHECK(failures > 0);
 }
 
 void fail_everywhere_in_creation(const Scene &scene, const Settings &settings, const Placement &placement, uint64_t stride)
@@ -256,11 +260,17 @@ TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
   const std::vector<uint64_t> undisturbed = hashes_of(crowd(52), settings, Placement{"serial", {}, false}, 1);
   for (const bool shares : {true, false}) {
     const std::unique_ptr<World> world = world_on_pocl(crowd(52), settings, shares);
+    int failures = 0;
     for (uint64_t nth = 0;; nth = 2 * nth + 1) {
       CAPTURE(shares, nth);
-      if (!attempt(nth, true, [&] { world->step(); }).struck) break;
+      const Outcome outcome = attempt(nth, true, [&] { world->step(); });
+      if (!outcome.struck) break;
+      check_message(outcome.message);
+      ++failures;
       REQUIRE(world->state_hash() == undisturbed[0]);
     }
+    CHECK(failures > 3);
+    CHECK(world->statistics().pairs == 52 * 51 / 2); /* more than there was room for */
     CHECK(world->state_hash() == undisturbed[1]);
   }
 }
@@ -272,12 +282,15 @@ TEST_CASE("a world on an OpenCL device that fails from some place on is refused 
   const Scene scene = load_scene(c.scene);
   struck_at = {};
   const Placement placement{"cl:pocl", {}, false};
+  int failures = 0;
   for (uint64_t nth = 0;; nth = 2 * nth + 1) {
     CAPTURE(nth);
     const Outcome outcome = attempt(nth, false, [&] { World world(scene, c.settings, placement); });
     if (!outcome.struck) break;
     if (!outcome.message.empty()) check_message(outcome.message);
+    failures += !outcome.message.empty();
   }
+  CHECK(failures > 3);
   CHECK(struck_at[static_cast<size_t>(faults::Site::build)] > 0);
   CHECK(hashes_of(scene, c.settings, placement, 2).back() == hashes_of(scene, c.settings, Placement{"serial", {}, false}, 2).back());
 }
