@@ -89,10 +89,13 @@ SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *mani
   sum->impulse = sum->impulse + impulse;
 }
 
+/* N s. An impulse that has faded below is none: its inverse, or its product with an offset, may leave the range of floats. */
+#define FADED_IMPULSE R(1e-25)
+
 /* From the centre of a: where the impulse acts; where there is none, the middle of the points. */
 SHARED vec3 middle_of_contact(const contact_sum *sum)
 {
-  if (sum->impulse > R(0.0)) return scale(sum->pressed, R(1.0) / sum->impulse);
+  if (sum->impulse > FADED_IMPULSE) return scale(sum->pressed, R(1.0) / sum->impulse);
   return sum->points > 0u ? scale(sum->overlapped, R(1.0) / to_real(sum->points)) : make_vec3(R(0.0), R(0.0), R(0.0));
 }
 

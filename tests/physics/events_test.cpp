@@ -316,3 +316,19 @@ TEST_CASE("a ball that meets a wall within the step is told to have done so wher
     CHECK(events[0].impulse == Approx(speed).epsilon(0.01));
   }
 }
+
+TEST_CASE("an impulse that has faded away has no place of its own: the event names the middle of the points", "[physics]")
+{
+  Settings settings = settings_for("nncg"); /* whose impulses fade to denormal numbers */
+  settings.events = true;
+  World world(load_scene("mixed:n=12"), settings);
+  size_t faded = 0;
+  for (int step = 0; step < 300; ++step) {
+    world.step();
+    for (const ContactEvent &event : world.contact_events()) {
+      faded += event.impulse > 0 && event.impulse < std::numeric_limits<float>::min();
+      REQUIRE(vector_of(event.point).allFinite());
+    }
+  }
+  CHECK(faded > 0);
+}
