@@ -39,10 +39,10 @@ struct ColoredMesh {
 
 struct RecordedBody {
   std::string name;
-  FramePose rest;     /* in the first frame */
-  Vec3 scale;    /* from the mesh to the body's size */
-  uint32_t mesh; /* index into Recording::meshes */
-  FramePose shape;    /* in the body */
+  FramePose rest;  /* in the first frame */
+  Vec3 scale;      /* from the mesh to the body's size */
+  uint32_t mesh;   /* index into Recording::meshes */
+  FramePose shape; /* in the body */
 };
 
 struct Recording {
@@ -66,7 +66,7 @@ struct Recording {
   std::vector<ColoredMesh> meshes;
   std::vector<uint32_t> moving; /* bodies that may move: all but fixed ones */
   std::vector<bool> moved;      /* parallel to moving */
-  std::vector<FramePose> last;       /* parallel to moving */
+  std::vector<FramePose> last;  /* parallel to moving */
 };
 
 namespace {

@@ -6,9 +6,9 @@
 #include <bit>
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <new>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include <tbb/blocked_range.h>

@@ -79,13 +79,14 @@ SHARED motion load_motion(GLOBAL const row *velocity, natural body)
   motion m = {xyz(first), xyz(second), first.w};
   return m;
 }
+SHARED vec3 gravity_of(GLOBAL const Parameters *parameters) { return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z); }
+
 /* The velocity that gravity adds over the substeps of a step, on average. velocity: body_velocity. */
 SHARED vec3 mean_fall(GLOBAL const row *velocity, GLOBAL const Parameters *parameters, natural body)
 {
   mask moves = load_row(velocity, body * 2u).w > R(0.0);
   real factor = choose(moves, load_row(velocity, body * 2u + 1u).w, (real)R(0.0));
-  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
-  return scale(gravity, factor * R(0.5) * (parameters->step + parameters->substep));
+  return scale(gravity_of(parameters), factor * R(0.5) * (parameters->step + parameters->substep));
 }
 SHARED void store_motion(GLOBAL row *velocity, natural body, motion m)
 {

@@ -3,25 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "host/output_file.h"
 #include "host/scene.h"
 #include "tools/output.h"
 
 namespace tandem {
-namespace {
-
-/* What the command prints there would be lost, or stand amid the file. Devices, as /dev/null, take both. */
-bool is_standard_output(const std::string &path)
-{
-  struct stat printed {}, file {};
-  return ::fstat(STDOUT_FILENO, &printed) == 0 && ::stat(path.c_str(), &file) == 0 && !S_ISCHR(file.st_mode) &&
-         file.st_dev == printed.st_dev && file.st_ino == printed.st_ino;
-}
-
-} // namespace
 
 void DistinctFiles::reads(const std::string &name, const std::string &path)
 {
@@ -35,8 +21,9 @@ void DistinctFiles::writes(const std::string &option, const std::string &path)
 {
   if (path.empty()) return;
   if (path == "-") throw InputError(fmt::format("{} -: a file is needed; standard output is for --json alone", option));
-  if (is_standard_output(path))
-    throw InputError(fmt::format("{} {}: this is standard output, where the command prints; write to a file of its own", option, path));
+  if (is_same_file(path, "/dev/stdout")) /* what is printed would be lost, or stand amid the file */
+    throw InputError(fmt::format("{} {}: this is standard output, where the command prints; write to a file of its own",
+                                 option, path));
   for (const Use &use : read_)
     if (is_same_file(path, use.path))
       throw InputError(fmt::format("{} {}: {} reads this file; write to another one", option, path, use.name));

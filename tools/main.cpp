@@ -141,7 +141,7 @@ void refuse_empty_values(const CLI::App &parser)
 {
   for (const CLI::Option *option : parser.get_options())
     for (const std::string &value : option->results())
-      if (value.empty()) throw InputError(fmt::format("{} '': a value is needed; leave the option out for its default", option->get_name()));
+      if (value.empty()) throw InputError(fmt::format("{} '': a value is needed", option->get_name()));
   for (const CLI::App *command : parser.get_subcommands()) refuse_empty_values(*command);
 }
 

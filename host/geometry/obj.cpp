@@ -211,7 +211,8 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
 {
   const size_t zero = text.find('\0');
   if (zero != std::string::npos)
-    throw InputError(fmt::format("{}: line {}: holds a byte of 0; OBJ files are text", where, 1 + std::count(text.begin(), text.begin() + ptrdiff_t(zero), '\n')));
+    throw InputError(fmt::format("{}: line {}: holds a byte of 0; OBJ files are text", where,
+                                 1 + std::count(text.begin(), text.begin() + ptrdiff_t(zero), '\n')));
   ObjReader read(text, where);
   read.read();
   read.check_corners();

@@ -63,7 +63,7 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
   vec3 reach_above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
   real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
-  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+  vec3 gravity = gravity_of(parameters);
   vec3 drift = scale(m.linear, step), fallen = add_scaled(drift, gravity, fall);
   vec3 low = make_vec3(minimum(R(0.0), minimum(drift.x, fallen.x)), minimum(R(0.0), minimum(drift.y, fallen.y)),
                        minimum(R(0.0), minimum(drift.z, fallen.z)));

@@ -81,7 +81,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   vec4 mass = load_row(body_mass, i * 2u);
   mask free = ((load_natural(body_colors, i * 2u) | load_natural(body_colors, i * 2u + 1u)) == 0u) & (m.inverse_mass > R(0.0));
   real ahead = choose(free, R(-0.5) * h * h * mass.w, (real)R(0.0));
-  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+  vec3 gravity = gravity_of(parameters);
 
   vec3 translation = xyz(load_row(solver_delta, i * 2u)), rotation = xyz(load_row(solver_delta, i * 2u + 1u));
   translation = add_scaled(add_scaled(translation, m.linear, h), gravity, ahead);

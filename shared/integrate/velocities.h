@@ -12,7 +12,7 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
   real h = parameters->substep;
   mask moves = m.inverse_mass > R(0.0);
   real pull = choose(moves, load_row(body_mass, i * 2u).w * h, (real)R(0.0));
-  m.linear = add_scaled(m.linear, make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), pull);
+  m.linear = add_scaled(m.linear, gravity_of(parameters), pull);
   if (HAS_FEATURE(parameters, FEATURE_DAMPING)) {
     vec4 damping = load_row(body_mass, i * 2u + 1u);
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));

@@ -62,8 +62,8 @@ SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 off
 /* A body with continuous collision may be turned anywhere within the step: bounds_of a body in broadphase/bounds.h. */
 SHARED real way_anywhere(const midphase_scene *scene, motion m)
 {
-  vec3 gravity = make_vec3(scene->parameters->gravity_x, scene->parameters->gravity_y, scene->parameters->gravity_z);
-  return scene->parameters->step * (length_of(m.linear) + scene->parameters->step * length_of(gravity));
+  real step = scene->parameters->step;
+  return step * (length_of(m.linear) + step * length_of(gravity_of(scene->parameters)));
 }
 
 /* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of manifold.h. */

@@ -164,8 +164,9 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
-/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so a plane of one that nothing pushes turns into the other at most
- * this fast, m/s. Of two that can be pushed each takes half, and what others do to them is more. */
+/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so a plane of one that nothing
+ * pushes turns into the other at most this fast, m/s. Of two that can be pushed each takes half, and what others do to
+ * them is more. */
 SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
 {
   real zero = R(0.0), turning_a = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero);

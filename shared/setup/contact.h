@@ -121,7 +121,7 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
 {
   real a = choose(bodies.motion_a.inverse_mass > R(0.0), load_row(body_mass, bodies.a * 2u).w, (real)R(0.0));
   real b = choose(bodies.motion_b.inverse_mass > R(0.0), load_row(body_mass, bodies.b * 2u).w, (real)R(0.0));
-  return (b - a) * inner(make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z), normal);
+  return (b - a) * inner(gravity_of(parameters), normal);
 }
 
 /* What constraint_normal keeps beside the normal: below 0 where arms do not follow the bodies. */

@@ -106,7 +106,7 @@ SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const ro
   motion m = load_motion(solver_velocity, i);
   store_motion(avbd_target, i, m);
   mask touched = (load_natural(incidence_start, i) != load_natural(incidence_start, i + 1u)) & (m.inverse_mass > R(0.0));
-  vec3 gravity = make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+  vec3 gravity = gravity_of(parameters);
   m.linear = add_scaled(m.linear, gravity, -(load_row(body_mass, i * 2u).w * parameters->substep));
   store_motion_if(touched, solver_velocity, i, m);
 }

@@ -111,9 +111,7 @@ TEST_CASE("each child has its own filter", "[physics]")
 
 TEST_CASE("a mesh can be a child", "[physics]")
 {
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? 0.3f : -0.3f, k & 2 ? 0.3f : -0.3f, k & 4 ? 0.3f : -0.3f});
-  const Shape cube = mesh_shape(corners, std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "cube");
+  const Shape cube = mesh_of_box(0.3f, 0.3f, 0.3f);
   Scene scene = empty_scene();
   add_ground(scene);
   add_solid(scene, compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}), {0, 0.3, 0});

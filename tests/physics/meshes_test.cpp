@@ -22,14 +22,6 @@ Shape profile_mesh(const std::vector<std::array<double, 2>> &profile)
   return mesh_shape(vertices, indices, "profile");
 }
 
-/* The surface of a box, closed, of twelve triangles. */
-Shape box_mesh(float x, float y, float z)
-{
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
-  return mesh_shape(corners, std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "box");
-}
-
 Body &add_mesh(Scene &scene, const Shape &shape, const Vector &at = Vector::Zero(), const Quat &turn = {0, 0, 0, 1})
 {
   Body &body = add_body(scene, Motion::fixed, shape, point_of(at));
@@ -154,12 +146,12 @@ TEST_CASE("a closed mesh falls, rests and turns as the box it is", "[physics]")
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_solid(scene, box_mesh(0.3f, 0.2f, 0.4f), {0, 0.3, 0});
-  add_solid(scene, box_mesh(0.3f, 0.2f, 0.4f), {3, 0.3, 0}, turn_about({1, 2, 3}, 0.7));
+  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {0, 0.3, 0});
+  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {3, 0.3, 0}, turn_about({1, 2, 3}, 0.7));
   add_solid(scene, box_shape(0.5f, 0.5f, 0.5f), {6, 0.5, 0});
-  add_solid(scene, box_mesh(0.3f, 0.2f, 0.4f), {6, 1.25, 0});
-  add_solid(scene, box_mesh(0.5f, 0.5f, 0.5f), {9, 0.5, 0});
-  add_solid(scene, box_mesh(0.3f, 0.2f, 0.4f), {9.03, 1.25, 0.02}, turn_about({0, 1, 0}, 0.3));
+  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {6, 1.25, 0});
+  add_solid(scene, mesh_of_box(0.5f, 0.5f, 0.5f), {9, 0.5, 0});
+  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {9.03, 1.25, 0.02}, turn_about({0, 1, 0}, 0.3));
   const Vec3 moments = inertia_of(scene.shapes[scene.bodies[1].shape], 1), expected = inertia_of(box_shape(0.3f, 0.2f, 0.4f), 1);
   for (size_t k = 0; k < 3; ++k) CHECK(moments[k] == Approx(expected[k]).epsilon(1e-6));
   World world(scene);
@@ -180,7 +172,7 @@ TEST_CASE("closed meshes collide in free space and keep their momentum", "[physi
   Scene scene = empty_scene({0, 0, 0});
   Random random(5);
   for (int k = 0; k < 12; ++k) {
-    Body &body = add_solid(scene, box_mesh(0.3f, 0.2f, 0.4f), {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)}, random.orientation());
+    Body &body = add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)}, random.orientation());
     body.linear_velocity = vec3_of(-2 * vector_of(body.position));
   }
   World world(scene);

@@ -49,18 +49,6 @@ enum class Obstacle { face, edge, corner, thin, mesh_edge, mesh_box, compound, f
 constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,     Obstacle::corner,     Obstacle::thin,         Obstacle::mesh_edge,
                                   Obstacle::mesh_box, Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
 
-std::vector<Vec3> corners_of_box(float x, float y, float z)
-{
-  std::vector<Vec3> corners;
-  for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
-  return corners;
-}
-
-Shape mesh_of_box(float x, float y, float z)
-{
-  return mesh_shape(corners_of_box(x, y, z), std::vector<uint32_t>{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}, "box");
-}
-
 Child child(const Shape &shape, const Vec3 &position)
 {
   Child c;
@@ -116,12 +104,18 @@ Shape mover(Random &random, int kind)
 
 constexpr double apart = 4; /* m, between the lanes in which they fly */
 
+Scene bouncy_scene(const Vec3 &gravity, float restitution)
+{
+  Scene scene = empty_scene(gravity);
+  scene.materials[0].restitution = restitution;
+  return scene;
+}
+
 /* One lane for every kind of mover and phase: each flies by an obstacle of its own. */
 Scene flights(Obstacle obstacle, double clearance, double speed, uint64_t seed, bool continuous = false)
 {
   Random random(seed);
-  Scene scene = empty_scene({0, 0, 0});
-  scene.materials[0].restitution = 0.3f;
+  Scene scene = bouncy_scene({0, 0, 0}, 0.3f);
   for (int lane = 0; lane < 24; ++lane) {
     const double z = apart * lane;
     add_obstacle(scene, obstacle, z, random.uniform(-0.7, 0.7));
@@ -160,25 +154,25 @@ double largest_change(const Scene &scene, const Settings &settings, double speed
   return largest;
 }
 
-double logarithmic(Random &random, double low, double high) { return std::exp(random.uniform(std::log(low), std::log(high))); }
-
-Shape hull_of_box(float x, float y, float z)
+double logarithmic(Random &random, double low, double high)
 {
-  return hull_shape(corners_of_box(x, y, z), "box");
+  return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
 /* Bodies without spin fall straight down beside boxes, hulls and meshes of boxes. */
 Scene falls(uint64_t seed, double step)
 {
   Random random(seed);
-  Scene scene = empty_scene({0, -10, 0});
-  scene.materials[0].restitution = 0.3f;
+  Scene scene = bouncy_scene({0, -10, 0}, 0.3f);
+  const float half = 0.5f, small = 0.05f;
+  const Shape blocks[] = {box_shape(half, half, half), hull_of_box(half, half, half), mesh_of_box(half, half, half)};
+  const Shape movers[] = {sphere_shape(small), box_shape(small, small, small), capsule_shape(small, 2 * small),
+                          hull_of_box(small, small, small)};
   for (int lane = 0; lane < 240; ++lane) {
-    const Shape obstacles_here[] = {box_shape(0.5f, 0.5f, 0.5f), hull_of_box(0.5f, 0.5f, 0.5f), mesh_of_box(0.5f, 0.5f, 0.5f)};
-    const Shape movers[] = {sphere_shape(0.05f), box_shape(0.05f, 0.05f, 0.05f), capsule_shape(0.05f, 0.1f), hull_of_box(0.05f, 0.05f, 0.05f)};
-    add_body(scene, Motion::fixed, obstacles_here[lane % 3], {0, 0, apart * lane});
-    const double speed = logarithmic(random, 1, 30), height = 0.17 + random.uniform(0, 1) * speed * step;
-    Body &body = add_body(scene, Motion::dynamic, movers[lane / 3 % 4], {0.55 + logarithmic(random, 0.001, 0.02), 0.5 + height, apart * lane});
+    const double z = apart * lane, speed = logarithmic(random, 1, 30);
+    const double height = 0.17 + random.uniform(0, 1) * speed * step, beside = 0.55 + logarithmic(random, 0.001, 0.02);
+    add_body(scene, Motion::fixed, blocks[lane % 3], {0, 0, z});
+    Body &body = add_body(scene, Motion::dynamic, movers[lane / 3 % 4], {beside, 0.5 + height, z});
     body.linear_velocity = {0, float(-speed), 0};
   }
   return scene;
@@ -202,19 +196,19 @@ double farthest_from_free_fall(const Scene &scene, Settings settings, double ste
   return farthest;
 }
 
-/* A body spins beside another that is free, too, and slides past it: the spheres around the two never touch. */
+/* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the other. */
 Scene spinners(uint64_t seed)
 {
   Random random(seed);
-  Scene scene = empty_scene({0, 0, 0});
-  scene.materials[0].restitution = 0.5f;
+  Scene scene = bouncy_scene({0, 0, 0}, 0.5f);
   for (int lane = 0; lane < 96; ++lane) {
+    const double z = 10.0 * lane;
     const float size = float(logarithmic(random, 0.03, 0.5)), thin = size * float(random.uniform(0.05, 0.3));
     const Shape shapes[] = {box_shape(size, thin, thin), hull_of_box(size, thin, thin), capsule_shape(thin, size)};
-    const double reach = std::hypot(size, thin * std::sqrt(2)) + thin, x = random.uniform(0, 1) < 0.5 ? 0.1 + reach : 0.2 + reach;
-    const Shape other = x > 0.15 + reach ? sphere_shape(0.2f) : box_shape(0.1f, 1, 1);
-    add_solid(scene, other, {0, 0, 10.0 * lane});
-    Body &body = add_solid(scene, shapes[lane % 3], {x + logarithmic(random, 0.001, 0.02), 0, 10.0 * lane}, any_turn(random));
+    const bool is_wall = random.uniform(0, 1) < 0.5;
+    const double reach = std::hypot(size, thin * std::sqrt(2)) + thin, x = (is_wall ? 0.1 : 0.2) + reach + logarithmic(random, 0.001, 0.02);
+    add_solid(scene, is_wall ? box_shape(0.1f, 1, 1) : sphere_shape(0.2f), {0, 0, z});
+    Body &body = add_solid(scene, shapes[lane % 3], {x, 0, z}, any_turn(random));
     body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 20, 400));
     body.linear_velocity = {0, float(random.uniform(-1, 1) * logarithmic(random, 0.1, 30)), 0};
   }
@@ -225,16 +219,18 @@ Scene spinners(uint64_t seed)
 Scene past_turning_boxes(uint64_t seed)
 {
   Random random(seed);
-  Scene scene = empty_scene({0, 0, 0});
-  scene.materials[0].restitution = 0.5f;
+  Scene scene = bouncy_scene({0, 0, 0}, 0.5f);
   for (int lane = 0; lane < 400; ++lane) {
-    const Vec3 size = {float(logarithmic(random, 0.02, 0.5)), float(logarithmic(random, 0.02, 0.5)), float(logarithmic(random, 0.02, 0.5))};
-    Body &box = add_body(scene, Motion::kinematic, box_shape(size[0], size[1], size[2]), {0, 0, 10.0 * lane});
+    const double z = 10.0 * lane;
+    Vec3 size;
+    for (float &half : size) half = float(logarithmic(random, 0.02, 0.5));
+    Body &box = add_body(scene, Motion::kinematic, box_shape(size[0], size[1], size[2]), {0, 0, z});
     box.orientation = any_turn(random);
     box.angular_velocity = vec3_of(direction(random) * logarithmic(random, 1, 30));
     const double radius = logarithmic(random, 0.02, 0.3), speed = logarithmic(random, 1, 300);
     const double beside = vector_of(size).norm() + radius + logarithmic(random, 0.001, 0.1);
-    Body &ball = add_solid(scene, sphere_shape(float(radius)), {-random.uniform(0, 1) * speed / 60, beside, 10.0 * lane});
+    const double x = -random.uniform(0, 1) * speed / 60;
+    Body &ball = add_solid(scene, sphere_shape(float(radius)), {x, beside, z});
     ball.linear_velocity = {float(speed), 0, 0};
   }
   return scene;

@@ -48,11 +48,21 @@ inline Shape stone(Random &random, int points, double size)
   return hull_shape(cloud, "stone");
 }
 
-inline Shape hull_of_box(float x, float y, float z)
+inline std::vector<Vec3> corners_of_box(float x, float y, float z)
 {
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? x : -x, k & 2 ? y : -y, k & 4 ? z : -z});
-  return hull_shape(corners, "box");
+  return corners;
+}
+
+inline Shape hull_of_box(float x, float y, float z) { return hull_shape(corners_of_box(x, y, z), "box"); }
+
+/* The surface of a box, closed, of twelve triangles. */
+inline Shape mesh_of_box(float x, float y, float z)
+{
+  const std::vector<uint32_t> triangles = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                                           2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+  return mesh_shape(corners_of_box(x, y, z), triangles, "box");
 }
 
 /* Kinetic and of height, J. */
