@@ -6,6 +6,7 @@
 #include "shared/narrowphase/sphere_half_space.h"
 #include "shared/narrowphase/box_half_space.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/limit_motion.h"
 #include "shared/narrowphase/sat_split.h"
@@ -49,9 +50,10 @@ __kernel void follow_boxes(__global const uint *pair_a, __global const uint *pai
     __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
     __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
-  FOR_EACH_IN_RANGE(i)
-    follow_boxes_item(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation,
-        body_velocity, parameters, counts, manifold_normal, manifold_points, manifold_count, manifold_feature, i);
+  __local uint local_memory[TILE + 1u];
+  follow_boxes_group(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity, parameters, counts,
+                     manifold_normal, manifold_points, manifold_count, manifold_feature, local_memory, GROUP_NUMBER);
+  END_GROUP;
 }
 
 __kernel void collide_sphere_half_space(__global const uint *pair_a, __global const uint *pair_b,

@@ -96,4 +96,7 @@ enum {
 /* Where a body was first seen to be non-finite, in pipeline order. */
 enum { NONFINITE_AT_START = 0, NONFINITE_IN_SOLVE = 1, NONFINITE_IN_INTEGRATE = 2 };
 
+/* Stands beside the count of a manifold's points until a kernel of its own has followed the pair (narrowphase/time_of_impact.h). */
+#define TO_FOLLOW 8u
+
 #endif

@@ -7,6 +7,7 @@
 #include "shared/midphase/subtree_pairs.h"
 #include "shared/midphase/grazing.h"
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/limit_motion.h"
 #include "shared/narrowphase/sat_split.h"

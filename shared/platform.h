@@ -89,6 +89,12 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
   while (old > value && !__atomic_compare_exchange_n(pointer, &old, value, 1, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {}
   return old;
 }
+static inline uint local_add_uint(uint *pointer, uint value)
+{
+  uint old = *pointer;
+  *pointer = old + value;
+  return old;
+}
 #endif
 
 #define FLOAT_BITS(x) float_bits((float)(x))
@@ -98,7 +104,7 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
 #define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or_uint((pointer), (value))
 /* Local memory belongs to one thread here: no atomic is needed. */
-#define LOCAL_ADD(pointer, value) (*(pointer) += (value))
+#define LOCAL_ADD(pointer, value) local_add_uint((pointer), (value))
 #ifdef TANDEM_REFERENCE
 #define SQUARE_ROOT(x) __builtin_sqrt(x)
 #else
@@ -125,7 +131,7 @@ static inline uint atomic_min_uint(uint *pointer, uint value)
  *   STRIPS(many)  how many strips of consecutive items a phase walks, one item a strip. A work-group needs many; one
  *                 thread walks everything, so a single strip spares it the joining. Only where the result does not
  *                 depend on the cut: sums of whole numbers and ranks, never sums of reals.
- *   LOCAL_ADD     adds to a count in local memory to which other items of the phase add as well.
+ *   LOCAL_ADD     adds to a count in local memory to which other items of the phase add as well; what it was before.
  *   half_word     16 bits of local memory that another phase may see as part of a uint. */
 
 #endif

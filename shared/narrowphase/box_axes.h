@@ -11,7 +11,7 @@
  * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
  * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
  *
- * For contacts an edge must lead by more. Where faces meet at a small angle the axis of two edges is nearly that of the faces,
+ * For contacts the axis of two edges must also be inclined. Where faces meet at a small angle it is nearly that of the faces,
  * and leads by a little: its one point would stop one corner of a box that lands, which turns about it, and the next
  * contacts are found a step later, when the corners without a point have sunk in. Points of faces lie on both boxes all the same:
  *
@@ -36,14 +36,19 @@
 typedef struct {
   real separation;
   natural code;
-  natural edges;    /* code of the best axis of two edges */
-  mask edges_lead;  /* the separation is theirs, though the code may be that of a face (LEAD_OF_EDGES) */
+  natural edges;   /* code of the best axis of two edges */
+  mask edges_lead; /* the separation is theirs, though the code may be that of a face (NEARLY_ALONG) */
 } separating_axis;
 
-SHARED separating_axis better_axis(separating_axis best, real separation, uint code, real lead)
+typedef struct {
+  real separation;
+  natural code;
+} best_axis;
+
+SHARED best_axis better_axis(best_axis best, real separation, uint code, real lead)
 {
   mask better = separation > best.separation + lead;
-  separating_axis result = best;
+  best_axis result = best;
   result.separation = choose(better, separation, best.separation);
   result.code = choose(better, (natural)code, best.code);
   return result;
@@ -64,7 +69,7 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
 
 /* The three edges of a against one edge of b; across: how far b reaches along their three products. Of the edges the
  * best one wins: only its closest points are sure to lie on both. */
-SHARED separating_axis edges_against(separating_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
+SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
                                      real noise)
 {
   real along_x = edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise);
@@ -82,13 +87,12 @@ SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 /* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
 SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }
 
-/* Of the smallest half extent of a pair: faces are taken for contacts unless edges lead by more. */
-#define LEAD_OF_EDGES R(0.05)
+/* Cosine of the angle up to which the axis of two edges counts as that of the faces, about 8 degrees; one that no angle has. */
+#define NEARLY_ALONG R(0.99)
+#define NEVER_ALONG R(2.0)
 
 /* The slop and what a contact sags more than that, as a share of the slop. */
 #define ROUNDED_EDGE R(1.25)
-/* The separation of boxes of which only rounded edges meet. */
-#define FAR_APART R(1e30)
 
 /* gap: along the three face axes of one box; the middle one is the second largest. Where both show a gap the boxes are
  * apart in any case, and what comes ahead is for the other axes to say. lead: by how much gaps are compared. */
@@ -98,10 +102,32 @@ SHARED mask only_edges_meet(vec3 gap, real rounded, real lead)
   return (maximum(gap.x, maximum(gap.y, gap.z)) > -rounded) & (second > -(rounded + R(2.0) * lead)) & (second < lead);
 }
 
+/* Edge k of a and edge j of b, from the code of their axis. */
+SHARED natural edge_of_a(natural code)
+{
+  return choose(code >= 12u, (natural)2u, choose(code >= 9u, (natural)1u, (natural)0u));
+}
+SHARED natural edge_of_b(natural code) { return code - 6u - edge_of_a(code) * 3u; }
+
+/* The product of axis k with a vector, both in the axes of a box. */
+SHARED vec3 across_axis(natural k, vec3 v)
+{
+  real zero = R(0.0);
+  return pick3(k, make_vec3(zero, -v.z, v.y), make_vec3(v.z, zero, -v.x), make_vec3(-v.y, v.x, zero));
+}
+
+/* Whether the axis of two edges is inclined to that of a face. x, y, z: the axes of b, in those of a. */
+SHARED mask is_inclined(natural edges, natural face, vec3 x, vec3 y, vec3 z, real cosine)
+{
+  vec3 across = across_axis(edge_of_a(edges), pick3(edge_of_b(edges), x, y, z));
+  natural of_b = face - 3u;
+  real along = choose(face < 3u, pick(face, across.x, across.y, across.z), inner(across, pick3(of_b, x, y, z)));
+  return along * along < cosine * cosine * length_squared(across);
+}
+
 /* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of their edges
- * counts as rounded off; lead_of_edges: by how much edges must lead to be the axis, beside what rounding asks for: the separation is
- * theirs also where they do not. Metres. */
-SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded, real lead_of_edges)
+ * counts as rounded off. Metres. nearly_along: cosine of the angle up to which the axis of two edges counts as that of the faces. */
+SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded, real nearly_along)
 {
   vec3 to_b = in_axes_of(a, offset);
   vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
@@ -117,26 +143,23 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   real noise = span * R(5e-7);
   real lead = lead_of(slop, minimum(least_of(a.extent), least_of(b.extent))) + noise * R(2.0);
 
-  mask none = noise < R(0.0);
-  separating_axis best = {gap_a.x, 0u, 6u, none};
-  best = better_axis(best, gap_a.y, 1u, lead);
-  best = better_axis(best, gap_a.z, 2u, lead);
-  best = better_axis(best, gap_b.x, 3u, lead);
-  best = better_axis(best, gap_b.y, 4u, lead);
-  best = better_axis(best, gap_b.z, 5u, lead);
+  best_axis face = {gap_a.x, 0u};
+  face = better_axis(face, gap_a.y, 1u, lead);
+  face = better_axis(face, gap_a.z, 2u, lead);
+  face = better_axis(face, gap_b.x, 3u, lead);
+  face = better_axis(face, gap_b.y, 4u, lead);
+  face = better_axis(face, gap_b.z, 5u, lead);
 
-  separating_axis edges = {R(-1e30), 6u, 6u, none};
+  best_axis edges = {R(-1e30), 6u};
   edges = edges_against(edges, to_b, x, a.extent, add_scaled(scale(size_z, b.extent.y), size_y, b.extent.z), 6u, noise);
   edges = edges_against(edges, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, noise);
   edges = edges_against(edges, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, noise);
-  real ahead = edges.separation - best.separation;
-  best.edges = edges.code;
-  best.edges_lead = ahead > lead;
-  best.separation = choose(best.edges_lead, edges.separation, best.separation);
-  best.code = choose(ahead > lead + lead_of_edges, edges.code, best.code);
+  mask edges_lead = edges.separation - face.separation > lead;
   mask rounded_off = (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
-  best.separation = choose(rounded_off, (real)FAR_APART, best.separation);
-  return best;
+  real separation = choose(edges_lead, edges.separation, face.separation);
+  separating_axis axis = {choose(rounded_off, (real)FAR_APART, separation), face.code, edges.code, edges_lead};
+  if (any_of(edges_lead)) axis.code = choose(edges_lead & is_inclined(edges.code, face.code, x, y, z, nearly_along), edges.code, face.code);
+  return axis;
 }
 
 #endif

@@ -25,13 +25,6 @@ typedef struct {
 
 SHARED natural bit_if(mask m, uint bit) { return choose(m, (natural)1u, (natural)0u) << bit; }
 
-/* Edge k of a and edge j of b, from the code of their axis. */
-SHARED natural edge_of_a(natural code)
-{
-  return choose(code >= 12u, (natural)2u, choose(code >= 9u, (natural)1u, (natural)0u));
-}
-SHARED natural edge_of_b(natural code) { return code - 6u - edge_of_a(code) * 3u; }
-
 SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, natural code)
 {
   mask on_edges = code >= 6u;
@@ -159,11 +152,10 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natura
   return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
 }
 
-/* toward: the offset of the boxes, or one by which they shall part. rounded: how much of their edges counts as rounded off.
- * lead_of_edges: by how much edges must lead. */
-SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded, real lead_of_edges)
+/* toward: the offset of the boxes, or one by which they shall part. rounded, nearly_along: as separating_axis_of. */
+SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded, real nearly_along)
 {
-  separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded, lead_of_edges);
+  separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded, nearly_along);
   vec3 normal = normal_of_axis(boxes.a, boxes.b, toward, axis.code);
   box_pair pair = {boxes.a, boxes.b, boxes.offset, normal, axis.separation, axis.code, axis.edges, axis.edges_lead};
   return pair;
@@ -203,28 +195,6 @@ SHARED real gap_of_boxes_along(box_pair pair, vec3 normal)
   return inner(pair.offset, normal) - inner(absolute(in_axes_of(pair.a, normal)), pair.a.extent) - inner(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
 }
 
-/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. The axis
- * turns with the box whose face it is square to. */
-SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
-{
-  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
-  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(start.offset) + speed * way.horizon;
-  real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
-  real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
-  advancement at = start_advancement(reached);
-  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0), R(0.0));
-    mask face_of_b = (now.code >= 3u) & (now.code < 6u);
-    real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
-    vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
-    real gap_then = gap_of_boxes_along(boxes_after(start, moves, at.time + span), normal_then);
-    real chord = free_by_chord(now.gap, gap_then, span, acceleration, way);
-    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), chord, way);
-    if (!any_of(at.active)) break;
-  }
-  return at;
-}
-
 /* Two boxes as the step starts, whose best axis is not known yet. */
 typedef struct {
   box_pair boxes;
@@ -251,6 +221,16 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
   return pair;
 }
 
+/* Boxes beside each other, whose faces do not lie above one another yet, make no contact where they stand, though fast ones may meet
+ * within the step. Sharp edges: rounded ones may not meet at the start and will. */
+SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m, moving_boxes pair, vec3 normal)
+{
+  mask beside = pair.way.far & !has_points(m);
+  if (!any_of(beside)) return beside;
+  real gap = gap_of_boxes_along(pair.boxes, normal);
+  return beside & (gap > pair.way.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
+}
+
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
 {
   mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX, second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
@@ -269,41 +249,15 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
 
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
-  box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
+  box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, NEARLY_ALONG);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
-  m.impact_time = choose(speculation_of(parameters, m, pair.moves, pair.way, pair.least).asked, (real)AHEAD, (real)R(0.0));
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
-}
 
-/* Cosine of the angle up to which the axis of two edges counts as that of the faces. */
-#define NEARLY_ALONG R(0.95)
-
-/* The contacts that the boxes may pass, in a kernel of their own: it takes twice the registers, for which all pairs would pay. */
-SHARED void follow_boxes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
-                              GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                              GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                              GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
-{
-  mask marked = load_row(normals, i).w >= AHEAD;
-  if (!any_of(marked)) return;
-  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
-  mask mine = marked & both_boxes(traits, a, b);
-  if (!any_of(mine)) return;
-
-  uint stride = counts[CAPACITY_PAIRS];
-  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
-  manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
-  speculation s = speculation_of(parameters, start, pair.moves, pair.way, pair.least);
-  encounter met = encounter_of(parameters, s, impact_of_boxes(mine & s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
-  box_pair then = boxes_after(pair.boxes, pair.moves, choose(met.at_impact, met.time, (real)R(0.0)));
-  box_pair faces = along_best_axis(then, then.offset, parameters->slop, pair.rounded, LEAD_OF_EDGES * pair.least);
-  box_pair edges = along_edges(faces.edges_lead, faces);
-  mask inclined = faces.edges_lead & (inner(edges.normal, faces.normal) < NEARLY_ALONG);
-  box_pair touching = along_edges(inclined, faces); /* what grazes an edge is turned aside by its slope */
-  manifold m = boxes_contact(parameters, mine & met.at_impact, touching, pair.moves);
-  met.at_impact = met.at_impact & has_points(m); /* rounded edges may meet without a contact */
-  m = as_seen_from_start(parameters, choose_manifold(met.at_impact, m, start), met, then.offset, pair.moves);
-  store_manifold_if(mine, m, stride, normals, points, counts_of_points, features, i);
+  /* Loaded once more, so that a device need not keep them in registers all the while. */
+  pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  mask ahead = speculation_of(parameters, m, pair.moves, pair.way, pair.least).asked |
+               may_meet_from_beside(parameters, m, pair, boxes.normal);
+  mark_to_follow_if(mine & ahead, m, counts_of_points, i);
 }
 
 #endif

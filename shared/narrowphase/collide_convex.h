@@ -126,14 +126,14 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
   if (has_points(m)) return speculation_of(parameters, m, query->moves, journey_of_query(parameters, query), least_of_query(query)).asked;
-  return m.impact_time >= AHEAD && may_meet_triangle(parameters, query);
+  return m.impact_time >= BESIDE && may_meet_triangle(parameters, query);
 }
 
 SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride, GLOBAL row *normals,
                         GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
-  normals[i].w = is_ahead(parameters, query, m) ? AHEAD : R(0.0);
+  mark_to_follow_if(is_ahead(parameters, query, m), m, counts_of_points, i);
 }
 
 SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,

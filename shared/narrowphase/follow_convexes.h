@@ -9,6 +9,7 @@
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
 
 #include "shared/narrowphase/collide_convex.h"
+#include "shared/narrowphase/middle_ball.h"
 
 /* Shapes without a contact at the start are followed only because one of them is a triangle. */
 SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, const convex_query *query, manifold start, journey way)
@@ -16,6 +17,34 @@ SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, con
   speculation s = speculation_of(parameters, start, query->moves, way, least_of_query(query));
   if (!has_points(start)) s.asked = s.reached = 1;
   return s;
+}
+
+/* Whether a point lies before a face, square above it. */
+SHARED mask is_before_face(const convex *shape, const support_face *face, vec3 point)
+{
+  if (face->corners < 3u) return 0;
+  vec3 last = face_corner(shape, face, face->corners - 1u);
+  for (uint k = 0u; k < face->corners; ++k) {
+    vec3 corner = face_corner(shape, face, k);
+    if (inner(outer(subtract(corner, last), subtract(point, last)), face->normal) < R(0.0)) return 0;
+    last = corner;
+  }
+  return 1;
+}
+
+/* With the ball in the middle of a body that hits a face of the other from before it, as the query has them at the impact. A shape
+ * beside its body's centre leaves less room for the ball. */
+SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec3 offset)
+{
+  ball_owner owner = owner_of_ball(query->moves);
+  if (!owner.in_a && !owner.in_b) return m;
+  const convex *body = owner.in_a ? &query->first : &query->second, *wall = owner.in_a ? &query->second : &query->first;
+  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : offset, outward = owner.in_a ? negate(m.normal) : m.normal;
+  real radius = CORE_SHARE * least_size(body) - length_of(subtract(body->center, middle));
+  support_face face = support_face_of(wall, outward);
+  if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < NEARLY_ALONG) return m;
+  real height = inner(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
+  return with_middle_ball(m, height > R(0.0), add_scaled(middle, outward, -height), height, radius);
 }
 
 /* The manifold of the whole step. */
@@ -34,6 +63,7 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
     m = start;
   }
   vec3 offset = offset_after(query->offset, query->moves, met.at_impact ? met.time : R(0.0));
+  if (met.at_impact && !met.missed) m = with_middle_of_convex(m, query, offset);
   return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
@@ -45,14 +75,13 @@ SHARED void follow_convexes_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
                                  GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
                                  GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || !(normals[i].w >= AHEAD)) return;
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || counts_of_points[i] < TO_FOLLOW) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
                                links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
   if (near != QUERY_NEAR) return;
   manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
-  start.impact_time = R(0.0);
   store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, normals, points, counts_of_points, features, i);
 }
 

@@ -14,9 +14,7 @@
 #define TANDEM_SHARED_NARROWPHASE_LIMIT_MOTION_H
 
 #include "shared/narrowphase/collide_convex.h"
-
-/* Radius of the ball in the middle, of the shape's least size: within every shape that is not nearly flat. */
-#define CORE_SHARE R(0.25)
+#include "shared/narrowphase/middle_ball.h"
 
 /* A wall: a shape, or all below a plane. Seen from the body's centre; times go from 0 to 1. */
 typedef struct {

@@ -88,6 +88,17 @@ SHARED manifold kept_within(manifold m, real reach)
   return m;
 }
 
+SHARED natural points_of(manifold m)
+{
+  natural count = 0u;
+  for (int slot = 0; slot < 4; ++slot) count = choose(m.kept[slot], count + 1u, count);
+  return count;
+}
+SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_points, item_index i)
+{
+  store_natural_if(marked, counts_of_points, i, points_of(m) | TO_FOLLOW);
+}
+
 /* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
 SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *normals, GLOBAL row *points,
                               GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
@@ -114,7 +125,7 @@ SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL con
                               GLOBAL const uint *features, item_index i)
 {
   vec4 normal = load_row(normals, i);
-  natural count = load_natural(counts_of_points, i), feature = load_natural(features, i);
+  natural count = load_natural(counts_of_points, i) & 7u, feature = load_natural(features, i);
   mask touching = count > 0u;
   manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
   m.impact_time = normal.w;

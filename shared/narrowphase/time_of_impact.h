@@ -155,6 +155,9 @@ SHARED advancement advanced(advancement at, uint round, real gap, real closing, 
   return next;
 }
 
+/* The separation of what does not meet at all, as boxes of which only rounded edges do. */
+#define FAR_APART R(1e30)
+
 SHARED mask has_points(manifold m) { return m.kept[0] | m.kept[1] | m.kept[2] | m.kept[3]; }
 
 SHARED real least_separation(manifold m)
@@ -177,9 +180,9 @@ SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
-/* impact_time of contacts that the motion of the step may pass, until a kernel of its own has followed them. Not below 0: rusticl
- * makes -0 of the other side of a choice between -1 and 0. */
-#define AHEAD R(1e30)
+/* Of the slop: bodies that come nearer to each other by less within a step are not followed. What passes at half of it is not
+ * approached so far ahead that a contact would hold it. */
+#define STILL_SHARE R(0.4)
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of
  * the step reaches, which are followed, and those of a body that swings far. */
@@ -191,7 +194,8 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
   speculation s;
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
-  mask ahead = has_points(m) & (gap > way.touching);
+  real still = STILL_SHARE * minimum(parameters->slop, parameters->slop_share * least);
+  mask ahead = has_points(m) & (gap > way.touching) & (way.fastest * parameters->step > still);
   s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves)) * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   return s;

@@ -198,8 +198,11 @@ SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real re
   return TRIANGLE_MEETS;
 }
 
-/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. impact_time: AHEAD
- * where the shape is beside the triangle. */
+/* impact_time of a manifold without points, where the shape is beside the triangle: it may come before it within the step. Not below
+ * 0: rusticl makes -0 of the other side of a choice between -1 and 0. */
+#define BESIDE R(1e30)
+
+/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. */
 SHARED manifold triangle_contact(const convex *first, const convex *second, real reach, real thickness, real slop)
 {
   convex_pair pair = pair_of(first, second);
@@ -207,7 +210,7 @@ SHARED manifold triangle_contact(const convex *first, const convex *second, real
   int found = triangle_patch(&patch, &pair, reach, thickness, lead_of_faces(&pair.a, &pair.b, slop));
   if (found == TRIANGLE_MEETS) return kept_within(placed_manifold(&pair, &patch), reach);
   manifold none = single_contact(rotate(pair.axes, pair.up), pair.origin, reach, 0);
-  none.impact_time = found == TRIANGLE_BESIDE ? AHEAD : R(0.0);
+  none.impact_time = found == TRIANGLE_BESIDE ? BESIDE : R(0.0);
   return none;
 }
 

@@ -42,6 +42,11 @@ SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *
 }
 
 /* Bodies that cannot move are shared by constraints of one colour, so they are never written. */
+SHARED void store_contact_motion_if(mask wanted, GLOBAL row *solver_velocity, contact c)
+{
+  store_motion_if(wanted & (c.motion_a.inverse_mass > R(0.0)), solver_velocity, c.a, c.motion_a);
+  store_motion_if(wanted & (c.motion_b.inverse_mass > R(0.0)), solver_velocity, c.b, c.motion_b);
+}
 SHARED void store_contact_motion(GLOBAL row *solver_velocity, contact c)
 {
   store_motion_if(c.motion_a.inverse_mass > R(0.0), solver_velocity, c.a, c.motion_a);
@@ -151,9 +156,9 @@ SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
 /* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: the impulse and the
  * moment that each body's constraints will push it by, in the order of the colours. A pass of its own would read every
  * constraint once more. */
-SHARED void add_push(GLOBAL row *solver_push, contact c, wrench w)
+SHARED void add_push_if(mask wanted, GLOBAL row *solver_push, contact c, wrench w)
 {
-  mask moves_a = c.motion_a.inverse_mass > R(0.0), moves_b = c.motion_b.inverse_mass > R(0.0);
+  mask moves_a = wanted & (c.motion_a.inverse_mass > R(0.0)), moves_b = wanted & (c.motion_b.inverse_mass > R(0.0));
   vec3 impulse_a = subtract(xyz(load_row(solver_push, c.a * 2u)), w.impulse), turn_a = subtract(xyz(load_row(solver_push, c.a * 2u + 1u)), w.turn_a);
   vec3 impulse_b = add(xyz(load_row(solver_push, c.b * 2u)), w.impulse), turn_b = add(xyz(load_row(solver_push, c.b * 2u + 1u)), w.turn_b);
   store_row_if(moves_a, solver_push, c.a * 2u, extend(impulse_a, R(0.0)));
@@ -242,6 +247,79 @@ SHARED contact press_together(contact c, support *s, const real *wished)
   return apply_turn(c, turn_a, turn_b, share);
 }
 
+/* One pass over the points, as they are after the bodies have moved. */
+SHARED contact press_once(GLOBAL const Parameters *parameters, contact c, support *s, drift moved, GLOBAL const row *constraint_points, uint stride,
+                          real slop, uint biased, item_index i)
+{
+  softness soft = softness_of(parameters, c);
+  real closed = inner(c.normal, moved.translation), wished[4];
+  for (uint k = 0; k < 4u; ++k) {
+    real started = load_row(constraint_points, stride * k + i).w;
+    real separation = started + closed + (inner(s->turn_b[k], moved.rotation_b) - inner(s->turn_a[k], moved.rotation_a));
+    real speed = speed_along(c, c.normal, s->turn_a[k], s->turn_b[k]);
+    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
+  }
+  return press_together(c, s, wished);
+}
+
+/* The points of an impact are coupled, and one pass would leave a fast body on its way: further ones bring all of them to
+ * rest. */
+#define IMPACT_ROUNDS 7u
+
+/* Impulses that change the rows of a manifold, at once, so that momentum is rounded once. */
+SHARED contact apply_changes(contact c, const support *s, vec4 changes)
+{
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), turn_a = none, turn_b = none;
+  for (uint k = 0; k < 4u; ++k) {
+    real change = component(changes, (natural)k);
+    turn_a = add_scaled(turn_a, s->turn_a[k], change);
+    turn_b = add_scaled(turn_b, s->turn_b[k], change);
+  }
+  real sum = (changes.x + changes.y) + (changes.z + changes.w);
+  c.motion_a.linear = add_scaled(c.motion_a.linear, c.normal, -(c.motion_a.inverse_mass * sum));
+  c.motion_b.linear = add_scaled(c.motion_b.linear, c.normal, c.motion_b.inverse_mass * sum);
+  return apply_turn(c, turn_a, turn_b, R(1.0));
+}
+
+/* What the normal rows of a manifold have come to. */
+SHARED void store_pressed_if(mask wanted, GLOBAL const Parameters *parameters, uint stride, const support *s, GLOBAL row *constraint_normal_impulse,
+                             GLOBAL row *constraint_bounce, item_index i)
+{
+  vec4 pressed = make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
+  store_row_if(wanted, constraint_normal_impulse, i, pressed);
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
+    vec4 highest = load_row(constraint_bounce, stride + i);
+    store_row_if(wanted, constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y),
+                                                                 maximum(highest.z, pressed.z), maximum(highest.w, pressed.w)));
+  }
+}
+
+/* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the others pay for no
+ * register of it. */
+SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                          GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                          GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, uint stride,
+                          GLOBAL row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
+                          GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass, item_index i)
+{
+  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  mask at_impact = c.follows == R(0.0);
+  drift moved = load_drift(solver_delta, c);
+  arm_shift shift = shift_of_contact(c, moved.translation);
+  vec4 before = load_row(constraint_normal_impulse, i);
+  support s = load_support(constraint_points, stride, c, shift, before, i);
+  real slop = load_real(constraint_slop, i);
+  uint biased = pass == PASS_BIASED ? 1u : 0u;
+  for (uint round = 0; round < IMPACT_ROUNDS; ++round) c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
+  store_pressed_if(at_impact, parameters, stride, &s, constraint_normal_impulse, constraint_bounce, i);
+  vec4 changes = make_vec4(s.impulse[0] - before.x, s.impulse[1] - before.y, s.impulse[2] - before.z, s.impulse[3] - before.w);
+  c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  c = apply_changes(c, &s, changes);
+  store_contact_motion_if(at_impact, solver_velocity, c);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  if (pass == PASS_RELAXING) add_push_if(at_impact, solver_push, c, wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i)));
+}
+
 SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                 GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
                                 GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
@@ -265,28 +343,17 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
     store_row(constraint_friction_impulse, i, friction);
   }
 
-  softness soft = softness_of(parameters, c);
   real slop = load_real(constraint_slop, i);
-  real closed = inner(c.normal, moved.translation);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
-  real wished[4];
-  for (uint k = 0; k < 4u; ++k) {
-    real started = load_row(constraint_points, stride * k + i).w;
-    real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
-    real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
-    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
-  }
-  c = press_together(c, &s, wished);
-  vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
-  store_row(constraint_normal_impulse, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
-                                                       maximum(highest.w, pressed.w)));
-  }
+  c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
+  mask at_impact = c.follows == R(0.0), all = at_impact | (!at_impact);
+  store_pressed_if(all, parameters, stride, &s, constraint_normal_impulse, constraint_bounce, i);
   store_contact_motion(solver_velocity, c);
   if (pass == PASS_RELAXING)
-    add_push(solver_push, c, wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
+    add_push_if(!at_impact, solver_push, c, wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
+  if (any_of(at_impact))
+    settle_impact(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, constraint_slop, solver_inertia,
+                  solver_delta, stride, constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity, solver_push, pass, i);
 }
 
 /* The points of a manifold are coupled; a few rounds bring all of them to their speeds. */

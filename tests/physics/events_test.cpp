@@ -321,13 +321,15 @@ TEST_CASE("an impulse that has faded away has no place of its own: the event nam
 {
   Settings settings = settings_for("nncg"); /* whose impulses fade to denormal numbers */
   settings.events = true;
-  World world(load_scene("mixed:n=12"), settings);
   size_t faded = 0;
-  for (int step = 0; step < 300; ++step) {
-    world.step();
-    for (const ContactEvent &event : world.contact_events()) {
-      faded += event.impulse > 0 && event.impulse < std::numeric_limits<float>::min();
-      REQUIRE(vector_of(event.point).allFinite());
+  for (const char *scene : {"mixed:n=12", "mixed:n=16", "mixed:n=20", "mixed:n=24", "falling-boxes:n=12", "falling-boxes:n=20"}) {
+    World world(load_scene(scene), settings);
+    for (int step = 0; step < 300; ++step) {
+      world.step();
+      for (const ContactEvent &event : world.contact_events()) {
+        faded += event.impulse > 0 && event.impulse < std::numeric_limits<float>::min();
+        REQUIRE(vector_of(event.point).allFinite());
+      }
     }
   }
   CHECK(faded > 0);

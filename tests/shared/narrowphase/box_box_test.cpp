@@ -124,8 +124,8 @@ double lead_of(const PairScene &scene, const TestBody &a, const TestBody &b)
          2 * rounding(a, b);
 }
 
-/* By how much edges must lead faces to carry the contact of two boxes, as box_axes.h says. */
-double lead_of_edges(const TestBody &a, const TestBody &b) { return 0.05 * std::min(a.extent().minCoeff(), b.extent().minCoeff()); }
+/* Cosine of the angle up to which a face stands in for the axis of two edges, as box_axes.h says. */
+constexpr double nearly_along = 0.99;
 
 /* Best gap over all axes; what edges say is worth the less, the nearer they are to parallel. */
 const ReferenceAxis &best_axis(const std::vector<ReferenceAxis> &axes, double error)
@@ -156,7 +156,8 @@ std::string fault_of_axis(const PairScene &scene, const Contact &contact, const 
   const double leads = (a.center() - b.center()).norm() < 1.01e-3 * least ? 5 : 2;
   const double missing = best.gap - error / best.sharpness - leads * lead_of(scene, a, b) - gap;
   const bool face_for_edges = best.edges && !nearest_axis(all_axes(box_a, box_b), contact.normal).edges;
-  if (missing > (face_for_edges ? lead_of_edges(a, b) : 0)) return "not the axis of least overlap";
+  const bool is_inclined = std::abs(best.direction.dot(contact.normal)) < nearly_along - 1e-5;
+  if (missing > 0 && (!face_for_edges || is_inclined)) return "not the axis of least overlap";
   return "";
 }
 
@@ -300,9 +301,9 @@ bool axis_is_clear(const PairScene &scene, const TestBody &a, const TestBody &b)
   const std::vector<ReferenceAxis> axes = all_axes(ReferenceBox(a), ReferenceBox(b));
   const ReferenceAxis best = best_axis(axes, rounding(a, b));
   return std::all_of(axes.begin(), axes.end(), [&](const ReferenceAxis &axis) {
-    const double margin = 2 * lead_of(scene, a, b) + 2 * rounding(a, b) / axis.sharpness +
-                          (best.edges && !axis.edges ? lead_of_edges(a, b) : 0);
-    return axis.gap < best.gap - margin || (axis.direction - best.direction).norm() < 1e-9;
+    const double margin = 2 * lead_of(scene, a, b) + 2 * rounding(a, b) / axis.sharpness;
+    const bool face_for_edges = best.edges && !axis.edges && std::abs(best.direction.dot(axis.direction)) > nearly_along - 1e-5;
+    return (axis.gap < best.gap - margin && !face_for_edges) || (axis.direction - best.direction).norm() < 1e-9;
   });
 }
 

@@ -112,7 +112,8 @@ public:
     for (Kernel kernel : kernels) {
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
-      table.run[index_of(kernel)](arguments.data(), 0, static_cast<uint32_t>(pairs));
+      const size_t groups = (pairs + TILE - 1) / TILE;
+      table.run[index_of(kernel)](arguments.data(), 0, static_cast<uint32_t>(row_of(kernel).form == Form::group ? groups : pairs));
     }
     return outputs;
   }
@@ -122,7 +123,7 @@ public:
     Contact contact;
     contact.normal = xyz(outputs.normals[pair]);
     contact.code = outputs.features[pair] >> 8;
-    for (uint32_t k = 0; k < outputs.counts[pair]; ++k) {
+    for (uint32_t k = 0; k < outputs.counts[pair] % TO_FOLLOW; ++k) {
       const row &point = outputs.points[k * outputs.counts.size() + pair];
       contact.points.push_back({xyz(point), point.w, outputs.features[pair] >> (2 * k) & 3u});
     }

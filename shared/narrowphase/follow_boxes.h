@@ -1,0 +1,124 @@
+/* follow_boxes.h - pairs of boxes that may pass each other within the step are followed to where they meet.
+ *
+ *   collide_box_box -> follow_boxes: contacts of the impact, those of the start, or none
+ *
+ *   pairs | . . x . . . . x . . . . . . . x | . . .      x: marked TO_FOLLOW
+ *             |         |               |
+ *            [0]       [1]             [2]               the items of a group take them one after another
+ *
+ * A kernel of its own: it takes twice the registers of collide_box_box, for which all pairs would pay. Few pairs are marked, so a group
+ * gathers those of a tile: were each item to look at its own pair, a device would spend more on starting items than on pairs.
+ */
+#ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
+#define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
+
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/middle_ball.h"
+
+/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. The axis
+ * turns with the box whose face it is square to. */
+SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
+{
+  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
+  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(start.offset) + speed * way.horizon;
+  real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
+  real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
+  advancement at = start_advancement(reached);
+  for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
+    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0), NEVER_ALONG);
+    mask face_of_b = (now.code >= 3u) & (now.code < 6u);
+    real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
+    vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
+    real gap_then = gap_of_boxes_along(boxes_after(start, moves, at.time + span), normal_then);
+    real chord = free_by_chord(now.gap, gap_then, span, acceleration, way);
+    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), chord, way);
+    if (!any_of(at.active)) break;
+  }
+  return at;
+}
+
+/* With the ball in the middle of a box that hits a face of the other from before it. then: the boxes at the moment of the impact. */
+SHARED manifold with_middle_of_box(manifold m, mask wanted, box_pair then, pair_motion moves)
+{
+  ball_owner owner = owner_of_ball(moves);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), outward = choose3(owner.in_a, negate(m.normal), m.normal);
+  vec3 middle = choose3(owner.in_a, negate(then.offset), then.offset);
+  oriented_box wall = choose_box(owner.in_a, then.b, then.a), box = choose_box(owner.in_a, then.a, then.b);
+  box_frame face = frame_of(wall, most_parallel_axis(wall, outward));
+  real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, middle) - face.extent;
+  mask before = (magnitude(inner(face.u, middle)) < face.extent_u) & (magnitude(inner(face.v, middle)) < face.extent_v) &
+                (side * inner(face.axis, outward) > NEARLY_ALONG) & (height > R(0.0));
+  vec3 foot = add_scaled(choose3(owner.in_a, none, then.offset), outward, -height);
+  return with_middle_ball(m, wanted & before & (owner.in_a | owner.in_b), foot, height, CORE_SHARE * least_of(box.extent));
+}
+
+/* Boxes without a contact at the start are followed only because they may meet from beside. */
+SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, manifold start, const moving_boxes *pair)
+{
+  speculation s = speculation_of(parameters, start, pair->moves, pair->way, pair->least);
+  mask from_beside = !has_points(start);
+  s.asked = s.asked | from_beside;
+  s.reached = s.reached | from_beside;
+  return s;
+}
+
+/* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little later, when more
+ * overlaps. met.time becomes that of the manifold, then the boxes of that moment. */
+SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const moving_boxes *pair, encounter *met, box_pair *then)
+{
+  manifold m;
+  for (uint attempt = 0u; attempt < 2u; ++attempt) {
+    *then = boxes_after(pair->boxes, pair->moves, met->at_impact ? met->time : R(0.0));
+    *then = along_best_axis(*then, then->offset, parameters->slop, pair->rounded, NEARLY_ALONG);
+    mask meets = met->at_impact && then->gap <= (attempt == 0u ? FAR_APART : pair->way.touching);
+    m = boxes_contact(parameters, meets, *then, pair->moves);
+    if (attempt == 1u || !met->at_impact || met->missed || has_points(m)) break;
+    met->time = met->time + R(2.0) * pair->rounded / pair->way.fastest;
+  }
+  return m;
+}
+
+SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const row *positions,
+                                 GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
+                                 GLOBAL uint *features, uint i)
+{
+  uint stride = counts[CAPACITY_PAIRS];
+  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, pair_a[i], pair_b[i]);
+  manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
+  speculation s = speculation_of_boxes(parameters, start, &pair);
+  encounter met = encounter_of(parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
+  box_pair then;
+  manifold m = contact_at_impact(parameters, &pair, &met, &then);
+  met.at_impact = met.at_impact && has_points(m);
+  m = with_middle_of_box(m, met.at_impact && !met.missed, then, pair.moves);
+  m = as_seen_from_start(parameters, met.at_impact ? m : start, met, then.offset, pair.moves);
+  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+}
+
+SHARED mask is_marked_box_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *counts_of_points, uint i)
+{
+  return counts_of_points[i] >= TO_FOLLOW && both_boxes(traits, pair_a[i], pair_b[i]);
+}
+
+/* local_memory: how many are marked; their numbers, in any order. */
+SHARED void follow_boxes_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                               GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                               GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                               GLOBAL uint *counts_of_points, GLOBAL uint *features, LOCAL uint *local_memory, uint group)
+{
+  const uint first = group * TILE, pairs = counts[COUNT_PAIRS];
+  const uint count = first < pairs ? (pairs - first < TILE ? pairs - first : TILE) : 0u;
+  FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
+  FOR_EACH_ITEM(k, count)
+  {
+    if (is_marked_box_pair(pair_a, pair_b, traits, counts_of_points, first + k)) local_memory[1u + LOCAL_ADD(local_memory, 1u)] = first + k;
+  }
+  FOR_EACH_ITEM(k, local_memory[0])
+  {
+    follow_pair_of_boxes(pair_a, pair_b, shapes, positions, orientations, velocities, parameters, counts, normals, points, counts_of_points, features,
+                         local_memory[1u + k]);
+  }
+}
+
+#endif

@@ -1,0 +1,121 @@
+/* What hits is noticed in the step in which it hits, however fast it comes and wherever it starts: no solver can stop what no contact
+ * was made for.
+ */
+#include "tests/catch.h"
+
+#include "tests/physics/solids.h"
+
+using namespace tandem;
+using namespace tandem::physics_tests;
+
+namespace {
+
+constexpr double step = 1.0 / 60, half = 0.25, apart = 40; /* s, m, m between the lanes */
+
+Vector direction(Random &random)
+{
+  for (;;) {
+    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+  }
+}
+
+/* Cubes start where the balls around them and around a fixed cube are apart; their middles come into it within one step. */
+Scene hits(const Shape &flying, const Shape &standing, int lanes)
+{
+  Random random(11);
+  Scene scene = empty_scene({0, 0, 0});
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double z = apart * lane, speed = random.uniform(100, 300);
+    const Quat turn = turn_about(direction(random), random.uniform(0, 2 * pi));
+    Body &wall = add_body(scene, Motion::fixed, standing, {0, 0, z});
+    wall.orientation = turn;
+    Vector inside(random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half));
+    inside = axes_of(turn) * inside;
+    const Vector velocity = speed * direction(random);
+    double time = random.uniform(0, step);
+    const double touching_balls = 2 * std::sqrt(3.0) * half;
+    while ((inside - time * velocity).norm() <= touching_balls) time = random.uniform(0, step);
+    const Vector start = inside - time * velocity;
+    Body &body = add_solid(scene, flying, {start.x(), start.y(), start.z() + z}, turn_about(direction(random), random.uniform(0, 2 * pi)));
+    body.linear_velocity = vec3_of(velocity);
+  }
+  return scene;
+}
+
+/* How many bodies go on as if nothing stood in their way. */
+int unnoticed(const Scene &scene, const Settings &settings)
+{
+  World world(scene, settings, {"tbb", {}});
+  world.step();
+  const std::vector<BodyState> after = world.bodies();
+  int count = 0;
+  for (size_t i = 0; i < after.size(); ++i)
+    if (scene.bodies[i].motion == Motion::dynamic)
+      count += (vector_of(after[i].linear_velocity) - vector_of(scene.bodies[i].linear_velocity)).norm() < 0.01;
+  return count;
+}
+
+/* Boxes, plates and rods come at 1 to 300 m/s, slanting and some of them turning, onto sheets with friction. */
+Scene thrown_at_sheets(const Shape &sheet, int lanes)
+{
+  Random random(3);
+  Scene scene = empty_scene({0, 0, 0});
+  scene.materials[0].restitution = 0;
+  for (int lane = 0; lane < lanes; ++lane) {
+    const double z = apart * lane, size = 0.15 * std::exp(random.uniform(std::log(0.15), std::log(2))), speed = std::exp(random.uniform(0, std::log(300)));
+    add_body(scene, Motion::fixed, sheet, {0, -0.005, z});
+    const float thin = float(size * (lane % 3 == 1 ? 0.05 : 0.5)), wide = float(lane % 3 == 2 ? 0.05 * size : size);
+    const Shape shape = box_shape(float(size), thin, wide);
+    const Vector way = Vector(random.uniform(-1, 1), -1, random.uniform(-1, 1)).normalized();
+    const double before = 2 * size + speed * step * random.uniform(0, 4);
+    const Vector start = Vector(random.uniform(-2, 2), 0, random.uniform(-2, 2)) - before * way;
+    Body &body = add_solid(scene, shape, {start.x(), std::max(start.y(), 1.8 * size), start.z() + z}, turn_about(direction(random), random.uniform(0, 2 * pi)));
+    body.linear_velocity = vec3_of(speed * way);
+    if (lane % 4) body.angular_velocity = vec3_of(direction(random) * std::exp(random.uniform(0, std::log(30))));
+  }
+  return scene;
+}
+
+int behind_the_sheets(const Scene &scene, const Settings &settings)
+{
+  World world(scene, settings, {"tbb", {}});
+  run(world, 6);
+  int count = 0;
+  for (const BodyState &state : world.bodies()) count += state.position[1] < -0.02 && std::abs(state.position[0]) < 5.5;
+  return count;
+}
+
+} // namespace
+
+TEST_CASE("what hits hardly ever passes: one in a hundred of fast bodies that friction sets spinning", "[physics]")
+{
+  const std::string solver = GENERATE("soft-step", "pgs");
+  const Shape sheet = box_shape(6, 0.005f, 6), mesh = mesh_of_box(6, 0.005f, 6), hull = hull_of_box(6, 0.005f, 6);
+  CAPTURE(solver);
+  const int through_box = behind_the_sheets(thrown_at_sheets(sheet, 1500), settings_for(solver));
+  const int through_mesh = behind_the_sheets(thrown_at_sheets(mesh, 1500), settings_for(solver));
+  const int through_hull = behind_the_sheets(thrown_at_sheets(hull, 1500), settings_for(solver));
+  CAPTURE(through_box, through_mesh, through_hull);
+  CHECK(through_box < 15);
+  CHECK(through_mesh < 15);
+  CHECK(through_hull < 15);
+}
+
+TEST_CASE("what hits is noticed: fast boxes and hulls that start beside what they meet within the step", "[physics]")
+{
+  const float size = float(half);
+  const Shape box = box_shape(size, size, size), hull = hull_of_box(size, size, size), mesh = mesh_of_box(size, size, size);
+  CHECK(unnoticed(hits(box, box, 2000), {}) == 0);
+  CHECK(unnoticed(hits(box, hull, 2000), {}) == 0);
+  CHECK(unnoticed(hits(hull, hull, 2000), {}) == 0);
+  CHECK(unnoticed(hits(box, mesh, 2000), {}) == 0);
+}
+
+TEST_CASE("what hits is noticed in every solver", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  const Shape box = box_shape(float(half), float(half), float(half));
+  CAPTURE(solver);
+  CHECK(unnoticed(hits(box, box, 500), settings_for(solver)) == 0);
+}
