@@ -81,7 +81,7 @@ Trial closed_system_trial(Length length)
     body.linear_velocity = vec3_of(-1.5 * place + Vector{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
     body.angular_velocity = {float(random.uniform(-3, 3)), float(random.uniform(-3, 3)), float(random.uniform(-3, 3))};
   }
-  trial.checks.push_back(check("drift of momentum", "", 3e-7, linear_momentum_drift()));
+  trial.checks.push_back(check("drift of momentum", "", 2e-7, linear_momentum_drift()));
   trial.checks.push_back(check("drift of angular momentum", "", 5e-7, angular_momentum_drift()));
   trial.checks.push_back(check("gain of energy", "J/kg", energy_from_rounding(trial), energy_gain()));
   return trial;
@@ -264,7 +264,7 @@ void add_motion_cases(std::vector<Case> &cases)
                    "each returns to e^2 of its height within 0.003%", restitution_trial});
   cases.push_back({"elastic", group, "a ball of restitution 1 that bounces for 20 s", "its energy drifts by less than 0.5%", elastic_trial});
   cases.push_back({"closed-system", group, "64 balls and boxes collide in empty space",
-                   "momentum drifts by less than 3e-7 and angular momentum by less than 5e-7 of the sum of their "
+                   "momentum drifts by less than 2e-7 and angular momentum by less than 5e-7 of the sum of their "
                    "lengths, energy never grows",
                    closed_system_trial});
   cases.push_back({"friction-cone", group, "boxes on ramps, ten coefficients of friction from 0.1 to 1",
