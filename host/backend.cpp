@@ -1,6 +1,7 @@
 /* backend.cpp - from the text of --on to a backend. */
 #include "host/backend.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -28,7 +29,10 @@ std::vector<std::pair<std::string, std::string>> options_of(const std::string &t
     const std::string item = text.substr(at, comma - at);
     const size_t equals = item.find('=');
     if (equals == std::string::npos) refuse(text, fmt::format("'{}' is not OPTION=VALUE", item));
-    options.emplace_back(item.substr(0, equals), item.substr(equals + 1));
+    const std::string name = item.substr(0, equals);
+    if (std::any_of(options.begin(), options.end(), [&](const auto &given) { return given.first == name; }))
+      refuse(text, fmt::format("{} is given twice", name));
+    options.emplace_back(name, item.substr(equals + 1));
     at = comma + 1;
   }
   return options;

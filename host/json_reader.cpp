@@ -138,11 +138,11 @@ bool Builder::key(string_t &key)
   return true;
 }
 
-bool Builder::parse_error(size_t, const std::string &, const nlohmann::json::exception &error)
+bool Builder::parse_error(size_t position, const std::string &, const nlohmann::json::exception &error)
 {
   const auto *place = dynamic_cast<const nlohmann::json::parse_error *>(&error);
-  const std::string where = place ? fmt::format("{}:{}", where_, line_and_column(text_, place->byte)) : where_;
-  throw InputError(fmt::format("{}: malformed JSON: {}", where, plain_reason(error.what())));
+  const std::string where = line_and_column(text_, place ? place->byte : position);
+  throw InputError(fmt::format("{}:{}: malformed JSON: {}", where_, where, plain_reason(error.what())));
 }
 
 /* Levels are few (most_json_levels), so that recursion is safe. */

@@ -30,9 +30,11 @@ struct RunOptions {
 void add_options(CLI::App &parser, RunOptions &options)
 {
   parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
-  parser.add_option("--image", options.image, "draw the scene as it is in the end, by ray casting where the stage queries is placed")->type_name("F.png");
-  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")->type_name("WxH")->capture_default_str();
-  parser.add_option("--camera", options.camera, "from where to where the picture is seen; at all bodies but the largest if not given")->type_name("EX,EY,EZ,TX,TY,TZ");
+  CLI::Option *image = parser.add_option("--image", options.image, "draw the scene as it is in the end, by ray casting where the stage queries is placed")->type_name("F.png");
+  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")->type_name("WxH")->capture_default_str()->needs(image);
+  parser.add_option("--camera", options.camera, "from where to where the picture is seen; at all bodies but the largest if not given")
+      ->type_name("EX,EY,EZ,TX,TY,TZ")
+      ->needs(image);
   parser.add_option("--trace", options.trace,
                     "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
       ->type_name("F.json");

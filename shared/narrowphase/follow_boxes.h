@@ -38,18 +38,18 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
 }
 
 /* With the ball in the middle of a box that hits a face of the other from before it. then: the boxes at the moment of the impact. */
-SHARED manifold with_middle_of_box(manifold m, mask wanted, box_pair then, pair_motion moves)
+SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
 {
   ball_owner owner = owner_of_ball(moves);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), outward = choose3(owner.in_a, negate(m.normal), m.normal);
-  vec3 middle = choose3(owner.in_a, negate(then.offset), then.offset);
-  oriented_box wall = choose_box(owner.in_a, then.b, then.a), box = choose_box(owner.in_a, then.a, then.b);
+  if (!owner.in_a && !owner.in_b) return m;
+  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : then.offset, outward = owner.in_a ? negate(m.normal) : m.normal;
+  vec3 from_wall = owner.in_a ? negate(then.offset) : then.offset;
+  oriented_box wall = owner.in_a ? then.b : then.a, box = owner.in_a ? then.a : then.b;
   box_frame face = frame_of(wall, most_parallel_axis(wall, outward));
-  real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, middle) - face.extent;
-  mask before = (magnitude(inner(face.u, middle)) < face.extent_u) & (magnitude(inner(face.v, middle)) < face.extent_v) &
-                (side * inner(face.axis, outward) > NEARLY_ALONG) & (height > R(0.0));
-  vec3 foot = add_scaled(choose3(owner.in_a, none, then.offset), outward, -height);
-  return with_middle_ball(m, wanted & before & (owner.in_a | owner.in_b), foot, height, CORE_SHARE * least_of(box.extent));
+  real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, from_wall) - face.extent;
+  if (magnitude(inner(face.u, from_wall)) >= face.extent_u || magnitude(inner(face.v, from_wall)) >= face.extent_v) return m;
+  if (side * inner(face.axis, outward) <= NEARLY_ALONG) return m;
+  return with_middle_ball(m, middle, outward, height, CORE_SHARE * least_of(box.extent));
 }
 
 /* Boxes without a contact at the start are followed only because they may meet from beside. */
@@ -57,8 +57,8 @@ SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, man
 {
   speculation s = speculation_of(parameters, start, pair->moves, pair->way, pair->least);
   mask from_beside = !has_points(start);
-  s.asked = s.asked | from_beside;
-  s.reached = s.reached | from_beside;
+  s.asked = s.asked || from_beside;
+  s.reached = s.reached || from_beside;
   return s;
 }
 
@@ -91,7 +91,7 @@ SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *p
   box_pair then;
   manifold m = contact_at_impact(parameters, &pair, &met, &then);
   met.at_impact = met.at_impact && has_points(m);
-  m = with_middle_of_box(m, met.at_impact && !met.missed, then, pair.moves);
+  if (met.at_impact && !met.missed) m = with_middle_of_box(m, then, pair.moves);
   m = as_seen_from_start(parameters, met.at_impact ? m : start, met, then.offset, pair.moves);
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
 }

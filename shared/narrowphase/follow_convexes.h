@@ -44,7 +44,7 @@ SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec
   support_face face = support_face_of(wall, outward);
   if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < NEARLY_ALONG) return m;
   real height = inner(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
-  return with_middle_ball(m, height > R(0.0), add_scaled(middle, outward, -height), height, radius);
+  return with_middle_ball(m, middle, outward, height, radius);
 }
 
 /* The manifold of the whole step. */

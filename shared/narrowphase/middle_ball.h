@@ -22,37 +22,45 @@ typedef struct { mask in_a, in_b; } ball_owner;
 
 SHARED ball_owner owner_of_ball(pair_motion moves)
 {
-  real zero = R(0.0);
-  mask pushed_a = moves.a.inverse_mass > zero, pushed_b = moves.b.inverse_mass > zero;
-  ball_owner owner = {pushed_a & (!pushed_b), pushed_b & (!pushed_a)};
+  mask pushed_a = moves.a.inverse_mass > R(0.0), pushed_b = moves.b.inverse_mass > R(0.0);
+  ball_owner owner = {pushed_a && !pushed_b, pushed_b && !pushed_a};
   return owner;
 }
 
-/* foot: of the middle on the face, from the centre of a; height: of the middle above it. In the last place, so that a pass over the
- * points leaves it as it shall be. The code is another then: what these points
- * carry says nothing of the next step. */
-SHARED manifold with_middle_ball(manifold m, mask wanted, vec3 foot, real height, real radius)
+/* The place of the point that is farthest from touching; one that is free before all. */
+SHARED uint farthest_place(manifold m)
 {
-  real farthest = R(-1e30);
-  natural last = 0u;
-  mask is_there = m.kept[0] & (!m.kept[0]);
+  uint last = 0u;
+  for (uint slot = 0u; slot < 4u; ++slot) {
+    if (!m.kept[slot]) return slot;
+    if (m.point[slot].w > m.point[last].w) last = slot;
+  }
+  return last;
+}
+
+SHARED mask has_point_below(manifold m, vec3 foot, real radius)
+{
   for (uint slot = 0u; slot < 4u; ++slot) {
     vec3 beside = outer(m.normal, subtract(xyz(m.point[slot]), foot));
-    is_there = is_there | (m.kept[slot] & (length_squared(beside) < radius * radius));
-    real separation = choose(m.kept[slot], m.point[slot].w, (real)FAR_APART);
-    mask farther = separation > farthest;
-    farthest = choose(farther, separation, farthest);
-    last = choose(farther, (natural)slot, last);
+    if (m.kept[slot] && length_squared(beside) < radius * radius) return 1;
   }
-  mask placed = wanted & has_points(m) & (!is_there) & (farthest - least_separation(m) > radius);
-  for (uint slot = 0u; slot < 3u; ++slot) {
-    mask here = placed & (last == (natural)slot);
-    m.point[slot] = choose4(here, m.point[3], m.point[slot]);
-    m.kept[slot] = (m.kept[slot] & (!here)) | (here & m.kept[3]);
-  }
-  m.point[3] = choose4(placed, extend(foot, height - radius), m.point[3]);
-  m.kept[3] = m.kept[3] | placed;
-  m.code = choose(placed, m.code ^ 0x800000u, m.code);
+  return 0;
+}
+
+/* middle: from the centre of a; outward: unit, from the face; height: of the middle above it. The ball's point comes in the last place,
+ * so that a pass over the points leaves it as it shall be. The code is another then: what these points carry says nothing of the next
+ * step. */
+SHARED manifold with_middle_ball(manifold m, vec3 middle, vec3 outward, real height, real radius)
+{
+  vec3 foot = add_scaled(middle, outward, -height);
+  uint place = farthest_place(m);
+  if (!(height > R(0.0)) || !has_points(m) || has_point_below(m, foot, radius)) return m;
+  if (m.kept[place] && !(m.point[place].w - least_separation(m) > radius)) return m;
+  m.point[place] = m.point[3];
+  m.kept[place] = m.kept[3];
+  m.point[3] = extend(foot, height - radius);
+  m.kept[3] = 1;
+  m.code = m.code ^ 0x800000u;
   return m;
 }
 

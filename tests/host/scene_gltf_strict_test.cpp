@@ -167,7 +167,8 @@ TEST_CASE("glTF: required extensions that cannot change the motion are passed ov
   }
   for (const char *name : {"KHR_interactivity", "AGI_articulations", "ACME_wind", "", "KHR_lights", "khr_lights_punctual", "MSFT_physics_bodies", "OMI_physics_joint"})
     check_refused({.nodes = cup(""), .more = requires_it(name)}, std::string("required extension ") + name + " is not supported yet");
-  for (const char *wrong : {"[5]", R"("KHR_lights_punctual")", "{}", "[null]"}) check_refused({.nodes = cup(""), .more = std::string(R"(,"extensionsRequired":)") + wrong}, "extensionsRequired");
+  for (const char *wrong : {"[5]", R"("KHR_lights_punctual")", "{}", "[null]", "null"})
+    for (const std::string list : {"extensionsRequired", "extensionsUsed"}) check_refused({.nodes = cup(""), .more = ",\"" + list + "\":" + wrong}, list);
 }
 
 TEST_CASE("glTF: packed and instanced meshes are refused where a collider reads them, and nowhere else")

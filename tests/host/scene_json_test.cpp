@@ -193,6 +193,7 @@ TEST_CASE("malformed JSON: file, line and column")
 {
   CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"), ContainsSubstring("pile.json:3:11: malformed JSON: "));
   CHECK_THAT(complaint(""), ContainsSubstring("pile.json:1:1: malformed JSON"));
+  CHECK_THAT(complaint("{\n  \"gravity\": [0, 1e400, 0]\n}"), ContainsSubstring("pile.json:2:22: malformed JSON: ") && ContainsSubstring("1e400"));
   CHECK_THAT(complaint("{\"tandem_scene\": 1"), ContainsSubstring("pile.json:1:19: malformed JSON"));
   CHECK_THAT(complaint("{\"a\": 1e999}"), ContainsSubstring("malformed JSON"));
   CHECK_THAT(complaint(with_body(R"("mass": NaN)")), ContainsSubstring("malformed JSON"));

@@ -46,6 +46,9 @@ TEST_CASE("command: names that do not exist", "[command]")
   check_refused("run " + tiny + " --midphase forest", "walk, subtrees");
   check_refused("run " + tiny + " --on gpu", "gpu");
   check_refused("run " + tiny + " --on tbb:lanes=3", "lanes");
+  check_refused("run " + tiny + " --on tbb:lanes=4,threads=2,lanes=8", "lanes is given twice");
+  check_refused("run " + tiny + " --image-size 64x64", "--image");
+  check_refused("run " + tiny + " --camera 1,1,1,0,0,0", "--image");
   check_refused("run " + tiny + " --on cl:nothing-of-this-name", "nothing-of-this-name");
   check_refused("run " + tiny + " --solver magic", "magic");
   check_refused("run " + tiny + " --broadphase magic", "magic");
