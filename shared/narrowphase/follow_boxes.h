@@ -48,7 +48,7 @@ SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
   box_frame face = frame_of(wall, most_parallel_axis(wall, outward));
   real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, from_wall) - face.extent;
   if (magnitude(inner(face.u, from_wall)) >= face.extent_u || magnitude(inner(face.v, from_wall)) >= face.extent_v) return m;
-  if (side * inner(face.axis, outward) <= NEARLY_ALONG) return m;
+  if (side * inner(face.axis, outward) < WITH_FACE) return m;
   return with_middle_ball(m, middle, outward, height, CORE_SHARE * least_of(box.extent));
 }
 

@@ -42,7 +42,7 @@ SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec
   vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : offset, outward = owner.in_a ? negate(m.normal) : m.normal;
   real radius = CORE_SHARE * least_size(body) - length_of(subtract(body->center, middle));
   support_face face = support_face_of(wall, outward);
-  if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < NEARLY_ALONG) return m;
+  if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < WITH_FACE) return m;
   real height = inner(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
   return with_middle_ball(m, middle, outward, height, radius);
 }

@@ -17,6 +17,9 @@
 /* Radius of the ball, of the shape's least size: within every shape that is not nearly flat. */
 #define CORE_SHARE R(0.25)
 
+/* Cosine of the angle up to which a contact counts as one with the face of a wall. */
+#define WITH_FACE R(0.99)
+
 /* Which of the two bodies has the ball: the one that can be pushed, if the other cannot. */
 typedef struct { mask in_a, in_b; } ball_owner;
 
