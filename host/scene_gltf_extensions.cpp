@@ -48,7 +48,7 @@ bool may_be_passed_over(const std::string &name)
 void check_required_extensions(const JsonValue &root)
 {
   const std::optional<JsonValue> required = root.find("extensionsRequired"), used = root.find("extensionsUsed");
-  for (size_t i = 0; used && i < used->array_size(); ++i) used->element(i).text();
+  for (size_t i = 0; used && i < used->array_size(); ++i) used->element(i).text(); /* which refuses all but names */
   for (size_t i = 0; required && i < required->array_size(); ++i)
     if (const std::string name = required->element(i).text(); !may_be_passed_over(name))
       required->element(i).fail(fmt::format("required extension {} is not supported yet, and might change the motion; "

@@ -69,8 +69,7 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
 
 /* The three edges of a against one edge of b; across: how far b reaches along their three products. Of the edges the
  * best one wins: only its closest points are sure to lie on both. */
-SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code,
-                                     real noise)
+SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code, real noise)
 {
   real along_x = edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise);
   real along_y = edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise);
@@ -93,6 +92,8 @@ SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least
 
 /* The slop and what a contact sags more than that, as a share of the slop. */
 #define ROUNDED_EDGE R(1.25)
+/* The separation of boxes of which only rounded edges meet. */
+#define FAR_APART R(1e30)
 
 /* gap: along the three face axes of one box; the middle one is the second largest. Where both show a gap the boxes are
  * apart in any case, and what comes ahead is for the other axes to say. lead: by how much gaps are compared. */

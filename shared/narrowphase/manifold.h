@@ -125,7 +125,7 @@ SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL con
                               GLOBAL const uint *features, item_index i)
 {
   vec4 normal = load_row(normals, i);
-  natural count = load_natural(counts_of_points, i) & 7u, feature = load_natural(features, i);
+  natural count = load_natural(counts_of_points, i) & (TO_FOLLOW - 1u), feature = load_natural(features, i);
   mask touching = count > 0u;
   manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
   m.impact_time = normal.w;

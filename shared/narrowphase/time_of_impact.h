@@ -155,9 +155,6 @@ SHARED advancement advanced(advancement at, uint round, real gap, real closing, 
   return next;
 }
 
-/* The separation of what does not meet at all, as boxes of which only rounded edges do. */
-#define FAR_APART R(1e30)
-
 SHARED mask has_points(manifold m) { return m.kept[0] | m.kept[1] | m.kept[2] | m.kept[3]; }
 
 SHARED real least_separation(manifold m)
@@ -180,8 +177,8 @@ SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
-/* Of the slop: bodies that come nearer to each other by less within a step are not followed. What passes at half of it is not
- * approached so far ahead that a contact would hold it. */
+/* Of the slop: bodies that come nearer to each other by less within a step are not followed, for bodies that rest on one another
+ * jitter by as much. What passes at less than half of that may be held by its contact, though it would miss. */
 #define STILL_SHARE R(0.4)
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of

@@ -14,16 +14,9 @@
 
 namespace tandem::shape_points {
 
+using physics_tests::direction;
 using physics_tests::pi;
 using physics_tests::Vector;
-
-inline Vector direction(Random &random)
-{
-  for (;;) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
 
 inline Shape any_shape(Random &random)
 {

@@ -9,14 +9,6 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-Vector direction(Random &random)
-{
-  for (;;) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
-
 std::vector<Shape> bullets(Random &random, float size)
 {
   return {sphere_shape(size),

@@ -12,14 +12,6 @@ namespace {
 
 constexpr double step = 1.0 / 60, half = 0.25, apart = 40; /* s, m, m between the lanes */
 
-Vector direction(Random &random)
-{
-  for (;;) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
-
 /* Cubes start where the balls around them and around a fixed cube are apart; their middles come into it within one step. */
 Scene hits(const Shape &flying, const Shape &standing, int lanes)
 {
@@ -27,7 +19,7 @@ Scene hits(const Shape &flying, const Shape &standing, int lanes)
   Scene scene = empty_scene({0, 0, 0});
   for (int lane = 0; lane < lanes; ++lane) {
     const double z = apart * lane, speed = random.uniform(100, 300);
-    const Quat turn = turn_about(direction(random), random.uniform(0, 2 * pi));
+    const Quat turn = any_turn(random);
     Body &wall = add_body(scene, Motion::fixed, standing, {0, 0, z});
     wall.orientation = turn;
     Vector inside(random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half));
@@ -37,7 +29,7 @@ Scene hits(const Shape &flying, const Shape &standing, int lanes)
     const double touching_balls = 2 * std::sqrt(3.0) * half;
     while ((inside - time * velocity).norm() <= touching_balls) time = random.uniform(0, step);
     const Vector start = inside - time * velocity;
-    Body &body = add_solid(scene, flying, {start.x(), start.y(), start.z() + z}, turn_about(direction(random), random.uniform(0, 2 * pi)));
+    Body &body = add_solid(scene, flying, {start.x(), start.y(), start.z() + z}, any_turn(random));
     body.linear_velocity = vec3_of(velocity);
   }
   return scene;
@@ -63,16 +55,16 @@ Scene thrown_at_sheets(const Shape &sheet, int lanes)
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 0;
   for (int lane = 0; lane < lanes; ++lane) {
-    const double z = apart * lane, size = 0.15 * std::exp(random.uniform(std::log(0.15), std::log(2))), speed = std::exp(random.uniform(0, std::log(300)));
+    const double z = apart * lane, size = 0.15 * logarithmic(random, 0.15, 2), speed = logarithmic(random, 1, 300);
     add_body(scene, Motion::fixed, sheet, {0, -0.005, z});
     const float thin = float(size * (lane % 3 == 1 ? 0.05 : 0.5)), wide = float(lane % 3 == 2 ? 0.05 * size : size);
     const Shape shape = box_shape(float(size), thin, wide);
     const Vector way = Vector(random.uniform(-1, 1), -1, random.uniform(-1, 1)).normalized();
     const double before = 2 * size + speed * step * random.uniform(0, 4);
     const Vector start = Vector(random.uniform(-2, 2), 0, random.uniform(-2, 2)) - before * way;
-    Body &body = add_solid(scene, shape, {start.x(), std::max(start.y(), 1.8 * size), start.z() + z}, turn_about(direction(random), random.uniform(0, 2 * pi)));
+    Body &body = add_solid(scene, shape, {start.x(), std::max(start.y(), 1.8 * size), start.z() + z}, any_turn(random));
     body.linear_velocity = vec3_of(speed * way);
-    if (lane % 4) body.angular_velocity = vec3_of(direction(random) * std::exp(random.uniform(0, std::log(30))));
+    if (lane % 4) body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 1, 30));
   }
   return scene;
 }

@@ -28,15 +28,6 @@ double support(const Shape &shape, const Matrix &axes, const Vector &direction)
   return farthest;
 }
 
-Vector direction(Random &random)
-{
-  for (;;) {
-    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
-  }
-}
-Quat any_turn(Random &random) { return turn_about(direction(random), random.uniform(0, 2 * pi)); }
-
 Shape roof(float half_length, float half_width, float height)
 {
   const float x = half_width, z = half_length, y = height;
@@ -152,11 +143,6 @@ double largest_change(const Scene &scene, const Settings &settings, double speed
     largest = std::max(largest, std::abs(energy(after[i]) / energy(before[i]) - 1));
   }
   return largest;
-}
-
-double logarithmic(Random &random, double low, double high)
-{
-  return std::exp(random.uniform(std::log(low), std::log(high)));
 }
 
 /* Bodies without spin fall straight down beside boxes, hulls and meshes of boxes. */

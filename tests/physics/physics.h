@@ -40,6 +40,22 @@ inline Quat turn_about(const Vector &axis, double angle)
   return {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
 }
 
+/* Unit, all alike. */
+inline Vector direction(Random &random)
+{
+  for (;;) {
+    const Vector v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (v.norm() > 0.1 && v.norm() < 1) return v.normalized();
+  }
+}
+inline Quat any_turn(Random &random) { return turn_about(direction(random), random.uniform(0, 2 * pi)); }
+
+/* Between low and high, each doubling alike. */
+inline double logarithmic(Random &random, double low, double high)
+{
+  return std::exp(random.uniform(std::log(low), std::log(high)));
+}
+
 inline Scene empty_scene(const Vec3 &gravity = {0, -10, 0})
 {
   Scene scene;
