@@ -255,7 +255,7 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
 
   /* Loaded once more, so that a device need not keep them in registers all the while. */
   pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
-  mask ahead = speculation_of(parameters, m, pair.moves, pair.way, pair.least).asked |
+  mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.way, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);
   mark_to_follow_if(mine & ahead, m, counts_of_points, i);
 }

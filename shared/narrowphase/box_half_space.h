@@ -104,7 +104,7 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
   journey way = journey_of_step(parameters, moves, least, shape.w);
-  speculation s = speculation_of(parameters, m, moves, way, least);
+  speculation s = speculation_of(parameters, m, choose3(box_first, negate(pair.center), pair.center), moves, way, least);
   s.asked = s.asked & (fastest_turning(moves) > zero);
   if (any_of(mine & s.asked)) {
     encounter met = encounter_of(parameters, s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);

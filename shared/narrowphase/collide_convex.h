@@ -125,7 +125,7 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
 /* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  if (has_points(m)) return speculation_of(parameters, m, query->moves, journey_of_query(parameters, query), least_of_query(query)).asked;
+  if (has_points(m)) return speculation_of(parameters, m, query->offset, query->moves, journey_of_query(parameters, query), least_of_query(query)).asked;
   return m.impact_time >= BESIDE && may_meet_triangle(parameters, query);
 }
 
@@ -180,7 +180,7 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
   journey way = journey_of_step(parameters, moves, least, bounding_radius_of(&shape));
-  speculation s = speculation_of(parameters, m, moves, way, least);
+  speculation s = speculation_of(parameters, m, to_plane, moves, way, least);
   if (s.asked && fastest_turning(moves) > R(0.0)) {
     encounter met = meet_plane(parameters, &shape, up, &height, moves.a, radius, moves.b, way, s);
     if (met.at_impact) m = convex_on_half_space(&shape, up, height, reach);

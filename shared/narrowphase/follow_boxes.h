@@ -55,7 +55,7 @@ SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
 /* Boxes without a contact at the start are followed only because they may meet from beside. */
 SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, manifold start, const moving_boxes *pair)
 {
-  speculation s = speculation_of(parameters, start, pair->moves, pair->way, pair->least);
+  speculation s = speculation_of(parameters, start, pair->boxes.offset, pair->moves, pair->way, pair->least);
   mask from_beside = !has_points(start);
   s.asked = s.asked || from_beside;
   s.reached = s.reached || from_beside;

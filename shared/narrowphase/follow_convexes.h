@@ -14,7 +14,7 @@
 /* Shapes without a contact at the start are followed only because one of them is a triangle. */
 SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, const convex_query *query, manifold start, journey way)
 {
-  speculation s = speculation_of(parameters, start, query->moves, way, least_of_query(query));
+  speculation s = speculation_of(parameters, start, query->offset, query->moves, way, least_of_query(query));
   if (!has_points(start)) s.asked = s.reached = 1;
   return s;
 }

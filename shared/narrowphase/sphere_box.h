@@ -111,7 +111,7 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius + shape.w);
-  speculation s = speculation_of(parameters, m, moves, way, least);
+  speculation s = speculation_of(parameters, m, choose3(sphere_first, negate(pair.center), pair.center), moves, way, least);
   if (any_of(mine & s.asked)) {
     encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));

@@ -52,7 +52,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
-  speculation s = speculation_of(parameters, m, moves, way, least);
+  speculation s = speculation_of(parameters, m, between, moves, way, least);
   if (any_of(mine & s.asked)) {
     encounter met = encounter_of(parameters, s, impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way), way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
