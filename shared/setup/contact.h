@@ -128,8 +128,8 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
 SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
 
-/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact. In the substep of the
- * impact the others would be off by that much. */
+/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact, or of the start where they
+ * touch. In the substep of the impact the others would be off by that much, and then lie far outside of the bodies. */
 #define FOLLOWED_SHARE R(1.0)
 
 /* What two bodies have slid past each other moves their arms. Arms must end in one point of the world, or an impulse through them
@@ -208,7 +208,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
    * arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, manifold.w);
   real size = size_between(body_shape, bodies.a, bodies.b);
-  mask arms_stay = (manifold.w > R(0.0)) & (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
+  mask arms_stay = length_of(passing) * parameters->substep > FOLLOWED_SHARE * size;
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));

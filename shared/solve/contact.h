@@ -21,7 +21,7 @@ typedef struct {
   symmetric3 inertia_a, inertia_b;
   vec3 normal;
   real friction;
-  real follows; /* 1: arms follow what the bodies slide past each other; 0: they are those of an impact */
+  real follows; /* 1: arms follow what the bodies slide past each other; 0: they stay as they are, of bodies that pass each other fast */
 } contact;
 
 SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
@@ -169,8 +169,34 @@ SHARED void add_push_if(mask wanted, GLOBAL row *solver_push, contact c, wrench 
 
 typedef struct { contact c; vec4 impulse; } solved;
 
-/* Twist about the normal and the cone of sliding friction at the centre of the manifold. */
-SHARED solved solve_friction(contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
+/* Bodies that have turned by less, in radians, or slid by a smaller share of their arms, are as heavy to each other as when the step
+ * began. Of a thin rod that is much: its axis has left the arm of its end by a part of its thickness. */
+#define SAME_PLACE R(0.02)
+/* So much more mobility than that of the stored mass does not make an iteration diverge. */
+#define SAME_MOBILITY R(1.05)
+
+SHARED mask masses_are_stale(drift moved, arm_shift shift, vec4 center_a, vec4 center_b)
+{
+  real turned = length_squared(moved.rotation_a) + length_squared(moved.rotation_b), limit = SAME_PLACE * SAME_PLACE;
+  real slid = length_squared(shift.a) + length_squared(shift.b);
+  return (turned > limit) | (slid > limit * (length_squared(xyz(center_a)) + length_squared(xyz(center_b))));
+}
+
+/* What has turned, or whose arms have followed it, would be turned faster by an impulse for the stored mass than it slides, each time
+ * more: it gets the mass of its slide now. slide: along the tangents. */
+SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, vec3 arm_a, vec3 arm_b)
+{
+  if (!any_of(stale)) return stored;
+  vec3 turn_a = outer(arm_a, slide), turn_b = outer(arm_b, slide);
+  real squared = length_squared(slide);
+  real mobility = (c.motion_a.inverse_mass + c.motion_b.inverse_mass) * squared + inner(turn_a, symmetric_times(c.inertia_a, turn_a)) +
+                  inner(turn_b, symmetric_times(c.inertia_b, turn_b));
+  mask diverges = stale & (stored * mobility > SAME_MOBILITY * squared);
+  return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
+}
+
+/* Twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the masses are. */
+SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
 {
   real limit = c.friction * pressure;
   real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular));
@@ -181,7 +207,10 @@ SHARED solved solve_friction(contact c, arm_shift shift, vec4 center_a, vec4 cen
   tangents t = tangents_of(c.normal);
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   vec3 slide = subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a));
-  real first = impulse.x - center_a.w * inner(slide, t.first), second = impulse.y - center_a.w * inner(slide, t.second);
+  real slide_first = inner(slide, t.first), slide_second = inner(slide, t.second);
+  vec3 along = add(scale(t.first, slide_first), scale(t.second, slide_second));
+  real mass = friction_mass_now(c, stale, center_a.w, along, arm_a, arm_b);
+  real first = impulse.x - mass * slide_first, second = impulse.y - mass * slide_second;
   real squared = first * first + second * second;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
@@ -264,7 +293,7 @@ SHARED contact press_once(GLOBAL const Parameters *parameters, contact c, suppor
 
 /* The points of an impact are coupled, and one pass would leave a fast body on its way: further ones bring all of them to
  * rest. */
-#define IMPACT_ROUNDS 7u
+#define IMPACT_ROUNDS 15u
 
 /* Impulses that change the rows of a manifold, at once, so that momentum is rounded once. */
 SHARED contact apply_changes(contact c, const support *s, vec4 changes)
@@ -337,7 +366,8 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    solved sliding = solve_friction(c, shift, center_a, center_b, friction, pressure);
+    mask stale = masses_are_stale(moved, shift, center_a, center_b);
+    solved sliding = solve_friction(c, stale, shift, center_a, center_b, friction, pressure);
     c = with_motion_if(rough, c, sliding.c);
     friction = choose4(rough, sliding.impulse, friction);
     store_row(constraint_friction_impulse, i, friction);

@@ -179,15 +179,16 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
+    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
     vec4 old = load_row(constraint_friction_impulse, i);
-    solved sliding = solve_friction(c, shift, extend(center_a, other.x), extend(center_b, other.y), old, pressure);
+    mask stale = masses_are_stale(moved, shift, center_a, center_b);
+    solved sliding = solve_friction(c, stale, shift, extend(xyz(center_a), other.x), extend(xyz(center_b), other.y), old, pressure);
     c = with_motion_if(rough, c, sliding.c);
     vec4 next = sliding.impulse;
     if (momentum != 0u) next = extrapolated(next, load_row(split_rubbed, i), share);
     store_row_if(rough, split_rubbed, i, sliding.impulse);
     store_row_if(rough, constraint_friction_impulse, i, next);
-    rubbed = friction_wrench(c.normal, add(center_a, shift.a), add(center_b, shift.b), next.x - old.x, next.y - old.y, next.z - old.z);
+    rubbed = friction_wrench(c.normal, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), next.x - old.x, next.y - old.y, next.z - old.z);
   }
 
   softness soft = softness_of(parameters, c);

@@ -79,7 +79,8 @@ SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   if (!any_of(rough)) return;
   vec4 pushes = load_row(constraint_normal_impulse, i);
   real pressure = (pushes.x + pushes.y) + (pushes.z + pushes.w);
-  solved sliding = solve_friction(c, load_arm_shift(solver_delta, c), load_row(constraint_center, i),
+  mask stale = rough & (!rough); /* pgs_masses has just made them */
+  solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta, c), load_row(constraint_center, i),
                                   load_row(constraint_center, counts[CAPACITY_PAIRS] + i), load_row(constraint_friction_impulse, i), pressure);
   store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
   store_contact_motion(solver_velocity, with_motion_if(rough, c, sliding.c));
