@@ -50,7 +50,7 @@ __kernel void follow_boxes(__global const uint *pair_a, __global const uint *pai
     __global const Parameters *parameters, __global const uint *counts, __global row *manifold_normal,
     __global row *manifold_points, __global uint *manifold_count, __global uint *manifold_feature, RANGE)
 {
-  __local uint local_memory[TILE + 1u];
+  __local uint local_memory[FOLLOW_PAIRS + 1u];
   follow_boxes_group(pair_a, pair_b, body_traits, body_shape, body_position, body_orientation, body_velocity, parameters, counts,
                      manifold_normal, manifold_points, manifold_count, manifold_feature, local_memory, GROUP_NUMBER);
   END_GROUP;

@@ -31,4 +31,10 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
           {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
 }
 
+bool is_told_by_scene(uint32_t entry)
+{
+  const std::vector<std::pair<int, uint32_t>> entries = entries_of({});
+  return std::any_of(entries.begin(), entries.end(), [entry](const auto &one) { return uint32_t(one.first) == entry; });
+}
+
 } // namespace tandem

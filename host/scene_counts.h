@@ -15,5 +15,7 @@ struct SceneCounts {
 
 /* Entries of shared/counts.h with their values. */
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
+/* Whether an entry is one of those. */
+bool is_told_by_scene(uint32_t entry);
 
 } // namespace tandem

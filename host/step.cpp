@@ -51,11 +51,11 @@ private:
   {
     const bool by_subtree = settings().midphase == "subtrees";
     if (by_subtree) run(Kernel::group_body_pairs);
-    if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree);
+    if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree, GROUP_PAIRS);
     else run(Kernel::count_leaf_pairs);
     exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS, plan().capacity_pairs);
     run(Kernel::count_all_leaf_pairs);
-    if (by_subtree) run_pair_groups(Kernel::write_leaf_pairs_by_subtree);
+    if (by_subtree) run_pair_groups(Kernel::write_leaf_pairs_by_subtree, GROUP_PAIRS);
     else run(Kernel::write_leaf_pairs);
     run(Kernel::start_leaf_pairs);
     run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_a, Buffer::pair_a});
@@ -63,9 +63,9 @@ private:
   }
 
   /* Groups for as many pairs as there is room for: a device launches no more than it is told. */
-  void run_pair_groups(Kernel kernel)
+  void run_pair_groups(Kernel kernel, uint32_t pairs_of_group)
   {
-    launcher().launch({kernel, {}, {}, COUNT_ZERO, COUNT_PAIR_GROUP_ITEMS, pair_group_items(plan().capacity_pairs)});
+    run_at_most(kernel, pair_group_items(plan().capacity_pairs, pairs_of_group));
   }
 
   void merge_contacts()
@@ -82,7 +82,7 @@ private:
     if (has(FEATURE_SPHERE_SPHERE)) run(Kernel::collide_sphere_sphere);
     if (has(FEATURE_SPHERE_BOX)) run(Kernel::collide_sphere_box);
     if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
-    if (has(FEATURE_BOX_BOX)) run(Kernel::follow_boxes);
+    if (has(FEATURE_BOX_BOX)) run_pair_groups(Kernel::follow_boxes, FOLLOW_PAIRS);
     if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
     if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
     if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));

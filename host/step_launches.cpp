@@ -1,14 +1,21 @@
 /* step_launches.cpp - see step_launches.h. */
 #include "host/step_launches.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "host/primitives.h"
+#include "host/scene_counts.h"
 #include "shared/broadphase/sweep_limits.h"
 
 namespace tandem {
 
 void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
 {
-  run_range(kernel, COUNT_ZERO, row_of(kernel).items, values, slots);
+  const KernelRow &row = row_of(kernel);
+  if (row.form == Form::group && !is_told_by_scene(row.items))
+    throw std::logic_error(std::string(row.name) + " is launched for as many groups as the last step had");
+  run_range(kernel, COUNT_ZERO, row.items, values, slots);
 }
 
 void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)

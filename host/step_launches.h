@@ -18,7 +18,7 @@ public:
   Launcher &launcher() { return launcher_; }
   bool has(uint32_t feature) const { return (plan_.features & feature) != 0; }
 
-  /* A kernel over the items of its row. */
+  /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
   void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
   /* A kernel over [counts[first], counts[last]). */
   void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});

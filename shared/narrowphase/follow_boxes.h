@@ -12,6 +12,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 
+#include "shared/midphase/pair_groups.h"
 #include "shared/narrowphase/box_box.h"
 #include "shared/narrowphase/middle_ball.h"
 
@@ -107,8 +108,8 @@ SHARED void follow_boxes_group(GLOBAL const uint *pair_a, GLOBAL const uint *pai
                                GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
                                GLOBAL uint *counts_of_points, GLOBAL uint *features, LOCAL uint *local_memory, uint group)
 {
-  const uint first = group * TILE, pairs = counts[COUNT_PAIRS];
-  const uint count = first < pairs ? (pairs - first < TILE ? pairs - first : TILE) : 0u;
+  const uint first = group * FOLLOW_PAIRS, pairs = counts[COUNT_PAIRS];
+  const uint count = first < pairs ? (pairs - first < FOLLOW_PAIRS ? pairs - first : FOLLOW_PAIRS) : 0u;
   FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
   FOR_EACH_ITEM(k, count)
   {

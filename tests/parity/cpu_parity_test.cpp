@@ -28,8 +28,9 @@ TEST_CASE("parity on CPU: trees by subtrees")
 
 TEST_CASE("parity on CPU: rolling") { require_parity(small_scenes()[8], cpu_backends(), 30); }
 
-TEST_CASE("parity on CPU: thin-wall") { require_parity(small_scenes()[10], cpu_backends(), 12); }
-TEST_CASE("parity on CPU: bullet-stack") { require_parity(small_scenes()[11], cpu_backends(), 12); }
+TEST_CASE("parity on CPU: thin-wall") { require_parity("thin-wall:n=40", cpu_backends(), 12); }
+TEST_CASE("parity on CPU: bullet-stack") { require_parity("bullet-stack:rows=2,height=3", cpu_backends(), 12); }
+TEST_CASE("parity on CPU: pairs that grow in number") { require_parity(imploding_boxes(), cpu_backends(), 5); }
 
 TEST_CASE("parity on CPU: every narrowphase of every shape")
 {

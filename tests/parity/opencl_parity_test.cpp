@@ -26,6 +26,13 @@ TEST_CASE("parity on OpenCL: every scene")
   for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
 }
 
+/* A device is told how many groups to run before it is known how many pairs the step has. */
+TEST_CASE("parity on OpenCL: pairs that grow in number")
+{
+  require_pocl();
+  require_parity(imploding_boxes(), {"serial", "cl:pocl"}, 5, all_features());
+}
+
 TEST_CASE("parity on OpenCL: every broadphase")
 {
   require_pocl();

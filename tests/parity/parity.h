@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/compare.h"
+#include "host/random.h"
 #include "host/scene_catalog.h"
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
@@ -31,6 +32,26 @@ inline const std::vector<std::string> &small_scenes()
       "thin-wall:n=40",               "bullet-stack:rows=2,height=3",
   };
   return scenes;
+}
+
+/* Boxes that turn and fly towards one middle: a step has hundreds of pairs more than the one before, and most are followed. */
+inline Scene imploding_boxes()
+{
+  constexpr int side = 9;
+  Random random(5);
+  Scene scene;
+  scene.name = "imploding boxes";
+  scene.shapes.push_back(box_shape(0.5f, 0.5f, 0.5f));
+  for (int i = 0; i < side * side * side; ++i) {
+    const Point at = {2.0 * (i % side) - side + 1, 2.0 * (i / side % side) - side + 1, 2.0 * (i / (side * side)) - side + 1};
+    Body body;
+    body.motion = Motion::dynamic;
+    body.position = at;
+    body.linear_velocity = {float(-9 * at[0]), float(-9 * at[1]), float(-9 * at[2])};
+    for (float &spin : body.angular_velocity) spin = float(random.uniform(-9, 9));
+    scene.bodies.push_back(body);
+  }
+  return scene;
 }
 
 /* What this processor can run: an order of items each, then widths and threads. */
