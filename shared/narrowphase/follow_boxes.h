@@ -63,6 +63,15 @@ SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, man
   return s;
 }
 
+/* A pair that does not come far and overlaps at the end of its way has met on it, and keeps its contacts (encounter_of): so does nearly
+ * all that comes to rest. */
+SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes *pair, manifold start)
+{
+  if (pair->way.far || !has_points(start)) return 0;
+  box_pair end = boxes_after(pair->boxes, pair->moves, pair->way.horizon);
+  return along_best_axis(end, end.offset, parameters->slop, R(0.0), NEVER_ALONG).gap <= pair->way.touching;
+}
+
 /* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little later, when more
  * overlaps. met.time becomes that of the manifold, then the boxes of that moment. */
 SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const moving_boxes *pair, encounter *met, box_pair *then)
@@ -87,6 +96,10 @@ SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *p
   uint stride = counts[CAPACITY_PAIRS];
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, pair_a[i], pair_b[i]);
   manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
+  if (keeps_start(parameters, &pair, start)) {
+    counts_of_points[i] = points_of(start);
+    return;
+  }
   speculation s = speculation_of_boxes(parameters, start, &pair);
   encounter met = encounter_of(parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then;
