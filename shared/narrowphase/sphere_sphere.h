@@ -1,6 +1,7 @@
 /* sphere_sphere.h - two spheres touch in one point on the line of their centres.
  *
- * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii.
+ * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii, and pass each other where the
+ * velocity is square to the offset.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
@@ -29,9 +30,21 @@ SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pai
   real half_chord = square_root(maximum((radii - passing) * (radii + passing), R(0.0)) * inverse);
   advancement at = start_advancement(reached);
   at.active = reached & (!reached);
-  at.time = maximum(nearest - half_chord, R(0.0));
-  at.hits = moving & (nearest > R(0.0)) & (passing <= radii) & (at.time < way.horizon);
+  real impact = maximum(nearest - half_chord, R(0.0));
+  at.hits = moving & (nearest > R(0.0)) & (passing <= radii) & (impact < way.horizon);
+  at.time = choose(at.hits, impact, clamped(nearest, R(0.0), way.horizon));
   return at;
+}
+
+/* Spheres that miss keep a contact where they pass each other: its plane lies along their motion, which so never meets it, and what
+ * others push into it is held. */
+SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, advancement at, journey way)
+{
+  encounter met = encounter_of(parameters, s, at, way);
+  met.time = choose(met.missed, at.time, met.time);
+  met.at_impact = met.at_impact | met.missed;
+  met.missed = met.missed & (!met.missed);
+  return met;
 }
 
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -54,7 +67,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
   speculation s = speculation_of(parameters, m, between, moves, way, least);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(parameters, s, impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way), way);
+    encounter met = encounter_of_spheres(parameters, s, impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way), way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
     m = choose_manifold(met.at_impact, spheres_contact(offset, radius_a, radius_b, aside), m);
     m = as_seen_from_start(parameters, m, met, offset, moves);
