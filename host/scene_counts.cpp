@@ -33,7 +33,7 @@ std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
 
 bool is_told_by_scene(uint32_t entry)
 {
-  const std::vector<std::pair<int, uint32_t>> entries = entries_of({});
+  static const std::vector<std::pair<int, uint32_t>> entries = entries_of({});
   return std::any_of(entries.begin(), entries.end(), [entry](const auto &one) { return uint32_t(one.first) == entry; });
 }
 

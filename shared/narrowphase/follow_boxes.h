@@ -7,7 +7,7 @@
  *            [0]       [1]             [2]               the items of a group take them one after another
  *
  * A kernel of its own: it takes twice the registers of collide_box_box, for which all pairs would pay. Few pairs are marked, so a group
- * gathers those of a tile: were each item to look at its own pair, a device would spend more on starting items than on pairs.
+ * gathers those of FOLLOW_PAIRS: were each item to look at its own pair, a device would spend more on starting items than on pairs.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H

@@ -177,48 +177,47 @@ SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
-/* How fast a point of a manifold comes nearer, m/s. arm: from the centre of a; offset: centre of b from that of a. */
-SHARED real closing_of_point(vec3 normal, vec3 arm, vec3 offset, pair_motion m)
-{
-  return maximum(inner(normal, subtract(velocity_at(m.a, arm), velocity_at(m.b, subtract(arm, offset)))), R(0.0));
-}
+/* How fast the points of a manifold come nearer, m/s, and which of them the motion of the pair itself would run into within the step. */
+typedef struct {
+  real closing[4];
+  mask reached[4];
+} approaching_points;
 
-/* Points that the motion of the pair itself would run into within the step. */
-typedef struct { mask point[4]; } reached_points;
-
-SHARED reached_points points_reached(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
+/* offset: centre of b from that of a, as the points are. */
+SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
   real by_slide = closing_by_slide(parameters, moves);
-  reached_points reached;
+  approaching_points points;
   for (int slot = 0; slot < 4; ++slot) {
-    real closing = closing_of_point(m.normal, xyz(m.point[slot]), offset, moves);
-    reached.point[slot] = m.kept[slot] & ((closing + by_slide) * parameters->step >= m.point[slot].w);
+    vec3 arm = xyz(m.point[slot]);
+    points.closing[slot] = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
+    points.reached[slot] = m.kept[slot] & ((points.closing[slot] + by_slide) * parameters->step >= m.point[slot].w);
   }
-  return reached;
+  return points;
 }
 SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
-  reached_points reached = points_reached(parameters, m, offset, moves);
-  return reached.point[0] | reached.point[1] | reached.point[2] | reached.point[3];
+  approaching_points points = approach_of_points(parameters, m, offset, moves);
+  return points.reached[0] | points.reached[1] | points.reached[2] | points.reached[3];
 }
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of
  * the step reaches, which are followed, and those of a body that swings far. */
 typedef struct { mask asked, reached, a_swings, b_swings; } speculation;
 
-/* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far and reaches none of
- * its points would keep them all, so it is not asked. */
+/* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far, and so does not swing
+ * far, and reaches none of its points would keep them all, so it is not asked. */
 SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves, journey way, real least)
 {
   real gap = least_separation(m);
   speculation s;
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
-  mask ahead = has_points(m) & (gap > way.touching), surely = way.far | s.a_swings | s.b_swings;
+  mask ahead = has_points(m) & (gap > way.touching);
   s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves)) * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
-  if (any_of(s.asked & (!surely))) {
-    s.asked = s.asked & (surely | reaches_any_point(parameters, m, offset, moves));
+  if (any_of(s.asked & (!way.far))) {
+    s.asked = s.asked & (way.far | reaches_any_point(parameters, m, offset, moves));
     s.reached = s.reached & s.asked;
   }
   return s;
@@ -263,12 +262,11 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
 {
   manifold m = choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
-  reached_points reached = points_reached(parameters, m, offset, moves);
+  approaching_points points = approach_of_points(parameters, m, offset, moves);
   mask swings = met.a_swings | met.b_swings;
   for (int slot = 0; slot < 4; ++slot) {
-    real closing = closing_of_point(m.normal, xyz(m.point[slot]), offset, moves);
-    m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | reached.point[slot])));
-    m.point[slot].w = choose(met.at_impact, m.point[slot].w + closing * met.time, m.point[slot].w);
+    m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
+    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, m.point[slot].w);
   }
   m.impact_time = choose(met.at_impact, met.time, (real)R(0.0));
   return m;

@@ -182,15 +182,19 @@ SHARED mask masses_are_stale(drift moved, arm_shift shift, vec4 center_a, vec4 c
   return (turned > limit) | (slid > limit * (length_squared(xyz(center_a)) + length_squared(xyz(center_b))));
 }
 
+/* The bodies of a contact as setup has them, but for the offset, which serves no mass. */
+SHARED body_pair bodies_of(contact c)
+{
+  body_pair bodies = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, c.normal};
+  return bodies;
+}
+
 /* What has turned, or whose arms have followed it, would be turned faster by an impulse for the stored mass than it slides, each time
  * more: it gets the mass of its slide now. slide: along the tangents. */
 SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, vec3 arm_a, vec3 arm_b)
 {
   if (!any_of(stale)) return stored;
-  vec3 turn_a = outer(arm_a, slide), turn_b = outer(arm_b, slide);
-  real squared = length_squared(slide);
-  real mobility = (c.motion_a.inverse_mass + c.motion_b.inverse_mass) * squared + inner(turn_a, symmetric_times(c.inertia_a, turn_a)) +
-                  inner(turn_b, symmetric_times(c.inertia_b, turn_b));
+  real squared = length_squared(slide), mobility = response(bodies_of(c), arm_a, arm_b, slide, slide);
   mask diverges = stale & (stored * mobility > SAME_MOBILITY * squared);
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }

@@ -94,7 +94,7 @@ SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  body_pair bodies = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, c.normal}; /* its offset serves no mass */
+  body_pair bodies = bodies_of(c);
   arm_shift shift = load_arm_shift(solver_delta, c);
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);

@@ -64,13 +64,6 @@ Scene fast_crowd(uint64_t seed)
   return scene;
 }
 
-double fastest(World &world)
-{
-  double speed = 0;
-  for (const BodyState &state : world.bodies()) speed = std::max(speed, vector_of(state.linear_velocity).norm());
-  return speed;
-}
-
 double deepest(World &world) { return world.statistics().max_penetration; }
 
 } // namespace

@@ -122,6 +122,14 @@ struct Momentum {
   double linear_scale = 0, angular_scale = 0;
 };
 
+/* m/s */
+inline double fastest(World &world)
+{
+  double speed = 0;
+  for (const BodyState &state : world.bodies()) speed = std::max(speed, vector_of(state.linear_velocity).norm());
+  return speed;
+}
+
 inline Momentum momentum_of(World &world)
 {
   Momentum sum;

@@ -37,13 +37,6 @@ Scene inclines(const std::vector<double> &coefficients, double beside_the_cone)
   return scene;
 }
 
-double fastest(World &world)
-{
-  double speed = 0;
-  for (const BodyState &state : world.bodies()) speed = std::max(speed, vector_of(state.linear_velocity).norm());
-  return speed;
-}
-
 } // namespace
 
 TEST_CASE("jacobi: a stack of ten stands still", "[physics]")
