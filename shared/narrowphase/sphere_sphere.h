@@ -47,6 +47,19 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
   return met;
 }
 
+/* How much nearer a contact takes passing spheres to come than they do, m. Turning moves nothing of a sphere, but does move the arms of its
+ * contact, which follow what the bodies slide past each other, of two that can be pushed each by half: on average that is half of what
+ * they slide within the step. Gravity bends the way by a quarter of its mean speed, and set-up places the arms without it. */
+SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
+{
+  real zero = R(0.0), half = R(0.5), speed = length_of(subtract(moves.b.linear, moves.a.linear));
+  mask a_stays = moves.a.inverse_mass == zero, b_stays = moves.b.inverse_mass == zero;
+  real share_a = choose(a_stays, (real)R(1.0), choose(b_stays, zero, half)), share_b = choose(b_stays, (real)R(1.0), choose(a_stays, zero, half));
+  real turning = share_a * length_of(moves.a.angular) + share_b * length_of(moves.b.angular);
+  real unplaced = (length_of(moves.a.angular) + length_of(moves.b.angular)) * time;
+  return (half * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) * parameters->step;
+}
+
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
                                        GLOBAL const row *shapes, GLOBAL const row *positions,
                                        GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
@@ -67,9 +80,12 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
   speculation s = speculation_of(parameters, m, between, moves, way, least);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of_spheres(parameters, s, impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way), way);
+    advancement at = impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way);
+    encounter met = encounter_of_spheres(parameters, s, at, way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
-    m = choose_manifold(met.at_impact, spheres_contact(offset, radius_a, radius_b, aside), m);
+    manifold there = spheres_contact(offset, radius_a, radius_b, aside);
+    there.point[0].w = there.point[0].w + choose(at.hits, (real)R(0.0), margin_of_passing(parameters, moves, met.time));
+    m = choose_manifold(met.at_impact, there, m);
     m = as_seen_from_start(parameters, m, met, offset, moves);
   }
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);

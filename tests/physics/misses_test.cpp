@@ -144,6 +144,24 @@ Scene glides(uint64_t seed, int lanes)
   return scene;
 }
 
+/* Balls that fly straight past balls which turn in place: the surface moves along itself, and nothing meets it. */
+Scene past_turning_balls(uint64_t seed, double step, const Vec3 &gravity = {0, 0, 0})
+{
+  Random random(seed);
+  Scene scene = bouncy_scene(gravity, 0.3f);
+  for (int lane = 0; lane < 200; ++lane) {
+    const double z = 3 * apart * lane, standing = logarithmic(random, 0.05, 2), flying = logarithmic(random, 0.05, 2);
+    const double speed = logarithmic(random, 1, 300), clearance = logarithmic(random, 0.001, 0.02);
+    Body &ball = add_body(scene, Motion::kinematic, sphere_shape(float(standing)), {0, 0, z});
+    ball.angular_velocity = {0, 30, 9};
+    const double before = standing + flying + random.uniform(0, 1) + speed * step * random.uniform(0, 3);
+    Body &body = add_solid(scene, sphere_shape(float(flying)), {standing + flying + clearance, before, z});
+    body.linear_velocity = {0, float(-speed), 0};
+    if (lane % 2) body.angular_velocity = vec3_of(50 * direction(random));
+  }
+  return scene;
+}
+
 /* The largest share of its speed by which a moving body has changed its velocity. */
 double largest_deviation(const Scene &scene, const Settings &settings, double seconds)
 {
@@ -298,6 +316,18 @@ TEST_CASE("what misses goes on: slow cubes, face to face with what they pass", "
   for (double step : {1.0 / 60, 1.0 / 240}) {
     CAPTURE(step);
     CHECK(largest_deviation(glides(3, 300), settings_with(step), 0.25) < 1e-3);
+  }
+}
+
+TEST_CASE("what misses goes on: balls past balls that turn in place, in every solver", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    Settings settings = settings_for(solver);
+    settings.step = float(step);
+    CAPTURE(solver, step);
+    CHECK(largest_deviation(past_turning_balls(7, step), settings, 6.5 * step) < 1e-3);
+    CHECK(farthest_from_free_fall(past_turning_balls(7, step, {0, -10, 0}), settings, step, 6) < 5e-4);
   }
 }
 
