@@ -48,16 +48,15 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
 }
 
 /* How much nearer a contact takes passing spheres to come than they do, m. Turning moves nothing of a sphere, but does move the arms of its
- * contact, which follow what the bodies slide past each other, of two that can be pushed each by half: on average that is half of what
- * they slide within the step. Gravity bends the way by a quarter of its mean speed, and set-up places the arms without it. */
+ * contact, which follow what the bodies slide past each other as shift_of_arms of setup/contact.h says: on average half of what they slide
+ * within the step. Gravity bends the way by a quarter of its mean speed, and set-up places the arms without it. */
 SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
 {
-  real zero = R(0.0), half = R(0.5), speed = length_of(subtract(moves.b.linear, moves.a.linear));
-  mask a_stays = moves.a.inverse_mass == zero, b_stays = moves.b.inverse_mass == zero;
-  real share_a = choose(a_stays, (real)R(1.0), choose(b_stays, zero, half)), share_b = choose(b_stays, (real)R(1.0), choose(a_stays, zero, half));
-  real turning = share_a * length_of(moves.a.angular) + share_b * length_of(moves.b.angular);
-  real unplaced = (length_of(moves.a.angular) + length_of(moves.b.angular)) * time;
-  return (half * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) * parameters->step;
+  real zero = R(0.0), speed = length_of(subtract(moves.b.linear, moves.a.linear));
+  real share = choose(moves.a.inverse_mass == zero, (real)R(1.0), choose(moves.b.inverse_mass == zero, zero, (real)R(0.5)));
+  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
+  real turning = share * turning_a + (R(1.0) - share) * turning_b, unplaced = (turning_a + turning_b) * time;
+  return (R(0.5) * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) * parameters->step;
 }
 
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
