@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "host/hash.h"
 
 namespace tandem {
 namespace {
@@ -60,6 +63,25 @@ double real_at(Buffer buffer, const void *scalar)
   return value;
 }
 
+template <class Real> bool any_nan(const void *contents, size_t bytes)
+{
+  const Real *numbers = static_cast<const Real *>(contents);
+  size_t found = 0;
+  for (size_t k = 0; k < bytes / sizeof(Real); ++k) found += std::isnan(numbers[k]);
+  return found > 0;
+}
+
+/* Every NaN becomes the same one. */
+template <class Real> uint64_t hash_reals(const void *contents, size_t bytes)
+{
+  if (!any_nan<Real>(contents, bytes)) return hash_bytes(contents, bytes);
+  std::vector<Real> numbers(bytes / sizeof(Real));
+  std::memcpy(numbers.data(), contents, bytes);
+  for (Real &number : numbers)
+    if (std::isnan(number)) number = std::numeric_limits<Real>::quiet_NaN();
+  return hash_bytes(numbers.data(), bytes);
+}
+
 } // namespace
 
 size_t scalar_bytes(Buffer buffer)
@@ -101,6 +123,18 @@ std::optional<uint64_t> ulps_between(Buffer buffer, const void *one, const void 
   const int64_t a = position_on_line(bits, scalar_bytes(buffer)), b = position_on_line(other_bits, scalar_bytes(buffer));
   if (a == b) return bits == other_bits ? 0 : 1; /* 0 and -0 */
   return static_cast<uint64_t>(a > b ? a - b : b - a);
+}
+
+bool same_number(Buffer buffer, const void *one, const void *other)
+{
+  if (bits_of(buffer, one) == bits_of(buffer, other)) return true;
+  return holds_reals(buffer) && std::isnan(real_at(buffer, one)) && std::isnan(real_at(buffer, other));
+}
+
+uint64_t hash_numbers(Buffer buffer, const void *contents, size_t bytes)
+{
+  if (!holds_reals(buffer)) return hash_bytes(contents, bytes);
+  return scalar_bytes(buffer) == sizeof(double) ? hash_reals<double>(contents, bytes) : hash_reals<float>(contents, bytes);
 }
 
 void change_least(Buffer buffer, void *scalar)

@@ -38,6 +38,13 @@ BufferValue value_at(Buffer buffer, const void *scalar);
 /* How many floats lie between the two, 0 only for equal bits; nothing for integers and NaN. */
 std::optional<uint64_t> ulps_between(Buffer buffer, const void *one, const void *other);
 
+/* Equal bits, or both not a number: processors choose the sign and payload of a NaN that they make by the order of
+ * the operands, which is the compiler's (docs/exactness.md). */
+bool same_number(Buffer buffer, const void *one, const void *other);
+
+/* Equal for two buffers of which every number is the same. */
+uint64_t hash_numbers(Buffer buffer, const void *contents, size_t bytes);
+
 /* The smallest change: the float next to it away from zero; an integer's last bit. */
 void change_least(Buffer buffer, void *scalar);
 

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "host/breakpoint.h"
-#include "host/hash.h"
 
 namespace tandem {
 std::vector<Buffer> buffers_written(const Launch &launch)
@@ -28,6 +27,12 @@ namespace {
 const char *contents_of(World &world, Buffer buffer)
 {
   return static_cast<const char *>(world.memory().acquire(buffer, host_storage(), Access::in));
+}
+
+uint64_t hash_of(World &world, Buffer buffer)
+{
+  const size_t bytes = world.memory().bytes(buffer);
+  return bytes ? hash_numbers(buffer, contents_of(world, buffer), bytes) : 0;
 }
 
 /* What one launch left in one buffer. */
@@ -95,10 +100,7 @@ void Lockstep::step_reference(World &world)
 {
   reference_.clear();
   step(0, world, current_, [&](const Launch &launch, uint32_t number) {
-    for (const Buffer buffer : buffers_written(launch)) {
-      const size_t bytes = world.memory().bytes(buffer);
-      reference_.push_back({number, launch.kernel, buffer, bytes ? hash_bytes(contents_of(world, buffer), bytes) : 0});
-    }
+    for (const Buffer buffer : buffers_written(launch)) reference_.push_back({number, launch.kernel, buffer, hash_of(world, buffer)});
   });
 }
 
@@ -110,7 +112,7 @@ void Lockstep::step_and_compare(size_t index, World &world)
     ++result_.kernels_compared;
     for (const Buffer buffer : buffers_written(launch)) {
       const size_t bytes = world.memory().bytes(buffer);
-      const Output output{number, launch.kernel, buffer, bytes ? hash_bytes(contents_of(world, buffer), bytes) : 0};
+      const Output output{number, launch.kernel, buffer, hash_of(world, buffer)};
       const bool kernels_differ = next >= reference_.size() || reference_[next].kernel != output.kernel ||
                                   reference_[next].launch != output.launch || reference_[next].buffer != buffer;
       result_.bytes_compared += bytes;
@@ -174,7 +176,7 @@ void Lockstep::lay_side_by_side(World &reference, const Launch &launch, Differen
   const std::vector<char> &other = departure_->contents;
   const char *contents = contents_of(reference, buffer);
   const size_t width = scalar_bytes(buffer), count = std::min(other.size(), reference.memory().bytes(buffer)) / width;
-  const auto differs = [&](size_t k) { return std::memcmp(contents + k * width, other.data() + k * width, width) != 0; };
+  const auto differs = [&](size_t k) { return !same_number(buffer, contents + k * width, other.data() + k * width); };
   size_t first = count;
   for (size_t k = count; k-- > 0;)
     if (differs(k)) first = k, ++difference.differing;

@@ -4,7 +4,8 @@
  * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
  * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
  * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
- * two buffers side by side.
+ * two buffers side by side. Two numbers that are both NaN count as the same (buffer_place.h): a body that stops
+ * being finite is taken out at the end of the step on every backend.
  */
 #pragma once
 

@@ -35,7 +35,7 @@ namespace tandem {
 namespace {
 
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
-constexpr int most_repetitions = 64;
+constexpr size_t most_repetitions = 64;
 
 /* A body's number shares a word with the stage that it failed in (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
@@ -256,7 +256,8 @@ struct World::Implementation {
   void run_until_whole()
   {
     bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
-    for (int repetition = 0; repetition < most_repetitions; ++repetition) {
+    /* One body is taken out by a repetition, so that it takes no other with it: those do not count. */
+    for (size_t repetition = 0; repetition < most_repetitions + std::min<size_t>(taken_out.size(), plan.bodies); ++repetition) {
       begin_launches();
       launch_step(launcher, plan, settings);
       memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
@@ -265,7 +266,8 @@ struct World::Implementation {
       turn_back();
       prepare_repetition(plan.known[COUNT_STATUS], may_forget);
     }
-    throw std::runtime_error(fmt::format("it did not complete in {} repetitions (status {})", most_repetitions, plan.known[COUNT_STATUS]));
+    throw std::runtime_error(fmt::format("it did not complete in {} repetitions, {} of them for bodies that did not stay finite (status {})",
+                                         most_repetitions + taken_out.size(), taken_out.size(), plan.known[COUNT_STATUS]));
   }
 
   /* --- a step happens whole or not at all: host/carried.h ---------------------------------------------- */

@@ -8,6 +8,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -74,11 +75,11 @@ int complain_of_output(int reason)
   return output_lost;
 }
 
-/* What was printed may wait in the buffer still. */
+/* What was printed may wait in the buffer still. Where status 2 has been said, its line is the only one. */
 int with_output_written(int status)
 {
   errno = 0;
-  if (status != output_lost && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
+  if (status != output_lost && status != 2 && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
   return status == output_lost ? 2 : status;
 }
 
@@ -177,7 +178,10 @@ int parse_and_execute(int count, char **arguments)
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */
-    return parser.exit(asked);
+    std::ostringstream text; /* CLI11 flushes the stream it prints to, and loses why that failed */
+    const int status = parser.exit(asked, text);
+    fmt::print("{}", text.str());
+    return status;
   } catch (const CLI::ExtrasError &error) {
     if (parser.get_subcommands().empty()) return complain(fmt::format("unknown command '{}'; {}", arguments[1], where_to_look(parser)), 2);
     return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);

@@ -23,6 +23,8 @@ constexpr std::string_view passed_over[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
     "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
+constexpr size_t most_corners = 10'000; /* of a face: the time to cut it grows with their square, here to some tenths of a second */
+
 struct ObjFace {
   std::vector<int64_t> corners; /* from 0 */
   size_t line;
@@ -34,6 +36,7 @@ public:
   void read();
   void check_corners() const;
   void check_crossings() const;
+  std::vector<Triangle> triangles() const;
 
   std::vector<Vec3> vertices;
   std::vector<ObjFace> faces;
@@ -48,6 +51,8 @@ private:
   void read_face(const std::vector<std::string_view> &words);
   float number(std::string_view word) const;
   int64_t corner(std::string_view word) const;
+  std::vector<Vec3> corners_of(const ObjFace &face) const;
+  void check_cut(const ObjFace &face) const;
 
   std::string_view text_;
   const std::string &where_;
@@ -136,6 +141,8 @@ int64_t ObjReader::corner(std::string_view word) const
 void ObjReader::read_face(const std::vector<std::string_view> &words)
 {
   if (words.size() < 4) fail(fmt::format("a face of {} corners; three are needed at least", words.size() - 1), line_);
+  if (words.size() - 1 > most_corners)
+    fail(fmt::format("a face of {} corners; more than {} are not cut into triangles: give triangles", words.size() - 1, most_corners), line_);
   ObjFace &face = faces.emplace_back();
   face.line = line_;
   for (size_t k = 1; k < words.size(); ++k) face.corners.push_back(corner(words[k]));
@@ -165,22 +172,26 @@ void ObjReader::check_corners() const
              face.line);
 }
 
+std::vector<Vec3> ObjReader::corners_of(const ObjFace &face) const
+{
+  std::vector<Vec3> corners;
+  for (const int64_t corner : face.corners) corners.push_back(vertices[size_t(corner)]);
+  return corners;
+}
+
 /* Quads would be cut all the same, into triangles that overlap. */
 void ObjReader::check_crossings() const
 {
-  for (const ObjFace &face : faces) {
-    std::vector<Vec3> corners;
-    for (const int64_t corner : face.corners) corners.push_back(vertices[size_t(corner)]);
-    if (crosses_itself(corners)) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
-  }
+  for (const ObjFace &face : faces)
+    if (crosses_itself(corners_of(face))) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
 }
 
 /* The same vertices and faces, and nothing that could be read in another way. */
-std::string plain_text(const ObjReader &read)
+std::string plain_text(const std::vector<Vec3> &vertices, const std::vector<ObjFace> &faces)
 {
   std::string text;
-  for (const Vec3 &v : read.vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
-  for (const ObjFace &face : read.faces) {
+  for (const Vec3 &v : vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", v[0], v[1], v[2]);
+  for (const ObjFace &face : faces) {
     text += "f";
     for (const int64_t corner : face.corners) text += fmt::format(" {}", corner + 1);
     text += "\n";
@@ -188,13 +199,13 @@ std::string plain_text(const ObjReader &read)
   return text;
 }
 
-std::vector<Triangle> triangles_of(const ObjReader &read, const std::string &where)
+/* Fewer than the corners tell where a face cannot be cut. */
+std::vector<Triangle> cut(const std::vector<Vec3> &vertices, const std::vector<ObjFace> &faces)
 {
   tinyobj::ObjReader reader;
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
-  if (!reader.ParseFromString(plain_text(read), "", config))
-    throw InputError(fmt::format("{}: its polygons cannot be cut into triangles", where));
+  if (!reader.ParseFromString(plain_text(vertices, faces), "", config)) return {};
   std::vector<Triangle> triangles;
   for (const tinyobj::shape_t &shape : reader.GetShapes())
     for (size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
@@ -203,6 +214,25 @@ std::vector<Triangle> triangles_of(const ObjReader &read, const std::string &whe
         triangle[corner] = static_cast<uint32_t>(shape.mesh.indices[i + corner].vertex_index);
     }
   return triangles;
+}
+
+void ObjReader::check_cut(const ObjFace &face) const
+{
+  ObjFace alone{{}, face.line};
+  for (size_t k = 0; k < face.corners.size(); ++k) alone.corners.push_back(static_cast<int64_t>(k));
+  if (cut(corners_of(face), {alone}).size() != face.corners.size() - 2)
+    fail("a polygon that cannot be cut into triangles: it leaves its plane, names a place twice or crosses itself; give triangles", face.line);
+}
+
+std::vector<Triangle> ObjReader::triangles() const
+{
+  if (faces.empty()) return {};
+  size_t expected = 0;
+  for (const ObjFace &face : faces) expected += face.corners.size() - 2;
+  std::vector<Triangle> triangles = cut(vertices, faces);
+  if (triangles.size() == expected) return triangles;
+  for (const ObjFace &face : faces) check_cut(face);
+  throw InputError(fmt::format("{}: its polygons cannot be cut into triangles; give triangles", where_));
 }
 
 } // namespace
@@ -219,16 +249,7 @@ ObjMesh parse_obj(const std::string &text, const std::string &where)
   read.check_crossings();
   if (read.vertices.empty())
     throw InputError(fmt::format("{}: no vertices (lines 'v x y z'); is it an OBJ file?", where));
-  ObjMesh mesh{read.vertices, {}};
-  if (read.faces.empty()) return mesh;
-  mesh.triangles = triangles_of(read, where);
-  size_t expected = 0;
-  for (const ObjFace &face : read.faces) expected += face.corners.size() - 2;
-  if (mesh.triangles.size() != expected)
-    throw InputError(fmt::format(
-        "{}: a polygon crosses itself, or its corners lie in one line: it cannot be cut into triangles; give triangles",
-        where));
-  return mesh;
+  return {read.vertices, read.triangles()};
 }
 
 ObjMesh load_obj(const std::string &file) { return parse_obj(read_file(file), file); }

@@ -73,6 +73,20 @@ TEST_CASE("several bodies that are not finite are quarantined in one step", "[ph
   CHECK(all_finite(world.bodies()));
 }
 
+/* One body is taken out by a repetition of the step: as many of them are run as there are such bodies. */
+TEST_CASE("a hundred bodies that are not finite are quarantined in one step, and innocent ones are kept", "[physics]")
+{
+  World world(load_scene("spheres:n=200"));
+  BodyState poison = world.bodies()[3];
+  poison.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
+  for (uint32_t body = 1; body < 200; body += 2) world.set_body_unchecked(body, poison);
+  world.step();
+  CHECK(world.quarantined().size() == 100);
+  for (const Quarantine &taken : world.quarantined()) CHECK(taken.body % 2 == 1);
+  CHECK(world.statistics().steps == 1);
+  CHECK(all_finite(world.bodies()));
+}
+
 TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics]")
 {
   World world(crowd(sphere_shape(0.4f), 200));

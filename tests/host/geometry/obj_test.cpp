@@ -3,6 +3,8 @@
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
 
+#include <cmath>
+
 #include "host/geometry/mass_properties.h"
 
 using namespace tandem;
@@ -151,4 +153,21 @@ TEST_CASE("obj: a polygon that crosses itself is refused, in any plane and with 
       CHECK_FALSE(crosses({{0, 0}, {2, 0}, {2, 2}, {1, 0.5}, {0, 2}}));
     }
   CHECK(refusal("v 0 0 0\nv 1 0.5 0\nv 1 0 1\nv 0 0.5 1\nf 1 2 3 4\n").empty()); /* a saddle, in no plane */
+}
+
+TEST_CASE("obj: a polygon that cannot be cut, or not in reasonable time, is named by its line")
+{
+  const std::string twisted = "v 0 1 1\nv 1 1 1\nv 1 2 1\nv 1 2 0\nv 2 0 0\n";
+  CHECK_THAT(refusal(twisted + "f 1 2 3\nf 1 2 3 4 5\nf 1 3 4\n"), ContainsSubstring("cube.obj: line 7: a polygon that cannot be cut into triangles"));
+  const auto circle = [](int n) {
+    std::string text, face = "f";
+    for (int k = 0; k < n; ++k) {
+      const double angle = 2 * 3.14159265358979 * k / n;
+      text += "v " + std::to_string(1000 * std::cos(angle)) + " 0 " + std::to_string(1000 * std::sin(angle)) + "\n";
+      face += " " + std::to_string(k + 1);
+    }
+    return text + face + "\n";
+  };
+  CHECK(parse_obj(circle(3000), "circle.obj").triangles.size() == 2998);
+  CHECK_THAT(refusal(circle(10'001)), ContainsSubstring("line 10002: a face of 10001 corners; more than 10000"));
 }
