@@ -188,6 +188,23 @@ TEST_CASE("stability: a bound of more than ten times its figure is loose, unless
   CHECK(result(0, Bound::from_rounding(1e-9, "")).loose());
 }
 
+TEST_CASE("stability: the list of bounds says which are loose, and where a figure and its bound are both nothing", "[stability]")
+{
+  Results results;
+  Result &row = results.results.emplace_back();
+  row.outcome.name = "case";
+  row.outcome.solver = "soft-step";
+  const auto line_of = [&](double figure, double bound) {
+    row.outcome.checks = {{"figure", "m", figure, bound, true, {}}};
+    return bounds_text(results);
+  };
+  CHECK(line_of(0, 0).find("ratio exact") != std::string::npos);
+  CHECK(line_of(2, 5).find("ratio 2.5 ") != std::string::npos);
+  CHECK(line_of(2, 5).find("LOOSE") == std::string::npos);
+  CHECK(line_of(1, 20).find("ratio 20        LOOSE") != std::string::npos);
+  CHECK(line_of(0, 1).find("ratio inf       LOOSE") != std::string::npos);
+}
+
 /* Its substeps too: with those of the defaults the twin of a solver that has one substep was another motion. */
 TEST_CASE("stability: the twin of a far scene moves as the settings of the trial say", "[stability]")
 {

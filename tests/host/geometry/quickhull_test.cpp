@@ -48,16 +48,19 @@ std::set<std::set<std::array<double, 3>>> faces_by_place(const std::vector<Vecto
 TEST_CASE("quickhull: every surface is closed, and no point lies above a face, by exact numbers", "[sanitizer]")
 {
   Random random(1);
+  int surfaces = 0;
   for (int turn = 0; turn < 300; ++turn) {
     const int grains[] = {1 << 30, 1, 2, 4, 16};
     const std::vector<Vector> points = random_points(random, 4 + int(random.below(60)), grains[turn % 5]);
     const std::vector<Polygon> faces = hull_triangles(points, 0);
     CAPTURE(turn, points.size());
     if (faces.empty()) continue; /* of a coarse grid, some lie in a plane */
+    ++surfaces;
     REQUIRE(is_closed_surface(faces));
     for (const Polygon &face : faces)
       for (const Vector &p : points) REQUIRE(height(points, face, p) <= 0);
   }
+  CHECK(surfaces > 250);
 }
 
 TEST_CASE("quickhull: points in a plane, a line or a place have no hull", "[sanitizer]")
