@@ -73,19 +73,21 @@ typedef struct {
   real inverse_mass;
 } motion;
 
-SHARED motion load_motion(GLOBAL const row *velocity, natural body)
+SHARED motion motion_of_rows(vec4 first, vec4 second)
 {
-  vec4 first = load_row(velocity, body * 2u), second = load_row(velocity, body * 2u + 1u);
   motion m = {xyz(first), xyz(second), first.w};
   return m;
 }
+SHARED motion load_motion(GLOBAL const row *velocity, natural body)
+{
+  return motion_of_rows(load_row(velocity, body * 2u), load_row(velocity, body * 2u + 1u));
+}
 SHARED vec3 gravity_of(GLOBAL const Parameters *parameters) { return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z); }
 
-/* The velocity that gravity adds over the substeps of a step, on average. velocity: body_velocity. */
-SHARED vec3 mean_fall(GLOBAL const row *velocity, GLOBAL const Parameters *parameters, natural body)
+/* The velocity that gravity adds over the substeps of a step, on average. first, second: rows of body_velocity. */
+SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 second)
 {
-  mask moves = load_row(velocity, body * 2u).w > R(0.0);
-  real factor = choose(moves, load_row(velocity, body * 2u + 1u).w, (real)R(0.0));
+  real factor = choose(first.w > R(0.0), second.w, (real)R(0.0));
   return scale(gravity_of(parameters), factor * R(0.5) * (parameters->step + parameters->substep));
 }
 SHARED void store_motion(GLOBAL row *velocity, natural body, motion m)

@@ -231,6 +231,13 @@ SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m
   return beside & (gap > pair.way.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
 }
 
+/* Of what touches and does not come far nothing is asked further: nearly all pairs of a heap. */
+SHARED mask may_be_followed(manifold m, journey way)
+{
+  mask has_contact = has_points(m);
+  return (has_contact & (least_separation(m) > R(0.0))) | (way.far & !has_contact);
+}
+
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
 {
   mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX, second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
@@ -253,11 +260,13 @@ SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *p
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 
+  mask unsure = mine & may_be_followed(m, pair.way);
+  if (!any_of(unsure)) return;
   /* Loaded once more, so that a device need not keep them in registers all the while. */
   pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
   mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.way, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);
-  mark_to_follow_if(mine & ahead, m, counts_of_points, i);
+  mark_to_follow_if(unsure & ahead, m, counts_of_points, i);
 }
 
 #endif

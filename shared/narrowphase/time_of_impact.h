@@ -48,8 +48,10 @@ typedef struct {
 
 SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a, natural b, real radius_a, real radius_b)
 {
-  vec3 fall_a = mean_fall(velocities, parameters, a), fall_b = mean_fall(velocities, parameters, b);
-  pair_motion m = {load_motion(velocities, a), load_motion(velocities, b), radius_a, radius_b, subtract(fall_a, fall_b)};
+  vec4 first_a = load_row(velocities, a * 2u), second_a = load_row(velocities, a * 2u + 1u);
+  vec4 first_b = load_row(velocities, b * 2u), second_b = load_row(velocities, b * 2u + 1u);
+  vec3 fall_a = mean_fall(parameters, first_a, second_a), fall_b = mean_fall(parameters, first_b, second_b);
+  pair_motion m = {motion_of_rows(first_a, second_a), motion_of_rows(first_b, second_b), radius_a, radius_b, subtract(fall_a, fall_b)};
   m.a.linear = add(m.a.linear, fall_a);
   m.b.linear = add(m.b.linear, fall_b);
   return m;

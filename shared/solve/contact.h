@@ -314,17 +314,12 @@ SHARED contact apply_changes(contact c, const support *s, vec4 changes)
   return apply_turn(c, turn_a, turn_b, R(1.0));
 }
 
-/* What the normal rows of a manifold have come to. */
-SHARED void store_pressed_if(mask wanted, GLOBAL const Parameters *parameters, uint stride, const support *s, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_bounce, item_index i)
+SHARED vec4 impulses_of(const support *s) { return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]); }
+
+/* The most that each point has carried within the step: only what was pressed bounces. */
+SHARED vec4 highest_impulses(vec4 highest, vec4 pressed)
 {
-  vec4 pressed = make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
-  store_row_if(wanted, constraint_normal_impulse, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row_if(wanted, constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y),
-                                                                 maximum(highest.z, pressed.z), maximum(highest.w, pressed.w)));
-  }
+  return make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z), maximum(highest.w, pressed.w));
 }
 
 /* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the others pay for no
@@ -344,8 +339,11 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint
   real slop = load_real(constraint_slop, i);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   for (uint round = 0; round < IMPACT_ROUNDS; ++round) c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
-  store_pressed_if(at_impact, parameters, stride, &s, constraint_normal_impulse, constraint_bounce, i);
-  vec4 changes = make_vec4(s.impulse[0] - before.x, s.impulse[1] - before.y, s.impulse[2] - before.z, s.impulse[3] - before.w);
+  vec4 pressed = impulses_of(&s);
+  store_row_if(at_impact, constraint_normal_impulse, i, pressed);
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row_if(at_impact, constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+  vec4 changes = make_vec4(pressed.x - before.x, pressed.y - before.y, pressed.z - before.z, pressed.w - before.w);
   c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   c = apply_changes(c, &s, changes);
   store_contact_motion_if(at_impact, solver_velocity, c);
@@ -380,9 +378,12 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   real slop = load_real(constraint_slop, i);
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
   c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
-  mask at_impact = c.follows == R(0.0), all = at_impact | (!at_impact);
-  store_pressed_if(all, parameters, stride, &s, constraint_normal_impulse, constraint_bounce, i);
+  vec4 pressed = impulses_of(&s);
+  store_row(constraint_normal_impulse, i, pressed);
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   store_contact_motion(solver_velocity, c);
+  mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)
     add_push_if(!at_impact, solver_push, c, wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
   if (any_of(at_impact))

@@ -65,8 +65,6 @@ SHARED real limit_of(contact c, vec4 normal_impulses)
 SHARED real spin_between(contact c) { return inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)); }
 SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b) { return subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a)); }
 
-SHARED vec4 impulses_of(support s) { return make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]); }
-
 /* Slip that the same pair still had to undo in the last step. */
 SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached, GLOBAL const uint *cached_color,
                               GLOBAL const row *cached_slip, GLOBAL const row *constraint_normal, GLOBAL row *constraint_slip, item_index i)
@@ -108,7 +106,7 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     wished[k] = maximum(s.impulse[k] - s.mass[k] * (wanted + speed_along(c, c.normal, s.turn_a[k], s.turn_b[k])), R(0.0));
   }
   c = press_together(c, &s, wished);
-  vec4 pressed = impulses_of(s);
+  vec4 pressed = impulses_of(&s);
   store_row(constraint_normal_impulse, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     vec4 highest = load_row(constraint_bounce, stride + i);
@@ -152,12 +150,12 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
     wished[k] = choose(s.impulse[k] > R(0.0), resting, s.impulse[k]);
   }
   c = press_together(c, &s, wished);
-  store_row_if(pressing, constraint_normal_impulse, i, impulses_of(s));
+  store_row_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
-    real limit = limit_of(c, impulses_of(s));
+    real limit = limit_of(c, impulses_of(&s));
     solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_row(constraint_friction_impulse, i));
     held = xpbd_slide(held.c, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
     c = with_motion_if(rough, c, held.c);
