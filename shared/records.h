@@ -82,6 +82,13 @@ SHARED motion load_motion(GLOBAL const row *velocity, natural body)
 {
   return motion_of_rows(load_row(velocity, body * 2u), load_row(velocity, body * 2u + 1u));
 }
+/* Which share of what two bodies slide past each other the arm of a follows; that of b follows the rest. Arms must end in one point of
+ * the world, or an impulse through them adds angular momentum: a body that cannot move takes the whole, two that can share it. */
+SHARED real share_of_slide(motion a, motion b)
+{
+  return choose(a.inverse_mass == R(0.0), (real)R(1.0), choose(b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
+}
+
 SHARED vec3 gravity_of(GLOBAL const Parameters *parameters) { return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z); }
 
 /* The velocity that gravity adds over the substeps of a step, on average. first, second: rows of body_velocity. */

@@ -36,14 +36,15 @@ SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pai
   return at;
 }
 
-/* Spheres that miss keep a contact where they pass each other: its plane lies along their motion, which so never meets it, and what
- * others push into it is held. */
-SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, advancement at, journey way)
+/* Spheres that miss keep a contact where they pass each other, if they would run into that of the start: its plane lies along their
+ * motion, which so never meets it, and what others push into it is held. */
+SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, mask runs_into_start, advancement at, journey way)
 {
   encounter met = encounter_of(parameters, s, at, way);
-  met.time = choose(met.missed, at.time, met.time);
-  met.at_impact = met.at_impact | met.missed;
-  met.missed = met.missed & (!met.missed);
+  mask passes = met.missed & runs_into_start;
+  met.time = choose(passes, at.time, met.time);
+  met.at_impact = met.at_impact | passes;
+  met.missed = met.missed & (!passes);
   return met;
 }
 
@@ -52,8 +53,7 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
  * within the step. Gravity bends the way by a quarter of its mean speed, and set-up places the arms without it. */
 SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
 {
-  real zero = R(0.0), speed = length_of(subtract(moves.b.linear, moves.a.linear));
-  real share = choose(moves.a.inverse_mass == zero, (real)R(1.0), choose(moves.b.inverse_mass == zero, zero, (real)R(0.5)));
+  real speed = length_of(subtract(moves.b.linear, moves.a.linear)), share = share_of_slide(moves.a, moves.b);
   real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
   real turning = share * turning_a + (R(1.0) - share) * turning_b, unplaced = (turning_a + turning_b) * time;
   return (R(0.5) * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) * parameters->step;
@@ -80,7 +80,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   speculation s = speculation_of(parameters, m, between, moves, way, least);
   if (any_of(mine & s.asked)) {
     advancement at = impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way);
-    encounter met = encounter_of_spheres(parameters, s, at, way);
+    encounter met = encounter_of_spheres(parameters, s, approach_of_points(parameters, m, between, moves).reached[0], at, way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
     manifold there = spheres_contact(offset, radius_a, radius_b, aside);
     there.point[0].w = there.point[0].w + choose(at.hits, (real)R(0.0), margin_of_passing(parameters, moves, met.time));

@@ -166,41 +166,49 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
-/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so a plane of one that nothing
- * pushes turns into the other at most this fast, m/s. Of two that can be pushed each takes half, and what others do to
- * them is more. */
-SHARED real closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m)
+/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so the plane of one that turns comes nearer to
+ * the other, m/s: of what nothing pushes at most; of both, if nothing else turns them. */
+typedef struct { real of_driven, of_both; } slide_closing;
+
+SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
-  real zero = R(0.0), turning_a = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero);
-  real turning_b = choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
-  return (turning_a + turning_b) * length_of(subtract(m.b.linear, m.a.linear)) * parameters->step;
+  real zero = R(0.0), share = share_of_slide(m.a, m.b);
+  real driven = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero) + choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
+  vec3 slide = scale(subtract(m.b.linear, m.a.linear), parameters->step);
+  vec3 turning = add(scale(m.a.angular, share), scale(m.b.angular, R(1.0) - share));
+  real of_driven = driven * length_of(slide);
+  slide_closing s = {of_driven, maximum(of_driven, inner(outer(slide, normal), turning))};
+  return s;
 }
 
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
 
-/* How fast the points of a manifold come nearer, m/s, and which of them the motion of the pair itself would run into within the step. */
+/* How fast the points of a manifold come nearer, m/s, which of them the motion of the pair itself would run into within the step, and
+ * which of them the turning of bodies that can be pushed would, too. */
 typedef struct {
   real closing[4];
-  mask reached[4];
+  mask reached[4], turned_into[4];
+  slide_closing by_slide;
 } approaching_points;
 
 /* offset: centre of b from that of a, as the points are. */
 SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
-  real by_slide = closing_by_slide(parameters, moves);
   approaching_points points;
+  points.by_slide = closing_by_slide(parameters, moves, m.normal);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
     points.closing[slot] = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    points.reached[slot] = m.kept[slot] & ((points.closing[slot] + by_slide) * parameters->step >= m.point[slot].w);
+    points.reached[slot] = m.kept[slot] & ((points.closing[slot] + points.by_slide.of_driven) * parameters->step >= m.point[slot].w);
+    points.turned_into[slot] = m.kept[slot] & ((points.closing[slot] + points.by_slide.of_both) * parameters->step >= m.point[slot].w);
   }
   return points;
 }
 SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
   approaching_points points = approach_of_points(parameters, m, offset, moves);
-  return points.reached[0] | points.reached[1] | points.reached[2] | points.reached[3];
+  return points.turned_into[0] | points.turned_into[1] | points.turned_into[2] | points.turned_into[3];
 }
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of
@@ -216,7 +224,7 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
   mask ahead = has_points(m) & (gap > way.touching);
-  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves)) * parameters->step > gap);
+  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).of_both) * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   if (any_of(s.asked & (!way.far))) {
     s.asked = s.asked & (way.far | reaches_any_point(parameters, m, offset, moves));
@@ -257,6 +265,9 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
   return guard;
 }
 
+/* So much more than what comes nearer keeps rounding from making it touch. */
+#define CLEARLY R(1.01)
+
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
  * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
  * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them.
@@ -268,7 +279,8 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
   mask swings = met.a_swings | met.b_swings;
   for (int slot = 0; slot < 4; ++slot) {
     m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
-    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, m.point[slot].w);
+    real clear = choose(met.missed & points.turned_into[slot], CLEARLY * (points.closing[slot] + points.by_slide.of_both) * parameters->step, m.point[slot].w);
+    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, maximum(m.point[slot].w, clear));
   }
   m.impact_time = choose(met.at_impact, met.time, (real)R(0.0));
   return m;

@@ -132,13 +132,12 @@ SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - 
  * touch. In the substep of the impact the others would be off by that much, and then lie far outside of the bodies. */
 #define FOLLOWED_SHARE R(1.0)
 
-/* What two bodies have slid past each other moves their arms. Arms must end in one point of the world, or an impulse through them
- * adds angular momentum: a body that cannot move takes the whole difference, two that can share it. */
+/* What two bodies have slid past each other moves their arms. */
 typedef struct { vec3 a, b; } arm_shift;
 
 SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
 {
-  real share = choose(motion_a.inverse_mass == R(0.0), (real)R(1.0), choose(motion_b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
+  real share = share_of_slide(motion_a, motion_b);
   arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
   return s;
 }

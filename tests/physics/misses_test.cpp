@@ -275,6 +275,26 @@ Scene past_turning_boxes(uint64_t seed)
   return scene;
 }
 
+/* Balls that spin fly by round bodies that spin, too, about their axes. All can be pushed, so the arms of what is between them follow half
+ * of what they slide, and turn with them. */
+Scene past_round_spinners(uint64_t seed, double step)
+{
+  Random random(seed);
+  Scene scene = bouncy_scene({0, 0, 0}, 0.5f);
+  for (int lane = 0; lane < 300; ++lane) {
+    const double z = 20.0 * lane, around = logarithmic(random, 0.1, 2), height = around * random.uniform(0.5, 2), radius = logarithmic(random, 0.05, 1);
+    const Shape shapes[] = {sphere_shape(float(around)), cylinder_shape(float(around), float(height)), capsule_shape(float(around), float(height))};
+    Body &round = add_solid(scene, shapes[lane % 3], {0, 0, z}, {0, 0, 0, 1}, 1000);
+    round.angular_velocity = {0, float(logarithmic(random, 0.3, 30)), 0};
+    const double speed = logarithmic(random, 1, 300), start = speed * step * random.uniform(0, 3) + random.uniform(0, 1);
+    const double y = lane % 3 == 0 ? 0 : 0.9 * height * random.uniform(-1, 1), beside = around + radius + logarithmic(random, 1e-3, 2e-2);
+    Body &ball = add_solid(scene, sphere_shape(float(radius)), {-start - around - radius, y, z + beside});
+    ball.linear_velocity = {float(speed), 0, 0};
+    ball.angular_velocity = vec3_of(direction(random) * 30.0);
+  }
+  return scene;
+}
+
 } // namespace
 
 TEST_CASE("what misses goes on while it falls, in every solver", "[physics]")
@@ -328,6 +348,15 @@ TEST_CASE("what misses goes on: balls past balls that turn in place, in every so
     CAPTURE(solver, step);
     CHECK(largest_deviation(past_turning_balls(7, step), settings, 6.5 * step) < 1e-3);
     CHECK(farthest_from_free_fall(past_turning_balls(7, step, {0, -10, 0}), settings, step, 6) < 5e-4);
+  }
+}
+
+TEST_CASE("what misses goes on: balls that spin past round bodies that spin, all free, in every solver", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (double step : {1.0 / 60, 1.0 / 240}) {
+    CAPTURE(solver, step);
+    CHECK(farthest_from_free_fall(past_round_spinners(7, step), settings_for(solver), step, 12) < 5e-4);
   }
 }
 
