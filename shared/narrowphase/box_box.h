@@ -131,16 +131,18 @@ SHARED manifold face_contacts(box_pair pair)
   return m;
 }
 
-/* Each kind of contact is computed only if some item of the group has it. */
-SHARED manifold with_face_contacts(manifold m, mask wanted, box_pair pair)
+/* Each kind of contact is computed only if some item of the group has it. none: without points, so those of the others may hold anything. */
+SHARED manifold with_face_contacts(manifold none, mask wanted, box_pair pair, real reach)
 {
-  if (!any_of(wanted)) return m;
-  return choose_manifold(wanted, face_contacts(pair), m);
+  if (!any_of(wanted)) return none;
+  manifold m = face_contacts(pair);
+  for (int slot = 0; slot < 4; ++slot) m.kept[slot] = m.kept[slot] & wanted & (m.point[slot].w < reach);
+  return m;
 }
-SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair)
+SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair, real reach)
 {
   if (!any_of(wanted)) return m;
-  return choose_manifold(wanted, edge_contact(pair), m);
+  return choose_manifold(wanted, kept_within(edge_contact(pair), reach), m);
 }
 
 /* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis must lead by. */
@@ -177,9 +179,9 @@ SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, 
   real reach = reach_of_pair(parameters, moves, pair.normal);
   mask near = wanted & (pair.gap < reach), on_edges = pair.code >= 6u;
   manifold none = single_contact(pair.normal, pair.offset, reach, near & (!near));
-  manifold on_face = kept_within(with_face_contacts(none, near & (!on_edges), pair), reach);
+  manifold on_face = with_face_contacts(none, near & (!on_edges), pair, reach);
   mask beside = near & (!on_edges) & pair.edges_lead & (!has_points(on_face));
-  return kept_within(with_edge_contact(on_face, (near & on_edges) | beside, along_edges(beside, pair)), reach);
+  return with_edge_contact(on_face, (near & on_edges) | beside, along_edges(beside, pair), reach);
 }
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
@@ -231,11 +233,12 @@ SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m
   return beside & (gap > pair.way.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
 }
 
-/* Of what touches and does not come far nothing is asked further: nearly all pairs of a heap. */
+/* Of what overlaps nothing is asked further, nor of what is apart and does not come far: nearly all pairs of a heap. */
 SHARED mask may_be_followed(manifold m, journey way)
 {
-  mask has_contact = has_points(m);
-  return (has_contact & (least_separation(m) > R(0.0))) | (way.far & !has_contact);
+  mask overlaps = m.kept[0] & (m.point[0].w <= R(0.0));
+  for (int slot = 1; slot < 4; ++slot) overlaps = overlaps | (m.kept[slot] & (m.point[slot].w <= R(0.0)));
+  return (!overlaps) & (has_points(m) | way.far);
 }
 
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
