@@ -55,7 +55,7 @@ const KernelTable *lanes_table(uint32_t lanes)
 namespace {
 
 /* About how many items one task should have: small kernels stay on one thread. */
-constexpr uint32_t items_per_task = 256;
+constexpr uint32_t items_per_task = 128;
 
 /* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
 const KernelTable &scalar_table([[maybe_unused]] const Options &options)
@@ -119,7 +119,7 @@ private:
   {
     const RunRange run = scalar_.run[index_of(kernel)];
     if (order_ != Order::forward) return run_permuted(run, arguments, 0, groups);
-    parallel(0, groups, 1, [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
+    parallel(0, groups, 1, tbb::auto_partitioner{}, [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
   }
 
   void run_items(Kernel kernel, void *const *arguments, uint32_t first, uint32_t last)
@@ -127,15 +127,19 @@ private:
     const RunRange scalar = scalar_.run[index_of(kernel)];
     const RunRange lanes = lanes_ ? lanes_->run[index_of(kernel)] : nullptr;
     if (order_ != Order::forward) return run_permuted(scalar, arguments, first, last);
-    const uint32_t width = lanes ? lanes_->lanes : 1;
-    parallel(first, last, std::max(items_per_task, width), [&](uint32_t begin, uint32_t end) {
+    const uint32_t width = lanes ? lanes_->lanes : 1, grain = std::max(items_per_task, width);
+    const auto range = [&](uint32_t begin, uint32_t end) {
       const uint32_t whole = lanes ? (end - begin) / width * width : 0;
       if (whole) lanes(arguments, begin, begin + whole);
       if (begin + whole < end) scalar(arguments, begin + whole, end);
-    });
+    };
+    if (lanes) parallel(first, last, grain, tbb::static_partitioner{}, range);
+    else parallel(first, last, grain, tbb::auto_partitioner{}, range);
   }
 
-  template <class Body> void parallel(uint32_t first, uint32_t last, uint32_t grain, Body body)
+  /* Items in lanes take about as long as each other, and one pass of the solver is like the last: in equal shares each thread finds its
+   * own in its cache again. What takes as long as it takes is handed out in small pieces. */
+  template <class Partitioner, class Body> void parallel(uint32_t first, uint32_t last, uint32_t grain, const Partitioner &partitioner, Body body)
   {
     const auto exact = [&](uint32_t begin, uint32_t end) {
       const ExactFloatingPoint environment;
@@ -152,7 +156,7 @@ private:
         note_thread();
         exact(range.begin(), range.end());
         order.items_end();
-      });
+      }, partitioner);
     });
     order.launch_ends();
   }
