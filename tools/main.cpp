@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <iostream>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -79,7 +78,7 @@ int complain_of_output(int reason)
 int with_output_written(int status)
 {
   errno = 0;
-  if (status != output_lost && status != 2 && (std::fflush(stdout) != 0 || std::ferror(stdout) || !std::cout.good())) status = complain_of_output(errno);
+  if (status != output_lost && status != 2 && (std::fflush(stdout) != 0 || std::ferror(stdout))) status = complain_of_output(errno);
   return status == output_lost ? 2 : status;
 }
 

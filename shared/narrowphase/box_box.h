@@ -236,9 +236,7 @@ SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m
 /* Of what overlaps nothing is asked further, nor of what is apart and does not come far: nearly all pairs of a heap. */
 SHARED mask may_be_followed(manifold m, journey way)
 {
-  mask overlaps = m.kept[0] & (m.point[0].w <= R(0.0));
-  for (int slot = 1; slot < 4; ++slot) overlaps = overlaps | (m.kept[slot] & (m.point[slot].w <= R(0.0)));
-  return (!overlaps) & (has_points(m) | way.far);
+  return (least_separation(m) > R(0.0)) & (has_points(m) | way.far);
 }
 
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)

@@ -270,7 +270,8 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
 
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
  * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
- * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them.
+ * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them. A point that only turning would
+ * reach is put clear of it, for the turning of what can be pushed is not sure to come.
  * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
 {

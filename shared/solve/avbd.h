@@ -174,11 +174,8 @@ SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   vec4 pressed = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
   store_row(constraint_normal_impulse, i, pressed);
   store_row(constraint_friction_impulse, i, make_vec4(f.first, f.second, f.twist, load_row(constraint_friction_impulse, i).w));
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
-                                                       maximum(highest.w, pressed.w)));
-  }
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
 }
 
 SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_penalty, GLOBAL row *cached_penalty, item_index i)

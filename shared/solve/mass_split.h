@@ -207,11 +207,8 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   if (momentum != 0u) next = extrapolated_push(pressed, load_row(split_pushed, i), share);
   store_row(split_pushed, i, pressed);
   store_row(constraint_normal_impulse, i, next);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
-                                                       maximum(highest.w, pressed.w)));
-  }
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   wrench given = wrench_of_points(c, &s, impulses, next);
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }

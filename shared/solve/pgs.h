@@ -60,12 +60,10 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
     impulse[k] = pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
     c = apply_impulse(c, c.normal, turn_a, turn_b, impulse[k] - before);
   }
-  store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, impulse[0]), maximum(highest.y, impulse[1]),
-                                                       maximum(highest.z, impulse[2]), maximum(highest.w, impulse[3])));
-  }
+  vec4 pressed = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
+  store_row(constraint_normal_impulse, i, pressed);
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   store_contact_motion(solver_velocity, c);
 }
 

@@ -108,11 +108,8 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
   c = press_together(c, &s, wished);
   vec4 pressed = impulses_of(&s);
   store_row(constraint_normal_impulse, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    vec4 highest = load_row(constraint_bounce, stride + i);
-    store_row(constraint_bounce, stride + i, make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
-                                                       maximum(highest.w, pressed.w)));
-  }
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);

@@ -257,9 +257,8 @@ TEST_CASE("settings: what cannot be simulated is refused", "[settings]")
 /* Two numbers of one buffer, as floats would lie in it. */
 TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "[compare]")
 {
-  const auto bits = [](uint32_t word) { return word; };
-  const uint32_t nan = bits(0x7fc00000), minus_nan = bits(0xffc00000), payload = bits(0x7fffffff), infinite = bits(0x7f800000),
-                 zero = bits(0), minus_zero = bits(0x80000000);
+  const uint32_t nan = 0x7fc00000, minus_nan = 0xffc00000, payload = 0x7fffffff, infinite = 0x7f800000, zero = 0,
+                 minus_zero = 0x80000000;
   const Buffer reals = Buffer::solver_velocity, integers = Buffer::body_traits;
   for (const uint32_t other : {nan, minus_nan, payload}) {
     CHECK(same_number(reals, &nan, &other));
