@@ -2,13 +2,9 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The headers name each other from the root of the source tree, so they keep their folders under one of their own.
-set(TANDEM_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/tandem)
+set(TANDEM_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR})
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
-install(DIRECTORY host shared minicl DESTINATION ${TANDEM_INCLUDE_DIR}
-  FILES_MATCHING PATTERN "*.h" PATTERN "*.def"
-  PATTERN host/opencl EXCLUDE PATTERN host/json_reader.h EXCLUDE
-  PATTERN host/scene_gltf_*.h EXCLUDE PATTERN host/scene_json_shapes.h EXCLUDE) # these need other libraries' headers; no interface does
+install(DIRECTORY host/include/tandem DESTINATION ${TANDEM_INCLUDE_DIR} FILES_MATCHING PATTERN "*.h")
 install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir})
 if(TARGET tandem_command)

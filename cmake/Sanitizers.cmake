@@ -9,7 +9,7 @@ set(TANDEM_OBJECTS_FROM "" CACHE PATH "Build folder without sanitizers, whose to
 # them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for all, 7 s so).
 set(same_kernels minicl/scalar_avx2.cpp minicl/backward.cpp minicl/reference.cpp minicl/lanes4.cpp minicl/lanes8.cpp minicl/lanes16.cpp)
 if(TANDEM_SANITIZE MATCHES address)
-  set_property(SOURCE host/scene_gltf_document.cpp host/scene_gltf_mesh.cpp APPEND PROPERTY COMPILE_OPTIONS "-fsanitize=alignment")
+  set_property(SOURCE host/io/gltf/document.cpp host/io/gltf/mesh.cpp APPEND PROPERTY COMPILE_OPTIONS "-fsanitize=alignment")
   set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS

@@ -15,10 +15,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "host/debug.h"
-#include "host/faults.h"
-#include "host/scene.h"
-#include "minicl/floating_point.h"
+#include "host/runtime/interface/debug.h"
+#include "host/runtime/interface/faults.h"
+#include <tandem/error.h>
+#include "host/runtime/interface/floating_point.h"
 #include "minicl/kernel_table.h"
 #include "minicl/reference_storage.h"
 #include "minicl/thread_sanitizer.h"

@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "host/backend.h"
+#include "host/runtime/interface/backend.h"
 
 namespace tandem::minicl {
 

@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-#include "host/kernel_list.h"
+#include "host/runtime/interface/kernel_list.h"
 
 namespace tandem::minicl {
 

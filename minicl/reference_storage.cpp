@@ -8,9 +8,9 @@
 #include <new>
 #include <unordered_map>
 
-#include "host/address_sanitizer.h"
-#include "host/faults.h"
-#include "host/round_to_float.h"
+#include "host/runtime/interface/address_sanitizer.h"
+#include "host/runtime/interface/faults.h"
+#include <tandem/round_to_float.h>
 
 namespace tandem::minicl {
 namespace {

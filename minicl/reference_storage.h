@@ -4,7 +4,7 @@
  * keeps full precision from step to step. */
 #pragma once
 
-#include "host/memory.h"
+#include "host/runtime/interface/storage.h"
 
 namespace tandem::minicl {
 

@@ -6,7 +6,7 @@
 #define TANDEM_SHARED_BODY_CODES_H
 
 /* SHAPE_OTHER: what body_convex says, where body_shape_pose says. SHAPE_TRIANGLE: one of a mesh, in the narrowphase alone. The others are
- * those of ShapeType in host/scene.h. */
+ * those of ShapeType in host/include/tandem/scene.h. */
 enum {
   SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2, SHAPE_CAPSULE = 3, SHAPE_CYLINDER = 4, SHAPE_HULL = 5, SHAPE_MESH = 6, SHAPE_OTHER = 7,
   SHAPE_COMPOUND = 8, SHAPE_TRIANGLE = 9

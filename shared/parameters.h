@@ -1,5 +1,5 @@
 /* parameters.h - the numbers of a step that are the same for every item.
- * Derived on the host by host/parameters.cpp from the settings of a run; plain 32-bit fields so that
+ * Derived on the host by host/scene/parameters.cpp from the settings of a run; plain 32-bit fields so that
  * every compiler lays them out alike. */
 #ifndef TANDEM_SHARED_PARAMETERS_H
 #define TANDEM_SHARED_PARAMETERS_H

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
 #include "tools/bench_batching.h"
 #include "tools/bench_broadphase.h"
 #include "tools/bench_narrowphase.h"

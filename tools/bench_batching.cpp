@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "host/batching/batcher.h"
-#include "host/layout.h"
-#include "host/scene_catalog.h"
+#include "host/pipeline/batching/batcher.h"
+#include "host/pipeline/layout.h"
+#include "host/catalog/catalog.h"
 #include "tools/progress.h"
 
 namespace tandem {

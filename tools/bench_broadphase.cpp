@@ -1,4 +1,5 @@
 /* bench_broadphase.cpp - see bench_broadphase.h. */
+#include "host/runtime/make_backend.h"
 #include "tools/bench_broadphase.h"
 
 #include <algorithm>

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "host/broadphases/broadphase.h"
+#include "host/pipeline/broadphases/broadphase.h"
 #include "tools/broadphase_inputs.h"
 #include "tools/measure.h"
 #include "tools/output.h"

@@ -14,8 +14,8 @@
 
 #include <fmt/format.h>
 
-#include "host/scene_builders.h"
-#include "host/step_launches.h"
+#include "host/catalog/builders.h"
+#include "host/pipeline/step_launches.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "tools/parallel.h"
 #include "tools/progress.h"

@@ -1,4 +1,5 @@
 /* bench_primitives.cpp - see bench_primitives.h. */
+#include "host/runtime/make_backend.h"
 #include "tools/bench_primitives.h"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "host/primitives.h"
-#include "host/recorder.h"
+#include "host/pipeline/primitives.h"
+#include "host/runtime/recorder.h"
 
 namespace tandem {
 namespace {

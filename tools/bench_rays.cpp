@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "host/random.h"
-#include "host/world.h"
+#include "host/base/random.h"
+#include "host/runtime/interface/kernel_list.h"
+#include <tandem/world.h>
 
 namespace tandem {
 namespace {

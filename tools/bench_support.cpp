@@ -7,8 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "host/scene_builders.h"
-#include "host/world.h"
+#include "host/catalog/builders.h"
+#include "host/runtime/interface/kernel_list.h"
+#include "host/runtime/memory.h"
+#include <tandem/world.h>
 #include "shared/narrowphase/hull_support.h"
 
 namespace tandem {

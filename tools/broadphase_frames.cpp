@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "host/body_buffers.h"
-#include "host/layout.h"
-#include "host/parameters.h"
-#include "host/recorder.h"
-#include "host/scene_counts.h"
-#include "minicl/floating_point.h"
+#include "host/scene/body_buffers.h"
+#include "host/pipeline/layout.h"
+#include "host/scene/parameters.h"
+#include "host/runtime/recorder.h"
+#include "host/pipeline/scene_counts.h"
+#include "host/runtime/interface/floating_point.h"
 
 namespace tandem {
 namespace {

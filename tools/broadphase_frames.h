@@ -10,7 +10,7 @@
 #include <array>
 #include <vector>
 
-#include "host/broadphases/broadphase.h"
+#include "host/pipeline/broadphases/broadphase.h"
 #include "tools/broadphase_inputs.h"
 
 namespace tandem {

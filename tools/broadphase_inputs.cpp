@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/body_buffers.h"
-#include "host/scene_builders.h"
-#include "host/settings.h"
+#include "host/scene/body_buffers.h"
+#include "host/catalog/builders.h"
+#include <tandem/settings.h>
 
 namespace tandem {
 namespace {

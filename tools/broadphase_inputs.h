@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "host/scene.h"
-#include "host/specialise.h"
+#include <tandem/scene.h>
+#include "host/scene/specialise.h"
 #include "shared/platform.h"
 
 namespace tandem {

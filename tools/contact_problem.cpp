@@ -7,8 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/contact_solver.h"
-#include "host/scene.h"
+#include "host/runtime/make_backend.h"
+#include "host/verify/contact_solver.h"
+#include <tandem/scene.h>
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 #include <oneapi/tbb/info.h>
 
-#include "host/opencl/device.h"
+#include "host/runtime/opencl/device.h"
 #include "minicl/kernel_table.h"
 #include "tools/command.h"
 #include "tools/output.h"

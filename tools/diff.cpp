@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/backend_list.h"
-#include "host/compare.h"
+#include "host/runtime/backend_list.h"
+#include "host/verify/compare.h"
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/progress.h"

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "host/output_file.h"
-#include "host/scene.h"
+#include "host/io/output_file.h"
+#include <tandem/scene.h>
 #include "tools/output.h"
 
 namespace tandem {

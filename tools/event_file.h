@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "host/output_file.h"
-#include "host/world.h"
+#include "host/io/output_file.h"
+#include <tandem/world.h>
 
 namespace tandem {
 

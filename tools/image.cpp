@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <png.h>
 
-#include "host/shape_bounds.h"
-#include "host/specialise.h"
+#include "host/scene/shape_bounds.h"
+#include "host/scene/specialise.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"
 

@@ -1,7 +1,7 @@
 /* later.cpp - commands of the contract that are not built yet, so that scripts get a clear answer. */
 #include <fmt/format.h>
 
-#include "host/scene.h"
+#include <tandem/scene.h>
 #include "tools/command.h"
 
 namespace tandem {

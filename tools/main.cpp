@@ -18,10 +18,10 @@
 
 #include <fmt/format.h>
 
-#include "host/out_of_memory.h"
-#include "host/printable.h"
-#include "host/output_file.h"
-#include "host/scene.h"
+#include "host/base/out_of_memory.h"
+#include "host/base/printable.h"
+#include "host/io/output_file.h"
+#include <tandem/scene.h>
 #include "minicl/worker_threads.h"
 #include "tools/command.h"
 #include "tools/failed_allocation.h"

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "host/runtime/interface/kernel_list.h"
+
 namespace tandem {
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/output_file.h"
+#include "host/io/output_file.h"
 
 namespace tandem {
 namespace {

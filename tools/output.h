@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
  * An empty path passes. */
 void check_writable(const std::string &option, const std::string &path);
 
-/* Whole or not at all (host/output_file.h); InputError if the disk will not take it. */
+/* Whole or not at all (host/io/output_file.h); InputError if the disk will not take it. */
 void write_file(const std::string &option, const std::string &path, std::string_view contents);
 
 /* The --json option's value: FILE, "-" for standard output, or empty for none. */

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "host/broadphases/broadphase.h"
-#include "host/broadphases/choice.h"
-#include "host/world.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/broadphases/choice.h"
+#include <tandem/world.h>
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
-#include "host/animation.h"
-#include "host/printable.h"
-#include "host/world.h"
+#include "host/io/animation.h"
+#include "host/base/printable.h"
+#include "host/geometry/geometry.h"
+#include "host/runtime/memory.h"
+#include <tandem/world.h>
 #include "tools/command.h"
 #include "tools/event_file.h"
 #include "tools/image.h"

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/input_file.h"
-#include "host/out_of_memory.h"
-#include "host/scene_catalog.h"
+#include "host/io/input_file.h"
+#include "host/base/out_of_memory.h"
+#include "host/catalog/catalog.h"
 
 namespace tandem {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "host/scene.h"
-#include "host/settings.h"
+#include <tandem/scene.h>
+#include <tandem/settings.h>
 #include "tools/distinct_files.h"
 
 namespace tandem {

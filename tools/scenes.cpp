@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tools/command.h"
 #include "tools/output.h"
 

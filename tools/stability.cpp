@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/backend_list.h"
-#include "host/input_file.h"
-#include "host/world.h"
+#include "host/runtime/backend_list.h"
+#include "host/io/input_file.h"
+#include <tandem/world.h>
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/parallel.h"

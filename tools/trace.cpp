@@ -3,6 +3,8 @@
 
 #include "tools/output.h"
 
+#include "host/runtime/interface/backend.h"
+
 namespace tandem {
 namespace {
 

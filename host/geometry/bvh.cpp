@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <numeric>
 
-#include "host/round_to_float.h"
+#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {

@@ -10,7 +10,7 @@
 #include "host/geometry/face_merger.h"
 #include "host/geometry/mass_properties.h"
 #include "host/geometry/quickhull.h"
-#include "host/round_to_float.h"
+#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {

@@ -12,7 +12,9 @@
 
 #include <span>
 
-#include "host/scene.h"
+#include <tandem/scene.h>
+
+#include <tandem/round_to_float.h>
 
 namespace tandem {
 
@@ -48,5 +50,7 @@ inline constexpr float longest_length = 1e9f;
 
 /* The same, and throws for the first with a coordinate beyond longest_length. */
 void require_within_reach(std::span<const Vec3> points, const char *what, const std::string &where);
+
+inline Vec3 rounded(const Point &p) { return {round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2])}; }
 
 } // namespace tandem

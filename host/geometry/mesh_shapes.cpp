@@ -1,9 +1,9 @@
-/* mesh_shapes.cpp - shapes made of many parts: meshes, fields of heights as meshes, compounds. Declared in host/scene.h. */
+/* mesh_shapes.cpp - shapes made of many parts: meshes, fields of heights as meshes, compounds. Declared in host/include/tandem/scene.h. */
 #include <cmath>
 #include <fmt/format.h>
 
 #include "host/geometry/triangle_mesh.h"
-#include "host/round_to_float.h"
+#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "host/geometry/rotation.h"
-#include "host/round_to_float.h"
+#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {

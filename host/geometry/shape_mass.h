@@ -10,7 +10,7 @@
  *       /  +  \     position + (0, h/2, 0) is the shape's origin.
  *      /___x___\    + origin of the shape, x centre of mass
  *
- * inertia_of and take_mass_properties of host/scene.h are defined here.
+ * inertia_of and take_mass_properties of host/include/tandem/scene.h are defined here.
  */
 #pragma once
 

@@ -1,7 +1,7 @@
 /* self_test.h - every operation that the kernels are allowed, on one set of inputs.
  *
  * Before an OpenCL device is trusted, the host runs this source over edge values, denormals, cancelling
- * and random numbers, and compares bits with the device's results (host/opencl/self_test.cpp,
+ * and random numbers, and compares bits with the device's results (host/runtime/opencl/self_test.cpp,
  * docs/exactness.md). What is not exercised here must not be used in shared code.
  *
  * Three numbers a, b, c and two words p, q an item give one row of results.

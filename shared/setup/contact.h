@@ -16,7 +16,7 @@
 /* Slower sliding than this counts as sticking, where the static coefficient holds. m/s */
 #define STICKING_SPEED R(0.01)
 
-/* Codes of the combination rules: Combine of host/scene.h. Of two rules the first in this order wins. */
+/* Codes of the combination rules: Combine of host/include/tandem/scene.h. Of two rules the first in this order wins. */
 SHARED real combined(natural rule_a, natural rule_b, real a, real b)
 {
   natural rule = choose(rule_a < rule_b, rule_a, rule_b);

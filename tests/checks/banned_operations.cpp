@@ -52,7 +52,7 @@ const std::vector<std::string> inexact_functions = {"sin",  "cos",  "tan",   "si
                                                     "erf",  "erfc", "tgamma", "lgamma", "asinh", "acosh", "atanh"};
 
 /* They measure or draw what was simulated, and nothing is simulated with what they find. */
-const std::vector<std::string> measuring_files = {"host/metrics.cpp", "host/animation_geometry.cpp"};
+const std::vector<std::string> measuring_files = {"host/verify/metrics.cpp", "host/io/animation_geometry.cpp"};
 
 /* Families: any width, rounding mode or address space of them. */
 const std::vector<std::string> banned_families = {
@@ -180,7 +180,7 @@ void find_host_functions(const std::string &file, const std::string &text, std::
 {
   if (std::find(measuring_files.begin(), measuring_files.end(), file) == measuring_files.end())
     find_names(file, text, hits, [&](const std::string &name, bool called) { return called && is_one_of(inexact_functions, name); });
-  if (file == "host/round_to_float.h") return;
+  if (file == "host/include/tandem/round_to_float.h") return;
   find_names(file, text, hits, [&](const std::string &name, bool called) { return called && name == "float"; });
   const std::string code = blanked(text, Comments::c_style, true), cast = "static_cast<float>";
   for (size_t at = code.find(cast); at != std::string::npos; at = code.find(cast, at + 1)) hits.push_back({file, line_of(code, at), cast});
@@ -283,7 +283,7 @@ void test_host_functions(const fs::path &root)
   expect(scan_text(root, file, "return {float(x), float (y)};"), {{file, 1, "float"}, {file, 1, "float"}}, "a functional cast");
   expect(scan_text(root, file, "p =\n static_cast<float>(x);"), {{file, 2, "static_cast<float>"}}, "a cast");
   expect(scan_text(root, file, "float y = round_to_float(x); sizeof(float); std::sqrt(x); parse<float>(text); // float(x), sin(x)"), {}, "harmless host code");
-  expect(scan_text(root, "host/metrics.cpp", "double y = std::pow(x, 2);"), {}, "a measurement");
+  expect(scan_text(root, "host/verify/metrics.cpp", "double y = std::pow(x, 2);"), {}, "a measurement");
   expect(scan_text(root, "tools/planted.cpp", "double y = std::pow(x, 2), z = float(x);"), {}, "tools");
 }
 

@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <cstring>
 
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/catalog/catalog.h"
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
+#include <tandem/world.h>
 
 using namespace tandem;
 

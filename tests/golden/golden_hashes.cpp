@@ -16,9 +16,9 @@
 
 #include <fmt/format.h>
 
-#include "host/hash.h"
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/base/hash.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
 
 namespace {
 

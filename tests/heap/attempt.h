@@ -8,7 +8,7 @@
 #include <functional>
 #include <new>
 
-#include "host/out_of_memory.h"
+#include "host/base/out_of_memory.h"
 #include "tests/catch.h"
 #include "tests/heap/allocations.h"
 

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "host/animation.h"
-#include "host/contact_problem_file.h"
-#include "host/scene_catalog.h"
-#include "host/scene_json.h"
-#include "host/world.h"
+#include "host/io/animation.h"
+#include "host/io/contact_problem_file.h"
+#include "host/catalog/catalog.h"
+#include "host/io/json/scene.h"
+#include <tandem/world.h>
 #include "tests/heap/attempt.h"
-#include "tests/host/gltf_text.h"
+#include "tests/host/io/gltf/gltf_text.h"
 #include "tests/tools/command_line.h"
 #include "tools/event_file.h"
 #include "tools/image.h"

@@ -15,7 +15,7 @@
 #include <tbb/info.h>
 
 #include "tests/heap/attempt.h"
-#include "tests/host/fault_scenes.h"
+#include "tests/host/runtime/fault_scenes.h"
 #include "tools/parallel.h"
 
 using namespace tandem;

@@ -7,10 +7,10 @@
 #include <thread>
 #include <vector>
 
-#include "host/backend.h"
-#include "host/debug.h"
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/runtime/make_backend.h"
+#include "host/runtime/interface/debug.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
 #include "minicl/dispatcher.h"
 
 using namespace tandem;

@@ -1,5 +1,6 @@
 /* Contact problems give the same bits on every backend: each residual of the history and every impulse. */
-#include "host/contact_solver.h"
+#include "host/runtime/make_backend.h"
+#include "host/verify/contact_solver.h"
 #include "shared/problem/sweep.h"
 #include "tests/parity/parity.h"
 

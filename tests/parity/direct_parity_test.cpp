@@ -1,6 +1,8 @@
 /* The solver direct, whose islands are solved by the host wherever it is placed: the bits are those of the serial backend. */
-#include "host/scene.h"
+#include <tandem/scene.h>
 #include "tests/parity/parity.h"
+
+#include "host/runtime/memory.h"
 
 using namespace tandem;
 using namespace tandem::parity;

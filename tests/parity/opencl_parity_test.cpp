@@ -3,7 +3,7 @@
  * It compiles every kernel again for each set of features and each group size, which takes far longer than the steps. So all
  * scenes share the build of all features here; specialised builds are for specialised_test.cpp.
  */
-#include "tests/host/opencl_device.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "host/compare.h"
-#include "host/random.h"
-#include "host/scene_catalog.h"
+#include "host/verify/compare.h"
+#include "host/base/random.h"
+#include "host/catalog/catalog.h"
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
-#include "tests/host/pocl.h"
+#include "tests/host/runtime/opencl/pocl.h"
 
 namespace tandem::parity {
 

@@ -1,5 +1,5 @@
 /* Any kernel runs on any backend in any frame: buffers travel to where they are read, and the bits stay. */
-#include "host/random.h"
+#include "host/base/random.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

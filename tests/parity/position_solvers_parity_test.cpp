@@ -1,5 +1,5 @@
 /* The solvers xpbd and avbd: one result from every order of items, number of threads, width, and from OpenCL. */
-#include "host/solvers/solvers.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

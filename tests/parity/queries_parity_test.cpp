@@ -1,7 +1,7 @@
 /* Rays and sweeps give the same bits on every backend, whatever structure of bodies they walk. */
 #include <cstring>
 
-#include "host/random.h"
+#include "host/base/random.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

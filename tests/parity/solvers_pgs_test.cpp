@@ -1,5 +1,5 @@
 /* The solvers pgs and nncg, and rolling friction under every solver that knows it, give the serial backend's bits. */
-#include "host/solvers/solvers.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

@@ -3,7 +3,8 @@
 
 #include <set>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
+#include "host/runtime/memory.h"
 #include "shared/records.h"
 #include "tests/physics/physics.h"
 

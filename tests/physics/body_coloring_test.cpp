@@ -5,8 +5,8 @@
 #include <numeric>
 #include <set>
 
-#include "host/scene_catalog.h"
-#include "host/solvers/solvers.h"
+#include "host/catalog/catalog.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "shared/batching/coloring.h"
 #include "tests/physics/physics.h"
 

@@ -3,8 +3,9 @@
 
 #include <set>
 
-#include "host/broadphases/choice.h"
-#include "host/scene_catalog.h"
+#include "host/pipeline/broadphases/choice.h"
+#include "host/catalog/catalog.h"
+#include "host/runtime/memory.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;

@@ -1,7 +1,7 @@
 /* Continuous collision: what is fast stops at what is thin, and what misses is left alone. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;

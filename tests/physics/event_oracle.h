@@ -10,6 +10,9 @@
 #include "shared/platform.h"
 #include "tests/physics/physics.h"
 
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
+
 namespace tandem::physics_tests {
 
 class EventOracle {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/event_oracle.h"
 #include "tests/physics/solids.h"
 

@@ -1,14 +1,14 @@
 /* The scenes that come with the glTF physics extensions do what their tables say: one row a scene, closed forms where there are any.
  *
- * They lie beside the source, not in it (tests/host/gltf_scenes.h); without them the tests are skipped. */
+ * They lie beside the source, not in it (tests/host/io/gltf/gltf_scenes.h); without them the tests are skipped. */
 #include "tests/catch.h"
 
 #include <fmt/format.h>
 #include <map>
 
 #include "host/geometry/convex_hull.h"
-#include "host/scene_gltf.h"
-#include "tests/host/gltf_scenes.h"
+#include "host/io/gltf/scene.h"
+#include "tests/host/io/gltf/gltf_scenes.h"
 #include "tests/parity/parity.h"
 #include "tests/physics/solids.h"
 

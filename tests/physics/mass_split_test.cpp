@@ -4,6 +4,8 @@
 
 #include "tests/physics/laden.h"
 
+#include "host/runtime/interface/kernel_list.h"
+
 using namespace tandem;
 using namespace tandem::physics_tests;
 

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include "host/broadphases/broadphase.h"
-#include "host/layout.h"
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/layout.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
 #include "tests/physics/physics.h"
 
 using namespace tandem;

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "host/random.h"
-#include "host/specialise.h"
-#include "host/world.h"
+#include "host/base/random.h"
+#include "host/scene/specialise.h"
+#include <tandem/world.h>
 
 namespace tandem::physics_tests {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;

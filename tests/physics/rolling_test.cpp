@@ -7,6 +7,8 @@
 
 #include "tests/physics/physics.h"
 
+#include "host/runtime/memory.h"
+
 using namespace tandem;
 using namespace tandem::physics_tests;
 

@@ -1,7 +1,7 @@
 /* The solver direct: against a brute-force oracle, where the soft step gives way, and in the closed forms of every solver. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/contact_oracle.h"
 
 using namespace tandem;

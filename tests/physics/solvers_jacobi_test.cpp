@@ -1,8 +1,8 @@
 /* The solver jacobi: what any solver must do, and that more iterations come nearer to the solution. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
-#include "host/solvers/solvers.h"
+#include "host/catalog/catalog.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;

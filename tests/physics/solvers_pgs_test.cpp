@@ -1,8 +1,8 @@
 /* The solvers pgs and nncg: what any solver must do, and that conjugate gradients halve the sweeps. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
-#include "host/solvers/solvers.h"
+#include "host/catalog/catalog.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "shared/platform.h"
 #include "tests/physics/physics.h"
 

@@ -1,8 +1,8 @@
 /* The solvers that work on positions, xpbd and avbd, each held to the same table of physics. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
-#include "host/solvers/solvers.h"
+#include "host/catalog/catalog.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "tests/physics/laden.h"
 
 using namespace tandem;

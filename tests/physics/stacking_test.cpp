@@ -1,7 +1,7 @@
 /* Resting contact: stacks stand, piles do not sink, and that far from the origin as well. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/physics.h"
 #include "tests/physics/solids.h"
 

@@ -9,8 +9,9 @@
 #include <string>
 #include <thread>
 
-#include "host/scene_catalog.h"
-#include "host/world.h"
+#include "host/runtime/make_backend.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
 
 using namespace tandem;
 

@@ -1,6 +1,7 @@
 /* bench_broadphase_test.cpp - the inputs hold what they promise, pairs are those that two loops on the host count, and a broadphase that
  * loses one is found out. */
 #ifdef TANDEM_COMMAND
+#include "host/runtime/make_backend.h"
 #include "tests/catch.h"
 
 #include "tools/bench_broadphase.h"

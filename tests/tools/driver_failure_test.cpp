@@ -1,6 +1,6 @@
 /* driver_failure_test.cpp - OpenCL drivers that abort, crash, end the process or hang when they are asked for their devices: the command
  * says so in one line, and all that needs no OpenCL goes on. */
-#include "host/opencl/probe.h"
+#include "host/runtime/opencl/probe.h"
 #include "tests/catch.h"
 
 #include <csignal>

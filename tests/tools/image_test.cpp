@@ -1,7 +1,7 @@
 /* Pictures by ray casting: what stands where in the picture, light and shadow, the same bytes on every backend. */
 #include "tests/catch.h"
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tests/physics/physics.h"
 #include "tools/image.h"
 

@@ -6,8 +6,8 @@
 #include <regex>
 #include <string>
 
-#include "host/faults.h"
-#include "host/out_of_memory.h"
+#include "host/runtime/interface/faults.h"
+#include "host/base/out_of_memory.h"
 #include "tools/stability/cases.h"
 
 using command_line::Result;

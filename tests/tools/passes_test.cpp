@@ -10,7 +10,7 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
-#include "host/world.h"
+#include <tandem/world.h>
 #include "tools/stability/passes.h"
 
 using namespace tandem;

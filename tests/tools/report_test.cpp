@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "host/random.h"
-#include "host/scene_catalog.h"
+#include "host/base/random.h"
+#include "host/catalog/catalog.h"
 #include "tools/report/collect.h"
 
 using namespace tandem;

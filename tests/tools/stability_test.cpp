@@ -10,8 +10,8 @@
 #include <map>
 #include <set>
 
-#include "host/scene_catalog.h"
-#include "host/scene_catalog_structures.h"
+#include "host/catalog/catalog.h"
+#include "host/catalog/structures.h"
 #include "tools/stability/batch.h"
 #include "tools/stability/cases.h"
 #include "tools/stability/counts.h"

@@ -15,7 +15,8 @@
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 
-#include "host/scene_catalog.h"
+#include "host/runtime/make_backend.h"
+#include "host/catalog/catalog.h"
 #include "tools/broadphase_frames.h"
 #include "tools/measure.h"
 #include "tools/output.h"

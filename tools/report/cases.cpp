@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene.h"
+#include <tandem/scene.h>
 
 namespace tandem {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/settings.h"
+#include <tandem/settings.h>
 
 namespace tandem {
 

@@ -1,4 +1,5 @@
 /* collect.cpp - see collect.h. */
+#include "host/runtime/make_backend.h"
 #include "tools/report/collect.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <tbb/info.h>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tools/parallel.h"
 #include "tools/progress.h"
 #include "tools/report/contact_curves.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/rounding.h"
+#include "host/verify/rounding.h"
 #include "tools/report/equal_error.h"
 #include "tools/report/experiment.h"
 #include "tools/report/pareto.h"

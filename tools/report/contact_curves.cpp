@@ -1,4 +1,5 @@
 /* contact_curves.cpp - see contact_curves.h. */
+#include "host/runtime/make_backend.h"
 #include "tools/report/contact_curves.h"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host/contact_solver.h"
+#include "host/verify/contact_solver.h"
 
 namespace tandem {
 namespace {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/backend_list.h"
-#include "host/contact_problem_file.h"
+#include "host/runtime/backend_list.h"
+#include "host/io/contact_problem_file.h"
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/report/contact_curves.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene_catalog_closed_forms.h"
+#include "host/catalog/closed_forms.h"
 #include "tools/parallel.h"
 
 namespace tandem {

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/metrics.h"
+#include "host/verify/metrics.h"
 #include "tools/report/cases.h"
 
 namespace tandem {

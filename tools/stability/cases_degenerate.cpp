@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tools/stability/cases.h"
 
 namespace tandem::stability {

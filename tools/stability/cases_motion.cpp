@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "host/random.h"
+#include "host/base/random.h"
 #include "tools/stability/cases.h"
 
 namespace tandem::stability {

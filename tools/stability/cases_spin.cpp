@@ -2,7 +2,7 @@
 #include <cmath>
 #include <memory>
 
-#include "host/scene_catalog_structures.h"
+#include "host/catalog/structures.h"
 #include "tools/stability/cases.h"
 #include "tools/stability/flip.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "host/scene_catalog.h"
+#include "host/catalog/catalog.h"
 #include "tools/stability/cases.h"
 
 namespace tandem::stability {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <memory>
 
-#include "host/specialise.h"
+#include "host/scene/specialise.h"
 #include "tools/stability/flip.h"
 
 namespace tandem::stability {

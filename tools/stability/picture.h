@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/world.h"
+#include <tandem/world.h>
 
 namespace tandem::stability {
 

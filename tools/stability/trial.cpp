@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "host/out_of_memory.h"
+#include "host/base/out_of_memory.h"
 
 namespace tandem::stability {
 namespace {

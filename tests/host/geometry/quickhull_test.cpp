@@ -5,7 +5,7 @@
 #include <set>
 
 #include "host/geometry/face_merger.h"
-#include "host/random.h"
+#include "host/base/random.h"
 #include "tests/catch.h"
 
 using namespace tandem;

@@ -1,6 +1,6 @@
 /* shape_mass_test.cpp - bodies stand in their shape's centre of mass and principal axes, by sums over volume elements in the world. */
 #include "host/geometry/shape_mass.h"
-#include "host/random.h"
+#include "host/base/random.h"
 #include "tests/catch.h"
 
 #include <Eigen/Dense>

@@ -11,7 +11,7 @@
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/geometry/vector.h"
-#include "host/random.h"
+#include "host/base/random.h"
 
 namespace tandem::geometry_test {
 

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "host/scene.h"
-#include "host/world.h"
+#include <tandem/scene.h>
+#include <tandem/world.h>
 
 int main()
 {

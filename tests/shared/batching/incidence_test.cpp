@@ -1,9 +1,10 @@
 /* Lists of the constraints of each body against lists made by hand, for random graphs with and without hubs. */
+#include "host/runtime/make_backend.h"
 #include "tests/catch.h"
 
-#include "host/layout.h"
-#include "host/incidence.h"
-#include "host/random.h"
+#include "host/pipeline/layout.h"
+#include "host/pipeline/incidence.h"
+#include "host/base/random.h"
 #include "shared/records.h"
 #include "tests/parity/parity.h"
 

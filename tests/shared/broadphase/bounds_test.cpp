@@ -3,7 +3,9 @@
 #include "tests/catch.h"
 
 #include "shared/platform.h"
-#include "tests/host/shape_points.h"
+#include "tests/host/scene/shape_points.h"
+
+#include "host/runtime/memory.h"
 
 using namespace tandem;
 using namespace tandem::shape_points;

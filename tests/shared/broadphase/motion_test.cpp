@@ -1,14 +1,15 @@
 /* Broadphases that keep something from step to step find the oracle's pairs in every one of 200: boxes that drift, race, jump across the
  * world, stand and start again, grow and shrink, leave the numbers; also where a step is run again, and where queries between two steps
  * took the hierarchy for themselves. */
+#include "host/runtime/make_backend.h"
 #include "tests/shared/broadphase/soup.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "host/opencl/device_backend.h"
-#include "tests/host/opencl_device.h"
+#include "host/runtime/opencl/device_backend.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

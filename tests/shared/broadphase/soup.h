@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "host/broadphases/broadphase.h"
-#include "host/layout.h"
-#include "host/parameters.h"
-#include "host/random.h"
-#include "host/scene_counts.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/layout.h"
+#include "host/scene/parameters.h"
+#include "host/base/random.h"
+#include "host/pipeline/scene_counts.h"
 #include "shared/body_codes.h"
 #include "shared/features.h"
 #include "shared/platform.h"

@@ -1,11 +1,12 @@
 /* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over six decades, in one
  * place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for pairs. */
+#include "host/runtime/make_backend.h"
 #include "tests/shared/broadphase/soup.h"
 
 #include <cmath>
 
-#include "tests/host/opencl_device.h"
-#include "host/opencl/device_backend.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
+#include "host/runtime/opencl/device_backend.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "host/random.h"
+#include "host/base/random.h"
 #include "shared/events/list.h"
 
 using tandem::Random;

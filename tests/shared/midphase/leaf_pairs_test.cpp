@@ -6,6 +6,7 @@
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
+#include "host/runtime/memory.h"
 #include "shared/platform.h"
 #include "tests/physics/solids.h"
 

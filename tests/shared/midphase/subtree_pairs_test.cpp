@@ -5,6 +5,8 @@
 #include "shared/midphase/subtree_pairs.h"
 #include "tests/physics/solids.h"
 
+#include "host/runtime/memory.h"
+
 using namespace tandem;
 using namespace tandem::physics_tests;
 

@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <vector>
 
-#include "host/hull_strips.h"
+#include "host/scene/hull_strips.h"
 
 /* Types of memory are wider too, so all of it lives in a namespace of its own, as in minicl/reference.cpp. */
 #define TANDEM_REFERENCE

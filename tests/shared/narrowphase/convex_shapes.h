@@ -15,7 +15,7 @@
 #include <set>
 #include <vector>
 
-#include "host/hull_strips.h"
+#include "host/scene/hull_strips.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "host/launcher.h"
-#include "host/opencl/device_backend.h"
-#include "host/primitives.h"
+#include "host/runtime/make_backend.h"
+#include "host/runtime/launcher.h"
+#include "host/runtime/opencl/device_backend.h"
+#include "host/pipeline/primitives.h"
 #include "tests/catch.h"
-#include "tests/host/opencl_device.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 
 namespace tandem {
 

@@ -1,6 +1,7 @@
 /* Radix sort against std::stable_sort: keys of 32 and 64 bits, with and without values, any range of bits. */
 #include <algorithm>
 
+#include "host/runtime/make_backend.h"
 #include "tests/shared/parallel/primitives.h"
 
 using namespace tandem;

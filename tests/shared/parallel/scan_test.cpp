@@ -3,6 +3,7 @@
 #include <bit>
 #include <numeric>
 
+#include "host/runtime/make_backend.h"
 #include "tests/shared/parallel/primitives.h"
 
 using namespace tandem;

@@ -1,8 +1,0 @@
-/* sequential.cpp - one item, in the order of the list: the oracle of the others (shared/batching/coloring.h). */
-#include "host/batching/batcher.h"
-
-namespace tandem {
-
-void batch_in_sequence(StepLaunches &step) { step.run(Kernel::color_in_order); }
-
-} // namespace tandem

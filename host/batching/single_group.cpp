@@ -1,8 +1,0 @@
-/* single_group.cpp - the talks' naive batching: one work-group, the batches of the oracle (shared/batching/single_group.h). */
-#include "host/batching/batcher.h"
-
-namespace tandem {
-
-void batch_in_single_group(StepLaunches &step) { step.run(Kernel::color_in_group, {step.plan().rounds}); }
-
-} // namespace tandem

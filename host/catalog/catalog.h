@@ -1,0 +1,60 @@
+/* scene_catalog.h - the scenes that need no file: `box-grid:nx=20,ny=20,nz=20`.
+ *
+ * One row per scene: name, description, typed parameters with default and range, and the function
+ * that builds it. The command's listing, the parser's error messages and the tests read the same rows.
+ * All scenes stand on a ground with its top at y = 0, are deterministic (seeds, host/base/random.h), and
+ * start without deep overlaps.
+ */
+#pragma once
+
+#include "host/io/input_file.h"
+#include <tandem/scene.h>
+
+#include <map>
+#include <span>
+#include <string>
+
+namespace tandem {
+
+struct SceneParameter {
+  enum class Type { integer, real };
+  const char *name;
+  Type type;
+  double default_value, minimum, maximum; /* range inclusive */
+  const char *description;
+};
+
+/* Values of all parameters of a scene, by name; those not given have their defaults. */
+using SceneValues = std::map<std::string, double, std::less<>>;
+
+struct BuiltInScene {
+  const char *name;
+  const char *description;
+  std::vector<SceneParameter> parameters;
+  uint64_t (*body_count)(const SceneValues &);
+  Scene (*build)(const SceneValues &);
+};
+
+/* More bodies than this are refused before any memory is taken. */
+inline constexpr uint64_t most_bodies = 4'000'000;
+
+std::span<const BuiltInScene> built_in_scenes();
+
+/* A built-in scene with values for all its parameters. */
+struct SceneSpec {
+  const BuiltInScene *scene;
+  SceneValues values;
+};
+
+/* Parses `name` or `name:key=value,key=value`. Throws InputError that lists what exists: unknown
+ * scene, unknown or repeated parameter, value malformed or out of range, too many bodies. */
+SceneSpec parse_scene_spec(const std::string &text);
+
+/* Builds and validates; Scene::name is the full specification, with all parameters. */
+Scene build_scene(const SceneSpec &spec);
+
+/* What the command's SCENE argument means: a path that ends in .json, .gltf or .glb is a file, all
+ * else a built-in scene. Throws InputError. */
+Scene load_scene(const std::string &spec_or_path, OutsideFiles outside = OutsideFiles::refused);
+
+} // namespace tandem

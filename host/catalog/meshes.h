@@ -1,0 +1,12 @@
+/* scene_catalog_meshes.h - built-in scenes of meshes and compounds. */
+#pragma once
+
+#include <vector>
+
+#include "host/catalog/catalog.h"
+
+namespace tandem {
+
+std::vector<BuiltInScene> mesh_scenes();
+
+} // namespace tandem

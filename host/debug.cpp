@@ -1,8 +1,0 @@
-/* debug.cpp - see debug.h. */
-#include "host/debug.h"
-
-namespace tandem {
-
-constinit thread_local volatile uint64_t step_of_launch = 0;
-
-} // namespace tandem

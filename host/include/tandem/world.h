@@ -1,0 +1,144 @@
+/* world.h - a scene being simulated: the library's front door.
+ *
+ *   World world(load_scene("box-grid:nx=8,ny=8,nz=8"), Settings{}, Placement{"cl"});
+ *   for (int i = 0; i < 60; ++i) world.step();
+ *   std::vector<BodyState> bodies = world.bodies();
+ *
+ * A step either happens whole or not at all: overflow grows the buffers and runs the step again, a
+ * non-finite body is quarantined and named (design section 7).
+ */
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <tandem/events.h>
+#include <tandem/queries.h>
+#include <tandem/scene.h>
+#include <tandem/settings.h>
+
+namespace tandem {
+
+/* What runs inside: host/runtime/interface/ says what they are, for those who compare, profile or extend the pipeline. */
+enum class Kernel : uint16_t;
+class Backend;
+class Memory;
+struct Launch;
+
+struct BodyState {
+  Point position;
+  Quat orientation;
+  Vec3 linear_velocity;
+  Vec3 angular_velocity;
+};
+
+/* The same as precise as it is known: in double where everything runs on the reference backend. */
+struct PreciseBodyState {
+  Point position;
+  std::array<double, 4> orientation;
+  std::array<double, 3> linear_velocity, angular_velocity;
+};
+
+/* What is known after a step. Penetration is over the contact points of the step's collision
+ * detection: metres, positive when shapes overlap; touching ahead of contact counts as 0. */
+struct Statistics {
+  uint64_t steps = 0;
+  uint32_t pairs = 0;    /* overlapping bounds */
+  uint32_t contacts = 0; /* contact points */
+  uint32_t manifolds = 0; /* touching pairs */
+  uint32_t colors = 0;
+  double max_penetration = 0;
+  double mean_penetration = 0;
+  double kinetic_energy = 0; /* J, linear and angular */
+  uint32_t nonfinite = 0;    /* bodies quarantined so far */
+  uint32_t overflow = 0;     /* steps that ran again with larger buffers */
+  /* Of the last step, with the solver `direct` only: */
+  uint32_t direct_islands = 0; /* islands it solved */
+  uint32_t direct_left = 0;    /* touching pairs in islands too large for it, left to the iterative rows */
+  uint32_t direct_stalled = 0; /* solves, over the passes of the step, that did not reach their tolerance */
+};
+
+/* Time of one kernel or stage over the steps since the last call. */
+struct KernelTime {
+  Kernel kernel;
+  std::string backend;
+  double milliseconds; /* total */
+  uint64_t launches;
+};
+
+class World {
+public:
+  World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
+  ~World();
+
+  /* Advances by settings.step. std::runtime_error when a device fails, memory runs out (OutOfMemory: what was wanted, and for how many
+   * bodies and pairs) or more pairs are found than Settings::max_pairs: the state is then that before the step, and the world goes on from
+   * there as if there had been no attempt. Until a step succeeds there are no events and no figures of contacts. */
+  void step();
+
+  /* Moves kernels to other backends from the next step on; what follows keeps its bits. Buffers travel when they are first
+   * needed there. InputError or a device's std::runtime_error leave the placement as it was. */
+  void place(const Placement &placement);
+
+  const Scene &scene() const;
+  const Settings &settings() const; /* with the broadphase that `auto` chose */
+
+  std::vector<BodyState> bodies();                     /* in the order of Scene::bodies */
+  std::vector<PreciseBodyState> precise_bodies();
+  void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
+  /* As set_body, but unchecked: for tests of what happens to a NaN. */
+  void set_body_unchecked(uint32_t body, const BodyState &state);
+
+  /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with larger buffers
+   * tells them once. InputError without Settings::events. */
+  std::vector<ContactEvent> contact_events();
+  /* Of the last step, sorted by (a, b); none before the first. InputError without Settings::pair_events. */
+  std::vector<PairEvent> pair_events();
+  /* Queries of the present state, by the batch, where the stage `queries` is placed (sweeps of shapes: `sweeps`); they change nothing.
+   * Answers in the order of the questions, with the same bits on every backend. InputError as check_rays, check_boxes, check_sweep. */
+  std::vector<RayHit> cast_rays(std::span<const Ray> rays);
+  /* Whether each hits anything at all: cheaper, as it stops at the first body that it finds. */
+  std::vector<bool> find_blocked_rays(std::span<const Ray> rays);
+  /* Every body that each hits, sorted by (fraction, body). */
+  std::vector<std::vector<RayHit>> cast_rays_through(std::span<const Ray> rays);
+  /* Every body whose box a box touches, where it stands or on its way; sorted by (fraction, body). */
+  std::vector<std::vector<BoxHit>> sweep_boxes(std::span<const QueryBox> boxes);
+  /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
+  std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter = {});
+
+  Statistics statistics();
+  uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */
+  uint64_t body_hash();  /* poses and velocities alone */
+  const std::vector<Quarantine> &quarantined() const;
+  const std::optional<BatchFault> &batch_fault() const; /* the first so far; only with Settings::check */
+
+  /* Waits for the devices, so that a clock read after it is honest. */
+  void finish();
+  void set_profiling(bool on);
+  std::vector<KernelTime> take_kernel_times();
+
+  /* The mask of FEATURE_ bits in use, and the kernels, buffers and backends that follow from it. */
+  uint32_t features() const;
+  std::vector<Kernel> kernels() const;
+  Memory &memory();
+  Backend &backend_of(Kernel kernel);
+  double build_milliseconds() const;
+
+  /* Called after every launch of a step, in order, when set: the comparison of backends hangs here. */
+  using Observer = std::function<void(const Launch &)>;
+  void set_observer(Observer observer);
+  /* Body index of the scene for an index of the body buffers (large bodies come first there). */
+  uint32_t scene_body(uint32_t buffer_index) const;
+
+private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace tandem

@@ -1,0 +1,64 @@
+/* scene_gltf_body.h - from the nodes of one rigid body to a body of the scene.
+ *
+ *   colliders                     the body's shape
+ *   one                           it, where its node is
+ *   several                       a compound of them: each a child, with material and filter of its own
+ *   none                          a ball that meets nothing: the motion goes on
+ *
+ * Triggers likewise, which have no material.
+ *
+ * Not a public header.
+ */
+#pragma once
+
+#include "host/io/gltf/filters.h"
+#include "host/io/gltf/shapes.h"
+#include "host/io/gltf/transform.h"
+
+namespace tandem {
+
+struct PlacedNode {
+  int node;
+  Transform world;
+};
+
+struct BodyNodes {
+  PlacedNode body; /* the one with the motion, or the only collider or trigger, or the one that lists triggers */
+  bool moves;
+  bool trigger = false; /* then `colliders` are triggers */
+  std::vector<PlacedNode> colliders = {};
+  std::vector<PlacedNode> carried = {}; /* triggers below the motion */
+};
+
+class GltfBodies {
+public:
+  explicit GltfBodies(const GltfDocument &document);
+  GltfBodies(const GltfBodies &) = delete;
+  void add(const BodyNodes &nodes);
+  Scene take() { return std::move(scene_); }
+
+private:
+  /* What a collider says, and where it stands in the world. */
+  struct Collider {
+    Shape shape;
+    Point position{};
+    std::array<double, 4> orientation{0, 0, 0, 1};
+    uint32_t material = 0;
+    GltfFilter filter;
+  };
+  Collider read_collider(const PlacedNode &at, bool trigger);
+  uint32_t read_material(const JsonValue &collider) const;
+  GltfFilter read_filter(const JsonValue &collider) const;
+  void place_alone(const BodyNodes &nodes, Body &body);
+  void place_together(const BodyNodes &nodes, Body &body);
+  void place_ghost(const BodyNodes &nodes, Body &body);
+  uint32_t add_shape(const Shape &shape);
+
+  const GltfDocument &document_;
+  Scene scene_;
+  GltfShapes shapes_;
+  std::vector<GltfFilter> filters_;
+  std::map<std::string, uint32_t> known_shapes_;
+};
+
+} // namespace tandem

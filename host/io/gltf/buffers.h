@@ -1,0 +1,40 @@
+/* scene_gltf_buffers.h - the numbers that glTF accessors stand for. Buffers are read when a collider asks for them: what only renders may
+ * be missing. Not a public header. */
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include "host/io/gltf/document.h"
+
+namespace tandem {
+
+/* Elements of an accessor within its buffer. */
+struct GltfElements {
+  tinygltf::Accessor accessor;
+  const char *bytes = nullptr;
+  size_t count = 0, stride = 0;
+
+  /* Whole numbers of normalized accessors stand for 0 … 1 or -1 … 1 (KHR_mesh_quantization). */
+  double at(size_t element, size_t component = 0) const;
+};
+
+class GltfBuffers {
+public:
+  explicit GltfBuffers(const GltfDocument &document) : document_(document) {}
+  GltfBuffers(const GltfBuffers &) = delete;
+
+  /* `asks`, a geometry of a collider, begins the complaints. */
+  GltfElements elements_of(uint32_t accessor, const JsonValue &asks);
+
+private:
+  const std::string &buffer(size_t index, const JsonValue &view, const JsonValue &asks);
+  std::string read_buffer(const JsonValue &json, size_t index, const JsonValue &view) const;
+
+  const GltfDocument &document_;
+  std::map<size_t, std::string> buffers_;
+};
+
+/* An item of one of the document's lists; complaints about it begin with `where`, the place of what asks for it. */
+JsonValue gltf_item(const GltfDocument &document, const char *list, size_t index, const std::string &where);
+
+} // namespace tandem

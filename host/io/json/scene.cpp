@@ -1,0 +1,231 @@
+/* scene_json.cpp - one list of fields per record, from which both the reader and the writer follow. */
+#include "host/io/json/scene.h"
+
+#include "host/geometry/shape_mass.h"
+#include "host/io/json/numbers.h"
+#include "host/io/json/reader.h"
+#include "host/io/output_file.h"
+#include <tandem/round_to_float.h>
+#include "host/io/json/shapes.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace tandem {
+namespace {
+
+using tandem::written; /* beside those of this file */
+
+constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
+constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
+
+std::span<const char *const> names_of(Motion) { return motion_names; }
+std::span<const char *const> names_of(Combine) { return combine_names; }
+
+template <typename Field> void each_field(const Material *, Field &&field)
+{
+  field("name", &Material::name);
+  field("static_friction", &Material::static_friction);
+  field("dynamic_friction", &Material::dynamic_friction);
+  field("restitution", &Material::restitution);
+  field("rolling_friction", &Material::rolling_friction);
+  field("spinning_friction", &Material::spinning_friction);
+  field("friction_combine", &Material::friction_combine);
+  field("restitution_combine", &Material::restitution_combine);
+}
+
+template <typename Field> void each_field(const Body *, Field &&field)
+{
+  field("name", &Body::name);
+  field("motion", &Body::motion);
+  field("shape", &Body::shape);
+  field("material", &Body::material);
+  field("position", &Body::position);
+  field("orientation", &Body::orientation);
+  field("shape_position", &Body::shape_position);
+  field("shape_orientation", &Body::shape_orientation);
+  field("linear_velocity", &Body::linear_velocity);
+  field("angular_velocity", &Body::angular_velocity);
+  field("mass", &Body::mass);
+  field("inertia", &Body::inertia);
+  field("infinite_inertia", &Body::infinite_inertia);
+  field("gravity_factor", &Body::gravity_factor);
+  field("linear_damping", &Body::linear_damping);
+  field("angular_damping", &Body::angular_damping);
+  field("filter_group", &Body::filter_group);
+  field("filter_mask", &Body::filter_mask);
+  field("trigger", &Body::trigger);
+  field("continuous", &Body::continuous);
+}
+
+/* --- reading --------------------------------------------------------------------------------- */
+
+void read_value(const JsonValue &json, std::string &value) { value = json.text(); }
+void read_value(const JsonValue &json, float &value) { value = json.number(); }
+void read_value(const JsonValue &json, uint32_t &value) { value = json.unsigned_integer(); }
+void read_value(const JsonValue &json, bool &value) { value = json.boolean(); }
+void read_value(const JsonValue &json, Vec3 &value) { value = json.vec3(); }
+void read_value(const JsonValue &json, Point &value) { value = json.point(); }
+void read_value(const JsonValue &json, Quat &value) { value = json.quat(); }
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
+
+/* What a file may say of a record that is none of its fields. */
+template <typename Record> std::vector<const char *> further_keys(const Record *) { return {}; }
+std::vector<const char *> further_keys(const Body *) { return {"density"}; } /* take_densities */
+
+template <typename Record> void read_value(const JsonValue &json, Record &record) requires requires
+{
+  each_field(&record, [](auto, auto) {});
+}
+{
+  std::vector<const char *> known;
+  each_field(&record, [&](const char *key, auto) { known.push_back(key); });
+  for (const char *key : further_keys(&record)) known.push_back(key);
+  json.only_keys(known);
+  each_field(&record, [&](const char *key, auto member) {
+    if (std::optional<JsonValue> found = json.find(key)) read_value(*found, record.*member);
+  });
+}
+
+template <typename Record> void read_value(const JsonValue &json, std::vector<Record> &records)
+{
+  records.resize(json.array_size());
+  for (size_t i = 0; i < records.size(); ++i) read_value(json.element(i), records[i]);
+}
+
+void read_shapes(const JsonValue &json, OutsideFiles outside, std::vector<Shape> &shapes)
+{
+  for (size_t i = 0; i < json.array_size(); ++i) shapes.push_back(read_shape(json.element(i), outside));
+}
+
+/* With a density, mass, centre of mass and principal axes come from the shape, and the body's frame moves there. */
+void take_density(const JsonValue &json, Scene &scene, Body &body)
+{
+  static constexpr const char *replaced[] = {"mass", "inertia"};
+  for (const char *key : replaced)
+    if (json.find(key)) json.fail(fmt::format("\"density\" and \"{}\" exclude each other", key));
+  const JsonValue density = json.member("density");
+  const Shape &shape = scene.shapes[body.shape];
+  if (shape.type == ShapeType::half_space) density.fail("a half_space has no mass; leave it away");
+  if (!(density.number() > 0)) density.fail(fmt::format("is {}; a number above 0 is needed", density.number()));
+  try {
+    take_mass_properties(scene, body);
+    body.mass = round_to_float(double(density.number()) * mass_properties_of(shape).mass);
+  } catch (const InputError &error) { /* a mesh without volume */
+    density.fail(error.what());
+  }
+}
+
+void take_densities(const JsonValue &bodies, Scene &scene, const std::string &where)
+{
+  std::vector<size_t> given;
+  for (size_t i = 0; i < scene.bodies.size(); ++i)
+    if (bodies.element(i).find("density")) given.push_back(i);
+  if (given.empty()) return;
+  Scene sound = scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
+  for (size_t i : given) sound.bodies[i].motion = std::min(sound.bodies[i].motion, Motion::kinematic);
+  validate(sound, where);
+  for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
+}
+
+/* Of moments 0 stands for one without end, or for those of the shape. */
+void take_moments(const JsonValue &bodies, Scene &scene)
+{
+  for (size_t i = 0; i < scene.bodies.size(); ++i)
+    if (const auto moments = bodies.element(i).find("inertia")) scene.bodies[i].inertia = moments->magnitudes();
+}
+
+void check_format(const JsonValue &root)
+{
+  if (!root.find("tandem_scene")) root.fail("\"tandem_scene\": 1 is missing; this is not a Tandem scene");
+  JsonValue version = root.member("tandem_scene");
+  if (version.unsigned_integer() != 1)
+    version.fail(fmt::format("is {}; version 1 is known", version.unsigned_integer()));
+}
+
+/* --- writing --------------------------------------------------------------------------------- */
+
+std::string quoted(const std::string &text)
+{
+  try {
+    return nlohmann::json(text).dump();
+  } catch (const nlohmann::json::exception &) {
+    throw InputError("a name is not valid UTF-8 and cannot be written to JSON");
+  }
+}
+
+std::string written(const std::string &value) { return quoted(value); }
+std::string written(bool value) { return value ? "true" : "false"; }
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string written(Enum value)
+{
+  return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
+}
+/* Fields that have their default are left out, except those always given. */
+template <typename Record> std::string written_record(const Record &record, std::string text)
+{
+  static const Record defaults;
+  each_field(&record, [&](const char *key, auto member) {
+    if (same(record.*member, defaults.*member)) return;
+    text += fmt::format("{}\"{}\": {}", text.empty() ? "" : ", ", key, written(record.*member));
+  });
+  return "{" + text + "}";
+}
+
+std::string written(const Material &material) { return written_record(material, ""); }
+std::string written(const Body &body) { return written_record(body, ""); }
+
+std::string written(const Shape &shape) { return written_shape(shape); }
+
+template <typename Record> void write_list(std::string &text, const char *key, const std::vector<Record> &records)
+{
+  text += fmt::format(",\n\"{}\": [", key);
+  for (size_t i = 0; i < records.size(); ++i) text += (i ? ",\n  " : "\n  ") + written(records[i]);
+  text += "]";
+}
+
+} // namespace
+
+Scene parse_scene_json(const std::string &text, const std::string &where, OutsideFiles outside)
+{
+  static constexpr const char *keys[] = {"tandem_scene", "name", "gravity", "shapes", "materials", "bodies"};
+  const JsonDocument document = parse_json(text, where);
+  const JsonValue root(document.value(), where);
+  check_format(root);
+  root.only_keys(keys);
+  Scene scene;
+  if (auto name = root.find("name")) read_value(*name, scene.name);
+  if (auto gravity = root.find("gravity")) read_value(*gravity, scene.gravity);
+  if (auto materials = root.find("materials")) read_value(*materials, scene.materials);
+  read_shapes(root.member("shapes"), outside, scene.shapes);
+  read_value(root.member("bodies"), scene.bodies);
+  take_moments(root.member("bodies"), scene);
+  take_densities(root.member("bodies"), scene, where);
+  validate(scene, where);
+  return scene;
+}
+
+Scene read_scene_json(const std::string &path, OutsideFiles outside) { return parse_scene_json(read_file(path), path, outside); }
+
+std::string to_scene_json(const Scene &scene)
+{
+  validate(scene, scene.name.empty() ? "scene" : scene.name);
+  std::string text =
+      fmt::format("{{\"tandem_scene\": 1,\n\"name\": {},\n\"gravity\": {}", quoted(scene.name), written(scene.gravity));
+  write_list(text, "shapes", scene.shapes);
+  write_list(text, "materials", scene.materials);
+  write_list(text, "bodies", scene.bodies);
+  return text + "}\n";
+}
+
+void write_scene_json(const Scene &scene, const std::string &path)
+{
+  const std::string text = to_scene_json(scene);
+  OutputFile file(path, path);
+  file.write(text);
+  file.commit();
+}
+
+} // namespace tandem

@@ -1,0 +1,19 @@
+/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what `--broadphase auto` means, and why. The bits are
+ * those of every other choice. */
+#pragma once
+
+#include <string>
+
+#include <tandem/scene.h>
+
+namespace tandem {
+
+struct BroadphaseChoice {
+  std::string name; /* of broadphases() */
+  std::string why;  /* the statistics of the scene that led there, in one line */
+};
+
+/* backend: as in --on. */
+BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend);
+
+} // namespace tandem

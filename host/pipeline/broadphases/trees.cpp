@@ -1,0 +1,63 @@
+/* trees.cpp - a moving and a standing tree of fat boxes, and the pairs of those that are kept (shared/broadphase/fat_boxes.h, near_pairs.h).
+ *
+ * Where no body left its box, the kernels between plan_trees and the filter have next to nothing to run over: the device knows, the host
+ * need not ask.
+ */
+#include <bit>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/layout.h"
+#include "host/pipeline/primitives.h"
+#include "shared/broadphase/curve_limits.h"
+#include "shared/broadphase/near_limits.h"
+
+namespace tandem {
+namespace {
+
+void file_in_trees(StepLaunches &step)
+{
+  const uint32_t bodies = step.plan().bodies;
+  step.run_at_most(Kernel::refit_leaves, bodies);
+  step.run(Kernel::plan_hierarchy, {1});
+  find_extent(step);
+  step.run_at_most(Kernel::tree_keys, bodies);
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS + 1);
+  link_leaves(step, Buffer::fat_bounds);
+  raise_boxes(step, Buffer::fat_bounds, COUNT_FILED_LEAVES, COUNT_RAISED);
+}
+
+void find_new_pairs(StepLaunches &step)
+{
+  const StepPlan &plan = step.plan();
+  step.run_at_most(Kernel::near_count, plan.bodies);
+  exclusive_scan(step.launcher(), Buffer::sweep_start, Buffer::sweep_start, Buffer::scan_sums, COUNT_CHANGED, plan.bodies);
+  step.run(Kernel::count_near_keys);
+  step.run_at_most(Kernel::near_write, plan.bodies);
+  sort_pair_keys(step, Buffer::near_key, Buffer::near_key_other, COUNT_NEAR_KEYS, NEAR_PER_PAIR * plan.capacity_pairs);
+}
+
+void merge_new_pairs(StepLaunches &step)
+{
+  const uint32_t bodies = step.plan().bodies;
+  step.run_at_most(Kernel::merge_near_count, bodies);
+  exclusive_scan(step.launcher(), Buffer::sweep_start, Buffer::sweep_start, Buffer::scan_sums, COUNT_CHANGED, bodies);
+  step.run_at_most(Kernel::merge_near_write, bodies);
+  step.run(Kernel::turn_near_list);
+}
+
+} // namespace
+
+void find_pairs_in_trees(StepLaunches &step)
+{
+  step.run(Kernel::leave_fat_boxes);
+  step.run(Kernel::plan_trees);
+  file_in_trees(step);
+  find_new_pairs(step);
+  merge_new_pairs(step);
+  step.run(Kernel::filter_near);
+  step.scan_pairs(Buffer::pair_start);
+  step.run(Kernel::take_near);
+  step.run(Kernel::keep_near);
+}
+
+} // namespace tandem

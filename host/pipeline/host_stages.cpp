@@ -1,0 +1,61 @@
+/* host_stages.cpp - see host_stages.h. */
+#include "host/pipeline/host_stages.h"
+
+#include <array>
+#include <chrono>
+#include <stdexcept>
+#include <utility>
+
+#include "host/pipeline/solvers/islands.h"
+#include "host/runtime/interface/floating_point.h"
+
+namespace tandem {
+namespace {
+
+using HostStage = void (*)(const Launch &launch, Memory &memory);
+
+#define FORM_ITEM(name) nullptr
+#define FORM_LANES(name) nullptr
+#define FORM_GROUP(name) nullptr
+#define FORM_HOST(name) &name
+#define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
+constexpr std::array<HostStage, kernel_count> stages = {
+#include "shared/kernels.def"
+};
+
+class HostStages : public Backend {
+public:
+  const std::string &name() const override { return name_; }
+  Storage &storage() override { return host_storage(); }
+  void prepare(uint32_t, const std::vector<Kernel> &) override {}
+  void finish() override {}
+  void set_profiling(bool on) override { profiling_ = on; }
+  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
+
+  void run(const Launch &launch, const std::vector<BoundArgument> &, void *) override
+  {
+    throw std::logic_error(std::string("kernel ") + row_of(launch.kernel).name + " is no stage of the host");
+  }
+
+  void run_host_stage(const Launch &launch, Memory &memory) override
+  {
+    const minicl::ExactFloatingPoint environment;
+    const auto start = std::chrono::steady_clock::now();
+    stages[index_of(launch.kernel)](launch, memory);
+    if (!profiling_) return;
+    Time &time = times_[index_of(launch.kernel)];
+    time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
+    ++time.launches;
+  }
+
+private:
+  std::string name_ = host_stages_name;
+  bool profiling_ = false;
+  std::vector<Time> times_ = std::vector<Time>(kernel_count);
+};
+
+} // namespace
+
+std::unique_ptr<Backend> make_host_stages() { return std::make_unique<HostStages>(); }
+
+} // namespace tandem

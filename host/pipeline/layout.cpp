@@ -1,0 +1,81 @@
+/* layout.cpp - sizes of buffers from the capacities that buffers.def names. */
+#include "host/pipeline/layout.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "host/pipeline/primitives.h"
+#include <tandem/scene.h>
+#include "shared/broadphase/near_limits.h"
+#include "shared/broadphase/sweep_limits.h"
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+size_t items_of(Capacity capacity, const Sizes &sizes)
+{
+  /* Bodies, pairs and what scenes hold are below 2^32 each, and rows have a few of them: 64 bits suffice for all products here. */
+  const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
+  const size_t most_sorted = std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
+  switch (capacity) {
+  case Capacity::NOTHING: return 0;
+  case Capacity::ONE: return 1;
+  case Capacity::MATERIALS: return sizes.materials;
+  case Capacity::HULLS: return sizes.hulls.hulls;
+  case Capacity::HULL_VERTICES: return sizes.hulls.vertices;
+  case Capacity::HULL_FACES: return size_t{sizes.hulls.faces} + 1;
+  case Capacity::HULL_CORNERS: return sizes.hulls.corners;
+  case Capacity::HULL_EDGES: return sizes.hulls.edges;
+  case Capacity::TREES: return sizes.trees.trees;
+  case Capacity::TREE_NODES: return sizes.trees.nodes;
+  case Capacity::TREE_LEAVES: return sizes.trees.leaves;
+  case Capacity::TREE_SUBTREES: return sizes.trees.subtrees;
+  case Capacity::MESH_VERTICES: return sizes.trees.vertices;
+  case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
+  case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;
+  case Capacity::HULL_STRIPS: return sizes.hulls.strip_rows;
+  case Capacity::HULL_LINKS: return sizes.hulls.links;
+  case Capacity::BODIES: return sizes.bodies;
+  case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
+  case Capacity::PAIRS: return sizes.pairs;
+  case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* no more than pairs of this step and of the last */
+  case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
+  case Capacity::CELLS: return size_t{sizes.cells} + 1;
+  case Capacity::LEAVES: return leaves_for(sizes.bodies);
+  case Capacity::LEAF_TILES: return leaves_for(sizes.bodies) / TILE + 1;
+  case Capacity::NEAR_PAIRS: return size_t{NEAR_PER_PAIR} * sizes.pairs;
+  case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
+  case Capacity::SORTABLE: return sortable;
+  case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
+  case Capacity::SCAN_SUMS:
+    return scan_sum_words(std::max({most_sorted, size_t{SWEEP_SHARES} * sizes.bodies, histogram_words(most_sorted)}) + 1);
+  case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
+  }
+  return 0;
+}
+
+} // namespace
+
+size_t bytes_of(Buffer buffer, const Sizes &sizes)
+{
+  const BufferRow &row = row_of(buffer);
+  if (row.feature != 0 && (row.feature & sizes.features) == 0) return 0;
+  return items_of(row.capacity, sizes) * row.per_item * size_of(row.element);
+}
+
+void check_size(Buffer buffer, const Sizes &sizes)
+{
+  const uint64_t elements = uint64_t{bytes_of(buffer, sizes)} / size_of(row_of(buffer).element), most = uint64_t{1} << 32;
+  if (elements > most)
+    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or cells of cube maps are needed",
+                                 row_of(buffer).name, elements, most));
+}
+
+uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }
+
+uint32_t cells_for(uint32_t bodies) { return std::max<uint32_t>(1024, std::bit_ceil(2 * std::min(bodies, 1u << 29)) ); }
+
+} // namespace tandem

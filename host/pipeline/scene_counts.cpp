@@ -1,0 +1,40 @@
+/* scene_counts.cpp - see scene_counts.h. */
+#include "host/pipeline/scene_counts.h"
+
+#include <algorithm>
+
+#include "host/pipeline/batching/batcher.h"
+#include "host/pipeline/layout.h"
+#include "shared/broadphase/sweep_limits.h"
+#include "shared/counts.h"
+#include "shared/platform.h"
+
+namespace tandem {
+
+std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene)
+{
+  const uint32_t blocks = (scene.bodies + SWEEP_BLOCK - 1) / SWEEP_BLOCK;
+  return {{COUNT_ZERO, 0},
+          {COUNT_ONE, 1},
+          {COUNT_BODIES, scene.bodies},
+          {COUNT_BODIES_PLUS_ONE, scene.bodies + 1},
+          {COUNT_BOUNDLESS, scene.boundless},
+          {COUNT_BOUNDED, scene.bodies - scene.boundless},
+          {COUNT_LARGE, scene.large},
+          {COUNT_SMALL, scene.bodies - scene.large},
+          {COUNT_SHARES, SWEEP_SHARES * scene.bodies},
+          {COUNT_SWEEP_BLOCKS, blocks},
+          {COUNT_SWEEP_ITEMS, TILE * blocks},
+          {COUNT_HALVES, 2 * scene.bodies},
+          {COUNT_COLOR_STARTS, COLOR_LIMIT + 1},
+          {COUNT_BATCH_CELLS, batch_cells_for(scene.bodies)},
+          {COUNT_BATCH_ITEMS, TILE * batch_cells_for(scene.bodies)}};
+}
+
+bool is_told_by_scene(uint32_t entry)
+{
+  static const std::vector<std::pair<int, uint32_t>> entries = entries_of({});
+  return std::any_of(entries.begin(), entries.end(), [entry](const auto &one) { return uint32_t(one.first) == entry; });
+}
+
+} // namespace tandem

@@ -1,0 +1,68 @@
+/* avbd.cpp - augmented vertex block descent, coloured by bodies; see shared/solve/avbd.h. */
+#include <algorithm>
+
+#include "host/pipeline/incidence.h"
+#include "host/pipeline/solvers/mass_split.h"
+#include "host/pipeline/solvers/solvers.h"
+
+namespace tandem {
+namespace {
+
+/* Where the host knows no body colours yet. */
+constexpr uint32_t first_guess = 32;
+
+void color_bodies(StepLaunches &step)
+{
+  const uint32_t rounds = step.plan().rounds;
+  step.run(Kernel::body_color_begin);
+  for (uint32_t round = 0; round < rounds; ++round) step.run(Kernel::body_color_round, {round});
+  step.run(Kernel::body_color_keys, {rounds});
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BODIES, step.plan().bodies, 0, 8);
+  step.run(Kernel::body_color_starts);
+}
+
+/* Colours of the last step and one more; what lies behind them is solved in order by avbd_rest, with the same result. */
+uint32_t body_colors(const StepPlan &plan)
+{
+  uint32_t colors = 0;
+  for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
+    if (plan.known[BODY_COLOR_START + color + 1] > plan.known[BODY_COLOR_START + color]) colors = color + 2;
+  return colors == 0 ? first_guess : std::min(colors, COLOR_LIMIT);
+}
+
+void launch_iteration(StepLaunches &step, uint32_t colors)
+{
+  for (uint32_t color = 0; color < colors; ++color) step.run_range(Kernel::avbd_bodies, BODY_COLOR_START + color, BODY_COLOR_START + color + 1);
+  step.run(Kernel::avbd_rest, {colors});
+  step.run(Kernel::avbd_duals);
+}
+
+} // namespace
+
+void launch_avbd(StepLaunches &step)
+{
+  list_incidences(step.launcher(), step.plan(), 0);
+  color_bodies(step);
+  step.run(Kernel::avbd_prepare);
+  const uint32_t colors = body_colors(step.plan());
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) {
+    step.begin_substep(substep);
+    warm_start_rolling(step);
+    step.run(Kernel::avbd_begin);
+    for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration) launch_iteration(step, colors);
+    step.run(Kernel::integrate_positions);
+    solve_rolling(step);
+  }
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  apply_restitution(step, tail);
+}
+
+void commit_avbd(StepLaunches &step)
+{
+  step.run(Kernel::clear_cached, {2}, {Buffer::cached_penalty});
+  step.run(Kernel::avbd_cache);
+}
+
+} // namespace tandem

@@ -1,0 +1,43 @@
+/* direct.cpp - the soft step with each small island solved to convergence after every pass of its rows.
+ *
+ * The iterative rows run over all constraints: they are what large islands get, and the first guess of small ones, which
+ * solve_islands (host/pipeline/solvers/islands.h) then brings to the solution in double on the CPU. */
+#include "host/pipeline/solvers/islands.h"
+#include "host/pipeline/solvers/mass_split.h"
+#include "host/pipeline/solvers/solvers.h"
+#include "shared/solve/pass.h"
+
+namespace tandem {
+namespace {
+
+void launch_pass(StepLaunches &step, MassSplit &tail, uint32_t pass)
+{
+  step.for_each_color(Kernel::solve_contacts, {pass});
+  tail.solve(pass, tail_iterations);
+}
+
+void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+{
+  step.begin_substep(substep);
+  warm_start_contacts(step, tail);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration) launch_pass(step, tail, PASS_BIASED);
+  step.run(Kernel::solve_islands, {island_pass_biased});
+  solve_rolling(step);
+  step.run(Kernel::integrate_positions);
+  launch_pass(step, tail, PASS_LAST);
+  step.run(Kernel::solve_islands, {island_pass_relaxing});
+  solve_rolling(step);
+}
+
+} // namespace
+
+void launch_direct(StepLaunches &step)
+{
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_direct_substep(step, tail, substep);
+  apply_restitution(step, tail);
+  if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {island_pass_bouncing});
+}
+
+} // namespace tandem

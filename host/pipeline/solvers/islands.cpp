@@ -1,0 +1,399 @@
+/* islands.cpp - finds islands, writes each as a dense problem, and puts the solution back; see islands.h.
+ *
+ * The shared headers are read here in double, so that the rows are those of the iterative solver, to the letter. */
+#include "host/pipeline/solvers/islands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include "host/pipeline/solvers/island_solver.h"
+#include "host/runtime/interface/floating_point.h"
+#include "host/runtime/memory.h"
+#include "minicl/worker_threads.h"
+
+#define TANDEM_REFERENCE
+namespace tandem::in_double {
+#include "shared/platform.h"
+#include "shared/solve/contact.h"
+} // namespace tandem::in_double
+
+namespace tandem {
+namespace {
+
+using namespace in_double;
+
+std::vector<row> read_rows(Memory &memory, Buffer buffer, size_t count, size_t first = 0)
+{
+  const std::vector<double> reals = memory.read_reals(buffer, 4 * count, 4 * first);
+  std::vector<row> rows(count);
+  std::memcpy(static_cast<void *>(rows.data()), reals.data(), count * sizeof(row));
+  return rows;
+}
+
+void write_rows(Memory &memory, Buffer buffer, const std::vector<row> &rows, size_t first = 0)
+{
+  memory.write_reals(buffer, reinterpret_cast<const double *>(rows.data()), 4 * rows.size(), 4 * first);
+}
+
+/* Planes `stride` apart on the device, `count` apart here. */
+std::vector<row> read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride)
+{
+  std::vector<row> all;
+  for (size_t plane = 0; plane < planes; ++plane) {
+    const std::vector<row> one = read_rows(memory, buffer, count, plane * stride);
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
+}
+
+Parameters read_parameters(Memory &memory)
+{
+  Parameters parameters{};
+  const std::vector<double> reals = memory.read_reals(Buffer::parameters, offsetof(Parameters, features) / sizeof(double));
+  std::memcpy(&parameters, reals.data(), reals.size() * sizeof(double));
+  parameters.features = memory.read<uint32_t>(Buffer::parameters, 1, reals.size()).at(0);
+  return parameters;
+}
+
+/* All that the stage reads, in double; what it writes is written back from here. */
+struct Rows {
+  Rows(Memory &memory, const std::vector<uint32_t> &counts)
+      : count(counts[COUNT_CONSTRAINTS]), stride(counts[CAPACITY_PAIRS]), parameters(read_parameters(memory)),
+        a(memory.read<uint32_t>(Buffer::constraint_a, count)), b(memory.read<uint32_t>(Buffer::constraint_b, count)),
+        normal(read_rows(memory, Buffer::constraint_normal, count)), points(read_planes(memory, Buffer::constraint_points, 8, count, stride)),
+        center(read_planes(memory, Buffer::constraint_center, 2, count, stride)),
+        normal_impulse(read_rows(memory, Buffer::constraint_normal_impulse, count)),
+        friction_impulse(read_rows(memory, Buffer::constraint_friction_impulse, count)),
+        velocity(read_rows(memory, Buffer::solver_velocity, 2 * size_t{counts[COUNT_BODIES]})),
+        inertia(read_rows(memory, Buffer::solver_inertia, velocity.size())), delta(read_rows(memory, Buffer::solver_delta, velocity.size()))
+  {
+    slop = memory.read_reals(Buffer::constraint_slop, count);
+    if (bounces()) bounce = read_planes(memory, Buffer::constraint_bounce, 2, count, stride);
+  }
+
+  bool bounces() const { return (parameters.features & FEATURE_RESTITUTION) != 0; }
+  uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
+  bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
+
+  void write(Memory &memory) const
+  {
+    write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse);
+    write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse);
+    write_rows(memory, Buffer::solver_velocity, velocity);
+    if (bounces()) write_rows(memory, Buffer::constraint_bounce, {bounce.begin() + count, bounce.end()}, stride);
+  }
+
+  uint32_t count, stride;
+  Parameters parameters;
+  std::vector<uint32_t> a, b;
+  std::vector<row> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, bounce;
+  std::vector<double> slop; /* or that it is deep: slop_or_deep */
+};
+
+uint32_t points_of(const Rows &rows, uint32_t constraint)
+{
+  uint32_t points = 0;
+  for (uint32_t k = 4; k < 8; ++k) points += rows.points[size_t{rows.count} * k + constraint].w > 0;
+  return points;
+}
+
+/* --- islands ------------------------------------------------------------------------------------- */
+
+uint32_t root_of(std::vector<uint32_t> &parent, uint32_t body)
+{
+  while (parent[body] != body) body = parent[body] = parent[parent[body]];
+  return body;
+}
+
+/* Constraints of each island, in the order of the constraints; islands by their first constraint. */
+std::vector<std::vector<uint32_t>> find_islands(const Rows &rows)
+{
+  std::vector<uint32_t> parent(rows.bodies());
+  std::iota(parent.begin(), parent.end(), 0u);
+  for (uint32_t i = 0; i < rows.count; ++i)
+    if (rows.moves(rows.a[i]) && rows.moves(rows.b[i])) {
+      const uint32_t one = root_of(parent, rows.a[i]), other = root_of(parent, rows.b[i]);
+      parent[std::max(one, other)] = std::min(one, other);
+    }
+  std::vector<uint32_t> island_of(rows.bodies(), INDEX_NONE);
+  std::vector<std::vector<uint32_t>> islands;
+  for (uint32_t i = 0; i < rows.count; ++i) {
+    const uint32_t root = root_of(parent, rows.moves(rows.a[i]) ? rows.a[i] : rows.b[i]);
+    if (island_of[root] == INDEX_NONE) {
+      island_of[root] = static_cast<uint32_t>(islands.size());
+      islands.emplace_back();
+    }
+    islands[island_of[root]].push_back(i);
+  }
+  return islands;
+}
+
+/* Constraints by their distance from `start` over shared moving bodies, breadth first. */
+std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &constraints, size_t start)
+{
+  const auto touch = [&](uint32_t one, uint32_t other) {
+    for (uint32_t body : {rows.a[one], rows.b[one]})
+      if (rows.moves(body) && (body == rows.a[other] || body == rows.b[other])) return true;
+    return false;
+  };
+  std::vector<uint32_t> order = {constraints[start]};
+  std::vector<bool> seen(constraints.size(), false);
+  seen[start] = true;
+  for (size_t at = 0; at < order.size(); ++at)
+    for (size_t k = 0; k < constraints.size(); ++k) {
+      if (seen[k] || !touch(order[at], constraints[k])) continue;
+      seen[k] = true;
+      order.push_back(constraints[k]);
+    }
+  return order;
+}
+
+/* Neighbours near each other, so that the matrix is narrow (Cuthill and McKee, 1969): from the far end of a first walk. */
+std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32_t> &constraints)
+{
+  const uint32_t end = walk_from(rows, constraints, 0).back();
+  return walk_from(rows, constraints, static_cast<size_t>(std::find(constraints.begin(), constraints.end(), end) - constraints.begin()));
+}
+
+/* --- rows of a constraint -------------------------------------------------------------------------- */
+
+/* speed = direction . (v_b - v_a) + turn_b . w_b - turn_a . w_a */
+struct Row {
+  uint32_t a, b;
+  vec3 direction, turn_a, turn_b;
+  double *impulse; /* where it is kept */
+};
+
+class Island {
+public:
+  Island(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass) : rows_(rows), constraints_(constraints), pass_(pass)
+  {
+    for (uint32_t i : constraints_) add_constraint(i);
+    problem_.rows = static_cast<uint32_t>(list_.size());
+    assemble();
+  }
+
+  bool is_finite() const
+  {
+    const auto finite = [](double x) { return std::isfinite(x); };
+    return std::all_of(problem_.matrix.begin(), problem_.matrix.end(), finite) &&
+           std::all_of(problem_.offset.begin(), problem_.offset.end(), finite) &&
+           std::all_of(problem_.impulse.begin(), problem_.impulse.end(), finite);
+  }
+
+  /* False if the solver stalled. */
+  bool solve()
+  {
+    if (problem_.rows == 0) return true;
+    const bool converged = solve_island(problem_).converged;
+    apply();
+    if (pass_ != island_pass_bouncing && rows_.bounces()) note_highest();
+    return converged;
+  }
+
+private:
+  void add_constraint(uint32_t i);
+  void add_normals(uint32_t i, const contact &c, const support &s, const drift &moved);
+  void add_friction(uint32_t i, const contact &c, arm_shift shift);
+  void add_row(const Row &row, double bias);
+  bool normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const;
+  void assemble();
+  void apply();
+  void note_highest();
+  double speed_of(const Row &r) const;
+  void push(uint32_t body, const vec3 &direction, const vec3 &turn, double impulse);
+
+  Rows &rows_;
+  const std::vector<uint32_t> &constraints_;
+  uint32_t pass_;
+  std::vector<Row> list_;
+  IslandProblem problem_;
+};
+
+double *component_of(row &r, uint32_t k) { return k == 0 ? &r.x : k == 1 ? &r.y : k == 2 ? &r.z : &r.w; }
+double value_of(const row &r, uint32_t k) { return k == 0 ? r.x : k == 1 ? r.y : k == 2 ? r.z : r.w; }
+
+void Island::add_row(const Row &row, double bias)
+{
+  list_.push_back(row);
+  problem_.offset.push_back(bias);
+  problem_.impulse.push_back(*row.impulse);
+}
+
+void Island::add_constraint(uint32_t i)
+{
+  const contact c = load_contact(rows_.a.data(), rows_.b.data(), rows_.normal.data(), rows_.velocity.data(), rows_.inertia.data(), i);
+  const drift moved = load_drift(rows_.delta.data(), c);
+  const arm_shift shift = shift_of_contact(c, moved.translation);
+  const row old = rows_.normal_impulse[i];
+  const support s = load_support(rows_.points.data(), rows_.count, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
+  ManifoldRows manifold;
+  manifold.first = static_cast<uint32_t>(list_.size());
+  add_normals(i, c, s, moved);
+  manifold.normals = static_cast<uint32_t>(list_.size()) - manifold.first;
+  if (manifold.normals == 0) return;
+  manifold.friction = c.friction;
+  manifold.twist_radius = rows_.friction_impulse[i].w;
+  manifold.slides = c.friction > 0 && rows_.center[i].w > 0;
+  manifold.twists = c.friction > 0 && manifold.twist_radius > 0 && rows_.center[rows_.count + i].w > 0;
+  if (manifold.slides) add_friction(i, c, shift);
+  if (manifold.twists) add_row({c.a, c.b, {0, 0, 0}, c.normal, c.normal, &rows_.friction_impulse[i].z}, 0);
+  problem_.manifolds.push_back(manifold);
+}
+
+/* The law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid; false: it takes no part. */
+bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const
+{
+  const Parameters &p = rows_.parameters;
+  const double old = value_of(rows_.normal_impulse[i], k);
+  const bool ahead = separation > 0;
+  if (pass_ == island_pass_biased) {
+    const double slop = slop_of(rows_.slop[i]), limit = push_limit(&p, rows_.slop[i]);
+    bias = ahead ? separation * p.inverse_substep : maximum(rate * minimum(separation + slop, 0.0), -limit);
+    return true;
+  }
+  bias = ahead ? separation * p.inverse_substep : 0.0;
+  if (pass_ == island_pass_bouncing) {
+    const double wished = value_of(rows_.bounce[i], k);
+    const double highest = value_of(rows_.bounce[rows_.count + i], k);
+    if (wished >= 0 && highest > 0) {
+      bias = -wished;
+      return true;
+    }
+  }
+  return !(ahead && old == 0);
+}
+
+void Island::add_normals(uint32_t i, const contact &c, const support &s, const drift &moved)
+{
+  const double rate = softness_of(&rows_.parameters, c).rate, closed = inner(c.normal, moved.translation);
+  for (uint32_t k = 0; k < 4; ++k) {
+    if (!(s.mass[k] > 0)) continue;
+    const double separation = rows_.points[size_t{rows_.count} * k + i].w + closed +
+                              (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
+    double bias = 0;
+    if (normal_row(i, k, separation, rate, bias))
+      add_row({c.a, c.b, c.normal, s.turn_a[k], s.turn_b[k], component_of(rows_.normal_impulse[i], k)}, bias);
+  }
+}
+
+void Island::add_friction(uint32_t i, const contact &c, arm_shift shift)
+{
+  const vec3 arm_a = add(xyz(load_row(rows_.center.data(), i)), shift.a), arm_b = add(xyz(load_row(rows_.center.data(), rows_.count + i)), shift.b);
+  const tangents t = tangents_of(c.normal);
+  row &kept = rows_.friction_impulse[i];
+  add_row({c.a, c.b, t.first, outer(arm_a, t.first), outer(arm_b, t.first), &kept.x}, 0);
+  add_row({c.a, c.b, t.second, outer(arm_a, t.second), outer(arm_b, t.second), &kept.y}, 0);
+}
+
+double Island::speed_of(const Row &r) const
+{
+  const motion one = load_motion(rows_.velocity.data(), r.a), other = load_motion(rows_.velocity.data(), r.b);
+  return inner(r.direction, subtract(other.linear, one.linear)) + inner(r.turn_b, other.angular) - inner(r.turn_a, one.angular);
+}
+
+/* W and the speeds without any impulse: those of now less what the present impulses give. */
+void Island::assemble()
+{
+  const size_t n = problem_.rows;
+  problem_.matrix.assign(n * n, 0.0);
+  for (size_t r = 0; r < n; ++r)
+    for (const bool second : {false, true}) {
+      const uint32_t body = second ? list_[r].b : list_[r].a;
+      if (!rows_.moves(body)) continue;
+      const vec3 turn = symmetric_times(load_inertia(rows_.inertia.data(), body), second ? list_[r].turn_b : list_[r].turn_a);
+      for (size_t s = r; s < n; ++s) {
+        if (list_[s].a != body && list_[s].b != body) continue;
+        const bool other = list_[s].b == body;
+        const double value = rows_.velocity[2 * body].w * inner(list_[r].direction, list_[s].direction) +
+                             inner(turn, other ? list_[s].turn_b : list_[s].turn_a);
+        problem_.matrix[r * n + s] += other == second ? value : -value;
+      }
+    }
+  for (size_t r = 0; r < n; ++r)
+    for (size_t s = r + 1; s < n; ++s) problem_.matrix[s * n + r] = problem_.matrix[r * n + s];
+  for (size_t r = 0; r < n; ++r) {
+    problem_.offset[r] += speed_of(list_[r]);
+    for (size_t s = 0; s < n; ++s) problem_.offset[r] -= problem_.matrix[s * n + r] * problem_.impulse[s];
+  }
+}
+
+void Island::push(uint32_t body, const vec3 &direction, const vec3 &turn, double impulse)
+{
+  if (!rows_.moves(body)) return;
+  motion m = load_motion(rows_.velocity.data(), body);
+  m.linear = add_scaled(m.linear, direction, m.inverse_mass * impulse);
+  m.angular = add_scaled(m.angular, symmetric_times(load_inertia(rows_.inertia.data(), body), turn), impulse);
+  store_motion(rows_.velocity.data(), body, m);
+}
+
+void Island::apply()
+{
+  for (size_t r = 0; r < list_.size(); ++r) {
+    const double change = problem_.impulse[r] - *list_[r].impulse;
+    if (change == 0) continue;
+    *list_[r].impulse = problem_.impulse[r];
+    push(list_[r].a, list_[r].direction, list_[r].turn_a, -change);
+    push(list_[r].b, list_[r].direction, list_[r].turn_b, change);
+  }
+}
+
+/* Points that were pressed in any pass may bounce. */
+void Island::note_highest()
+{
+  for (uint32_t i : constraints_)
+    for (uint32_t k = 0; k < 4; ++k) {
+      double *const highest = component_of(rows_.bounce[rows_.count + i], k);
+      *highest = std::max(*highest, value_of(rows_.normal_impulse[i], k));
+    }
+}
+
+enum class Outcome : uint8_t { left, solved, stalled };
+
+Outcome solve_one(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass)
+{
+  const minicl::ExactFloatingPoint environment;
+  uint32_t points = 0;
+  for (uint32_t i : constraints) points += points_of(rows, i);
+  if (points > most_island_points) return Outcome::left;
+  const std::vector<uint32_t> order = in_narrow_order(rows, constraints);
+  Island island(rows, order, pass);
+  if (!island.is_finite()) return Outcome::left;
+  return island.solve() ? Outcome::solved : Outcome::stalled;
+}
+
+void write_counts(Memory &memory, const std::vector<Outcome> &outcomes, const std::vector<std::vector<uint32_t>> &islands, uint32_t stalled_before)
+{
+  uint32_t values[3] = {0, 0, stalled_before};
+  for (size_t k = 0; k < islands.size(); ++k) {
+    if (outcomes[k] == Outcome::left) values[1] += static_cast<uint32_t>(islands[k].size());
+    else ++values[0];
+    if (outcomes[k] == Outcome::stalled) ++values[2];
+  }
+  static_assert(COUNT_DIRECT_LEFT == COUNT_DIRECT_ISLANDS + 1 && COUNT_DIRECT_STALLED == COUNT_DIRECT_ISLANDS + 2);
+  memory.upload(Buffer::counts, values, sizeof values, COUNT_DIRECT_ISLANDS * sizeof(uint32_t));
+}
+
+} // namespace
+
+void solve_islands(const Launch &launch, Memory &memory)
+{
+  const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
+  if (counts[COUNT_CONSTRAINTS] == 0) return;
+  Rows rows(memory, counts);
+  const std::vector<std::vector<uint32_t>> islands = find_islands(rows);
+  std::vector<Outcome> outcomes(islands.size(), Outcome::left);
+  minicl::settle_threads();
+  tbb::parallel_for(size_t{0}, islands.size(), [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); });
+  if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; })) rows.write(memory);
+  write_counts(memory, outcomes, islands, counts[COUNT_DIRECT_STALLED]);
+}
+
+} // namespace tandem

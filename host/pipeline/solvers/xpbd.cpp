@@ -1,0 +1,44 @@
+/* xpbd.cpp - positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
+#include "host/pipeline/solvers/mass_split.h"
+#include "host/pipeline/solvers/solvers.h"
+
+namespace tandem {
+namespace {
+
+/* One pass takes out what positions were pushed apart with, but for M / (M + m) of it where a mass m bears M; what is
+ * left flies on and is pushed against in the next substep: 200 kg of boxes on a slab of 20 kg trembled with 0.4 J for
+ * ever, at rest. Eight bring 450 kg on 20 kg to rest. A body of more contacts than there are colours is taken to bear
+ * as much; others keep the one pass of the paper. */
+uint32_t velocity_passes(const StepLaunches &step) { return step.plan().colors > COLOR_LIMIT ? 8 : 1; }
+
+void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
+{
+  step.begin_substep(substep);
+  warm_start_rolling(step);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
+    step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_tail, {iteration == 0});
+  step.run(Kernel::integrate_positions);
+  for (uint32_t pass = 0; pass < velocity_passes(step); ++pass)
+    step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_tail);
+  solve_rolling(step);
+}
+
+} // namespace
+
+void launch_xpbd(StepLaunches &step)
+{
+  step.run(Kernel::xpbd_prepare);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
+  if (!step.has(FEATURE_RESTITUTION)) return;
+  MassSplit tail = MassSplit::tail_of(step);
+  tail.prepare();
+  apply_restitution(step, tail);
+}
+
+void commit_xpbd(StepLaunches &step)
+{
+  step.run(Kernel::clear_cached, {1}, {Buffer::cached_slip});
+  step.run(Kernel::xpbd_cache);
+}
+
+} // namespace tandem

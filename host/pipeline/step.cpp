@@ -1,0 +1,163 @@
+/* step.cpp - the whole step on one page: which kernels run, in which order.
+ *
+ *   bounds -> pairs -> pairs of leaves -> manifolds -> colours -> constraints -> solver -> commit
+ *
+ * Nothing here waits for a device: ranges are read from counts on the device, and the plan only says how
+ * large the launches should be. Broadphases, batchers and solvers stand in folders of their own.
+ */
+#include "host/pipeline/step.h"
+
+#include "host/pipeline/batching/batcher.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/primitives.h"
+#include "host/pipeline/solvers/solvers.h"
+#include "host/pipeline/step_launches.h"
+#include "shared/body_codes.h"
+#include "shared/midphase/pair_groups.h"
+
+namespace tandem {
+namespace {
+
+class Step : public StepLaunches {
+public:
+  using StepLaunches::StepLaunches;
+
+  void run_all()
+  {
+    run(Kernel::begin_step);
+    run(Kernel::prepare_bodies);
+    find_pairs();
+    if (has(FEATURE_TREES)) find_leaf_pairs();
+    find_contacts();
+    if (has(FEATURE_TREES)) merge_contacts();
+    color_contacts();
+    run(Kernel::prepare_contacts);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
+    if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
+    solver_named(settings().solver).launch(*this);
+    if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
+    commit();
+  }
+
+private:
+  void find_pairs()
+  {
+    run(Kernel::compute_bounds);
+    if (settings().bounds == "tight" && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
+    broadphase_named(settings().broadphase).launch(*this);
+  }
+
+  void find_leaf_pairs()
+  {
+    const bool by_subtree = settings().midphase == "subtrees";
+    if (by_subtree) run(Kernel::group_body_pairs);
+    if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree, GROUP_PAIRS);
+    else run(Kernel::count_leaf_pairs);
+    exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS, plan().capacity_pairs);
+    run(Kernel::count_all_leaf_pairs);
+    if (by_subtree) run_pair_groups(Kernel::write_leaf_pairs_by_subtree, GROUP_PAIRS);
+    else run(Kernel::write_leaf_pairs);
+    run(Kernel::start_leaf_pairs);
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_a, Buffer::pair_a});
+    run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_b, Buffer::pair_b});
+  }
+
+  /* Groups for as many pairs as there is room for: a device launches no more than it is told. */
+  void run_pair_groups(Kernel kernel, uint32_t pairs_of_group)
+  {
+    run_at_most(kernel, pair_group_items(plan().capacity_pairs, pairs_of_group));
+  }
+
+  void merge_contacts()
+  {
+    run(Kernel::group_manifolds);
+    run(Kernel::merge_manifolds);
+    run(Kernel::find_grazing);
+    run(Kernel::drop_grazing);
+  }
+
+  /* The matrix of shape pairs; a gap is a pair that the scene does not have. */
+  void find_contacts()
+  {
+    if (has(FEATURE_SPHERE_SPHERE)) run(Kernel::collide_sphere_sphere);
+    if (has(FEATURE_SPHERE_BOX)) run(Kernel::collide_sphere_box);
+    if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
+    if (has(FEATURE_BOX_BOX)) run_pair_groups(Kernel::follow_boxes, FOLLOW_PAIRS);
+    if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
+    if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
+    if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
+    if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
+  }
+
+  void collide_convexes(uint32_t method)
+  {
+    if (settings().narrowphase == "sat-split")
+      for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
+    else
+      run(Kernel::collide_convex, {method});
+    run(Kernel::follow_convexes, {method});
+  }
+
+  void color_contacts()
+  {
+    const Batcher &batcher = batcher_named(settings().batching);
+    run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
+    batcher.launch(*this);
+    run(Kernel::color_keys);
+    sort(Buffer::sort_key, Buffer::sort_value, COUNT_PAIRS, plan().capacity_pairs, 0, 8);
+    run(Kernel::color_starts);
+    if (settings().check) launch_check(*this);
+  }
+
+  void keep_out_of_walls()
+  {
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_MOTION}, {Buffer::body_share});
+    run(Kernel::limit_motion);
+    run(Kernel::stop_motion);
+  }
+
+  void commit()
+  {
+    run(Kernel::check_bodies);
+    run(Kernel::finish_step, {plan().colors});
+    if (has(FEATURE_EVENTS)) list_events();
+    if (settings().pair_events) list_pair_events();
+    launcher().begin_commit();
+    run(Kernel::commit_bodies);
+    run(Kernel::cache_starts);
+    run(Kernel::cache_pairs);
+    run(Kernel::cache_impulses);
+    if (has(FEATURE_TREES)) run(Kernel::cache_normals);
+    if (has(FEATURE_EVENTS)) run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
+    if (has(FEATURE_ROLLING)) {
+      run(Kernel::clear_cached, {1}, {Buffer::cached_rolling_impulse});
+      run(Kernel::cache_rolling);
+    }
+    if (const auto keep = solver_named(settings().solver).commit) keep(*this);
+  }
+
+  void list_pair_events()
+  {
+    run(Kernel::count_pair_events);
+    exclusive_scan(launcher(), Buffer::pair_event_start, Buffer::pair_event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_PAIR_EVENTS}, {Buffer::pair_event_start});
+    run(Kernel::write_pair_events);
+  }
+
+  /* Before the commit: bodies are where their contacts were found, and the cache is that of the last step. */
+  void list_events()
+  {
+    run(Kernel::pair_impulses);
+    run(Kernel::find_touching);
+    run(Kernel::count_events);
+    exclusive_scan(launcher(), Buffer::event_start, Buffer::event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_EVENTS}, {Buffer::event_start});
+    run(Kernel::write_events);
+  }
+};
+
+} // namespace
+
+void launch_step(Launcher &launcher, const StepPlan &plan, const Settings &settings) { Step(launcher, plan, settings).run_all(); }
+
+} // namespace tandem

@@ -1,0 +1,26 @@
+/* step.h - the whole step as a list of launches. */
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/runtime/launcher.h"
+#include <tandem/settings.h>
+
+namespace tandem {
+
+/* What the host knows when it launches a step: sizes of launches, never of results. Launching too few
+ * colours or rounds shows in the status, and the step runs again with more. */
+struct StepPlan {
+  uint32_t features = 0;
+  uint32_t bodies = 0;
+  uint32_t capacity_pairs = 0;
+  uint32_t capacity_cells = 0;
+  uint32_t colors = 16; /* up to COLOR_LIMIT + 1: the tail */
+  uint32_t rounds = 16;
+  std::array<uint32_t, COUNT_TOTAL> known{}; /* counts after the last step */
+};
+
+void launch_step(Launcher &launcher, const StepPlan &plan, const Settings &settings);
+
+} // namespace tandem

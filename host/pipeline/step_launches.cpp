@@ -1,0 +1,62 @@
+/* step_launches.cpp - see step_launches.h. */
+#include "host/pipeline/step_launches.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "host/pipeline/primitives.h"
+#include "host/pipeline/scene_counts.h"
+#include "shared/broadphase/sweep_limits.h"
+
+namespace tandem {
+
+void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  const KernelRow &row = row_of(kernel);
+  if (row.form == Form::group && !is_told_by_scene(row.items))
+    throw std::logic_error(std::string(row.name) + " is launched for as many groups as the last step had");
+  run_range(kernel, COUNT_ZERO, row.items, values, slots);
+}
+
+void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
+}
+
+void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+{
+  launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
+}
+
+void StepLaunches::for_each_color(Kernel kernel, const std::vector<uint32_t> &values)
+{
+  for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)
+    run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
+}
+
+void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values)
+{
+  for_each_color(kernel, values);
+  if (plan_.colors > COLOR_LIMIT) run(tail, values);
+}
+
+void StepLaunches::begin_substep(uint32_t substep)
+{
+  if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
+  run(Kernel::integrate_velocities);
+}
+
+void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
+{
+  const uint32_t capacity = length == COUNT_BODIES ? plan_.bodies : SWEEP_SHARES * plan_.bodies;
+  exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, length, capacity);
+  run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {length}, {starts});
+}
+
+void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+{
+  sort_pairs(launcher_, keys, values, Buffer::sort_key_other, Buffer::sort_value_other, Buffer::sort_histogram, Buffer::scan_sums, length,
+             capacity, first_bit, last_bit);
+}
+
+} // namespace tandem

@@ -1,0 +1,43 @@
+/* step_launches.h - the words a step is written in: launch a kernel, once a colour, scan, sort.
+ *
+ * host/pipeline/step.cpp writes the pipeline with them, host/pipeline/solvers/ each a solver. */
+#pragma once
+
+#include <vector>
+
+#include "host/pipeline/step.h"
+
+namespace tandem {
+
+class StepLaunches {
+public:
+  StepLaunches(Launcher &launcher, const StepPlan &plan, const Settings &settings) : launcher_(launcher), plan_(plan), settings_(settings) {}
+
+  const StepPlan &plan() const { return plan_; }
+  const Settings &settings() const { return settings_; }
+  Launcher &launcher() { return launcher_; }
+  bool has(uint32_t feature) const { return (plan_.features & feature) != 0; }
+
+  /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
+  void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* A kernel over [counts[first], counts[last]). */
+  void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
+  void run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  /* One launch a colour of constraints; those without a colour of their own are left to host/pipeline/solvers/mass_split.h. */
+  void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
+  /* The same, and `tail` over those without a colour. */
+  void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
+  /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
+  void begin_substep(uint32_t substep);
+  /* From how many pairs each of so many finds to where its first goes, and to how many there are. */
+  void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);
+  void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
+
+private:
+  Launcher &launcher_;
+  const StepPlan &plan_;
+  const Settings &settings_;
+};
+
+} // namespace tandem

@@ -1,0 +1,60 @@
+/* backend.h - something that runs kernels: MiniCL (serial, tbb) or an OpenCL device.
+ *
+ * step.cpp decides what runs; placement decides on which backend; a backend knows nothing of physics.
+ */
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/runtime/interface/storage.h"
+
+namespace tandem {
+
+class Memory;
+
+/* One kernel over one range. Slots and values fill the row's SLOT_ and VALUE arguments in order. */
+struct Launch {
+  Kernel kernel;
+  std::vector<Buffer> slots;
+  std::vector<uint32_t> values;
+  uint32_t first = COUNT_ZERO; /* entries of counts: the range is [counts[first], counts[last]) */
+  uint32_t last = COUNT_ZERO;
+  uint32_t expected = 0; /* about how many items: sizes a device's launch, never its result. GROUP: at least as many */
+};
+
+/* Arguments in the order of the kernel's row: a handle of the backend's storage, or a value. */
+struct BoundArgument {
+  void *handle = nullptr;
+  uint32_t value = 0;
+};
+
+class Backend {
+public:
+  virtual ~Backend() = default;
+  virtual const std::string &name() const = 0; /* as given to --on: "tbb:threads=2,lanes=8" */
+  virtual Storage &storage() = 0;
+  /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. Called before run. */
+  virtual void prepare(uint32_t features, const std::vector<Kernel> &kernels) = 0;
+  /* counts: the handle of Buffer::counts in this backend's storage. May return before the work is done. */
+  virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
+  /* The same for a kernel of form HOST, which takes its buffers itself. Only the backend of host/pipeline/host_stages.h has them. */
+  virtual void run_host_stage(const Launch &launch, Memory &memory);
+  virtual void finish() = 0; /* waits for all work given so far */
+
+  /* Work-item order of the CPU backends, for tests. */
+  enum class Order { forward, backward, shuffled };
+
+  /* Time spent in each kernel since the last call, indexed by Kernel; all 0 unless profiling is on. */
+  struct Time {
+    double nanoseconds = 0;
+    uint64_t launches = 0;
+  };
+  virtual void set_profiling(bool on) = 0;
+  virtual std::vector<Time> take_kernel_times() = 0;
+
+  double build_milliseconds = 0; /* spent in prepare */
+};
+
+} // namespace tandem

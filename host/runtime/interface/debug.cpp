@@ -1,0 +1,8 @@
+/* debug.cpp - see debug.h. */
+#include "host/runtime/interface/debug.h"
+
+namespace tandem {
+
+constinit thread_local volatile uint64_t step_of_launch = 0;
+
+} // namespace tandem

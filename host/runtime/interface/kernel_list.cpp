@@ -1,0 +1,67 @@
+/* kernel_list.cpp - the rows of kernels.def and buffers.def, expanded. */
+#include "host/runtime/interface/kernel_list.h"
+
+#include <array>
+
+#include "shared/parameters.h"
+
+namespace tandem {
+namespace {
+
+constexpr uint32_t COUNT_GIVEN = items_given;
+
+#define IN(name) Argument{Argument::Kind::buffer, Access::in, Buffer::name, #name},
+#define OUT(name) Argument{Argument::Kind::buffer, Access::out, Buffer::name, #name},
+#define INOUT(name) Argument{Argument::Kind::buffer, Access::inout, Buffer::name, #name},
+#define SLOT_IN(name) Argument{Argument::Kind::slot, Access::in, {}, #name},
+#define SLOT_OUT(name) Argument{Argument::Kind::slot, Access::out, {}, #name},
+#define SLOT_INOUT(name) Argument{Argument::Kind::slot, Access::inout, {}, #name},
+#define VALUE(name) Argument{Argument::Kind::value, Access::in, {}, #name},
+
+#define KERNEL(name, stage, form, items, feature, arguments) constexpr Argument arguments_of_##name[] = {arguments};
+#include "shared/kernels.def"
+#undef KERNEL
+
+#define FORM_ITEM Form::item
+#define FORM_LANES Form::lanes
+#define FORM_GROUP Form::group
+#define FORM_HOST Form::host
+constexpr std::array<KernelRow, kernel_count> kernel_rows = {{
+#define KERNEL(name, stage, form, items, feature, arguments) \
+  {#name, Stage::stage, FORM_##form, COUNT_##items, FEATURE_##feature, arguments_of_##name},
+#include "shared/kernels.def"
+#undef KERNEL
+}};
+
+constexpr std::array<BufferRow, buffer_count> buffer_rows = {{
+#define BUFFER(name, element, capacity, per_item, feature, fields) \
+  {#name, Element::element, Capacity::capacity, per_item, FEATURE_##feature, fields},
+#include "shared/buffers.def"
+#undef BUFFER
+}};
+
+} // namespace
+
+const KernelRow &row_of(Kernel kernel) { return kernel_rows[index_of(kernel)]; }
+const BufferRow &row_of(Buffer buffer) { return buffer_rows[index_of(buffer)]; }
+
+const char *name_of(Stage stage)
+{
+  static const char *const names[stage_count] = {"parallel", "broadphase", "midphase", "narrowphase", "batching",
+                                                 "setup",    "solve",      "events",   "integrate",   "queries", "sweeps", "problem"};
+  return names[static_cast<size_t>(stage)];
+}
+
+size_t size_of(Element element)
+{
+  switch (element) {
+  case Element::row: return sizeof(row);
+  case Element::real: return sizeof(memory_real);
+  case Element::uint: return sizeof(uint);
+  case Element::ulong: return sizeof(ulong);
+  case Element::Parameters: return sizeof(Parameters);
+  }
+  return 0;
+}
+
+} // namespace tandem

@@ -1,0 +1,63 @@
+/* storage.cpp - host memory; see storage.h. */
+#include "host/runtime/interface/storage.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+#include <vector>
+
+#include <sys/mman.h>
+
+#include "host/runtime/interface/address_sanitizer.h"
+#include "host/runtime/interface/faults.h"
+
+namespace tandem {
+namespace {
+
+/* Of a million bodies searches read here and there in tens of megabytes: with small pages most of it is looking up where they are. */
+constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
+
+class HostStorage : public Storage {
+public:
+  const char *what() const override { return "the host's memory"; }
+  void *allocate(Element, size_t bytes, void *) override
+  {
+    if (faults::strikes(faults::Site::allocation) || bytes > SIZE_MAX - huge_page) throw std::bad_alloc();
+    const size_t page = bytes < 2 * huge_page ? small_page : huge_page;
+    const size_t rounded = (std::max<size_t>(bytes, 1) + page - 1) / page * page;
+    void *memory = std::aligned_alloc(page, rounded);
+    if (!memory) throw std::bad_alloc();
+    if (page == huge_page) madvise(memory, rounded, MADV_HUGEPAGE); /* whether it is heard is a matter of time alone */
+    std::memset(memory, 0, rounded);
+    forbid_access(memory, bytes, rounded);
+    return memory;
+  }
+  void release(void *handle) noexcept override { std::free(handle); }
+  void write(void *handle, size_t offset, const void *from, size_t bytes) override
+  {
+    std::memcpy(static_cast<char *>(handle) + offset, from, bytes);
+  }
+  void read(void *handle, size_t offset, void *to, size_t bytes) override
+  {
+    std::memcpy(to, static_cast<const char *>(handle) + offset, bytes);
+  }
+};
+
+} // namespace
+
+Storage &host_storage()
+{
+  static HostStorage storage;
+  return storage;
+}
+
+void Storage::read_reals(void *handle, size_t first, double *to, size_t count)
+{
+  std::vector<float> values(count);
+  read(handle, first * sizeof(float), values.data(), count * sizeof(float));
+  std::copy(values.begin(), values.end(), to);
+}
+
+} // namespace tandem

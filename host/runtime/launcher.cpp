@@ -1,0 +1,36 @@
+/* launcher.cpp - binds a launch's arguments in the order of its kernel's row. */
+#include "host/runtime/launcher.h"
+
+#include <stdexcept>
+
+#include "host/runtime/interface/debug.h"
+
+namespace tandem {
+
+void PlacedLauncher::launch(const Launch &launch)
+{
+  step_of_launch = step_;
+  Backend &backend = choice_(launch.kernel);
+  const KernelRow &row = row_of(launch.kernel);
+  if (row.form == Form::host) {
+    backend.run_host_stage(launch, memory_);
+    if (observer_) observer_(launch);
+    return;
+  }
+  bound_.clear();
+  size_t slot = 0, value = 0;
+  for (const Argument &argument : row.arguments) {
+    switch (argument.kind) {
+    case Argument::Kind::buffer: bound_.push_back({memory_.acquire(argument.buffer, backend.storage(), argument.access), 0}); break;
+    case Argument::Kind::slot: bound_.push_back({memory_.acquire(launch.slots.at(slot++), backend.storage(), argument.access), 0}); break;
+    case Argument::Kind::value: bound_.push_back({nullptr, launch.values.at(value++)}); break;
+    }
+  }
+  if (slot != launch.slots.size() || value != launch.values.size())
+    throw std::logic_error(std::string("launch of ") + row.name + " does not fit its row in kernels.def");
+  void *counts = memory_.acquire(Buffer::counts, backend.storage(), Access::in);
+  backend.run(launch, bound_, counts);
+  if (observer_) observer_(launch);
+}
+
+} // namespace tandem

@@ -1,0 +1,56 @@
+/* launcher.h - takes launches, finds their backend, and moves the buffers they need there.
+ *
+ * The one place where placement is decided: step.cpp and the primitives only name kernels.
+ */
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
+
+namespace tandem {
+
+class Launcher {
+public:
+  virtual ~Launcher() = default;
+  virtual void launch(const Launch &launch) = 0;
+  /* From here on what is launched writes the state that the next step starts from (host/world/carried.h). */
+  virtual void begin_commit() {}
+};
+
+class PlacedLauncher : public Launcher {
+public:
+  using Choice = std::function<Backend &(Kernel)>;
+  using Observer = std::function<void(const Launch &)>;
+
+  PlacedLauncher(Memory &memory, Choice choice) : memory_(memory), choice_(std::move(choice)) {}
+  void launch(const Launch &launch) override;
+  void begin_commit() override
+  {
+    if (on_commit_) on_commit_();
+  }
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+  void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
+  void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/runtime/interface/debug.h */
+
+private:
+  Memory &memory_;
+  Choice choice_;
+  Observer observer_;
+  std::function<void()> on_commit_;
+  uint64_t step_ = 0;
+  std::vector<BoundArgument> bound_;
+};
+
+/* Everything on one backend: for tests and benchmarks of single kernels. */
+class DirectLauncher : public PlacedLauncher {
+public:
+  DirectLauncher(Memory &memory, Backend &backend)
+      : PlacedLauncher(memory, [&backend](Kernel) -> Backend & { return backend; })
+  {
+  }
+};
+
+} // namespace tandem

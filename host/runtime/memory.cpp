@@ -1,0 +1,196 @@
+/* memory.cpp - residency of buffers; see memory.h. */
+#include "host/runtime/memory.h"
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+#include <fmt/format.h>
+
+#include "host/base/out_of_memory.h"
+#include <tandem/round_to_float.h>
+
+namespace tandem {
+Memory::Memory()
+{
+  for (size_t i = 0; i < buffer_count; ++i) entries_[i].element = row_of(buffer_at(i)).element;
+}
+
+Memory::~Memory()
+{
+  for (Entry &entry : entries_) release(entry);
+}
+
+/* Devices that work in host memory let go of it before it is freed: the host's copy is always first. */
+void Memory::release(Entry &entry) noexcept
+{
+  for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
+  entry.copies.clear();
+}
+
+void Memory::resize(Buffer buffer, size_t bytes)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (bytes == entry.bytes) return;
+  release(entry);
+  entry.bytes = bytes;
+}
+
+/* All that can fail comes before the first change. */
+void Memory::grow(Buffer buffer, size_t bytes)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (bytes <= entry.bytes) return;
+  Entry grown{entry.element, bytes, {}};
+  if (!entry.copies.empty()) {
+    grown.copies.reserve(1);
+    grown.copies.push_back({&host_storage(), allocate(entry, bytes, host_storage(), nullptr), true});
+    try {
+      download(buffer, grown.copies.front().handle, entry.bytes);
+    } catch (...) {
+      release(grown);
+      throw;
+    }
+  }
+  release(entry);
+  entry = std::move(grown);
+}
+
+void Memory::reserve(Buffer buffer, Storage &storage)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  if (entry.bytes > 0) copy_in(entry, storage);
+}
+
+bool Memory::holds(Buffer buffer, const Storage &storage) const
+{
+  const std::vector<Copy> &copies = entries_[index_of(buffer)].copies;
+  return std::any_of(copies.begin(), copies.end(), [&](const Copy &copy) { return copy.storage == &storage; });
+}
+
+size_t Memory::total_bytes() const
+{
+  size_t total = 0;
+  for (const Entry &entry : entries_) total += entry.bytes;
+  return total;
+}
+
+void *Memory::allocate(const Entry &entry, size_t bytes, Storage &storage, void *host_memory)
+{
+  const auto refusal = [&](const std::string &why) {
+    return fmt::format("out of memory: buffer {} needs {} bytes of {}, all buffers together {}{}",
+                       row_of(buffer_at(static_cast<size_t>(&entry - entries_.data()))).name, bytes, storage.what(), total_bytes(), why);
+  };
+  try {
+    return storage.allocate(entry.element, bytes, host_memory);
+  } catch (const std::bad_alloc &) {
+    throw OutOfMemory(refusal(""));
+  } catch (const std::runtime_error &error) {
+    throw OutOfMemory(refusal(fmt::format(" ({})", error.what())));
+  }
+}
+
+Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
+{
+  for (Copy &copy : entry.copies)
+    if (copy.storage == &storage) return copy;
+  entry.copies.reserve(entry.copies.size() + 2); /* itself, and the host's copy beside it: a handle must not be lost for want of a place */
+  if (&storage != &host_storage() && storage.shares_host_memory()) {
+    void *host = copy_in(entry, host_storage()).handle;
+    entry.copies.push_back({&storage, allocate(entry, entry.bytes, storage, host), false});
+    return entry.copies.back();
+  }
+  const Copy fresh{&storage, allocate(entry, entry.bytes, storage, nullptr), entry.copies.empty()};
+  const auto place = &storage == &host_storage() ? entry.copies.begin() : entry.copies.end();
+  return *entry.copies.insert(place, fresh);
+}
+
+/* Between two devices the bytes pass through the host's copy, in which a third may still be reading old ones. */
+void Memory::make_valid(Entry &entry, Copy &wanted)
+{
+  if (wanted.valid) return;
+  Storage *target = wanted.storage;
+  Copy &host = copy_in(entry, host_storage());
+  if (!host.valid) {
+    const auto source = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+    if (source != entry.copies.end()) {
+      for (Copy &copy : entry.copies)
+        if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
+      source->storage->read(source->handle, 0, host.handle, entry.bytes);
+    }
+    host.valid = true;
+  }
+  Copy &copy = copy_in(entry, *target);
+  if (copy.valid) return;
+  copy.storage->write(copy.handle, 0, host.handle, entry.bytes);
+  copy.valid = true;
+}
+
+/* A device may still be reading bytes that it shares with the place about to write them. */
+void Memory::wait_for_readers(Entry &entry, Storage &writer)
+{
+  if (&writer != &host_storage() && !writer.shares_host_memory()) return;
+  for (Copy &copy : entry.copies)
+    if (copy.valid && copy.storage != &writer && copy.storage->shares_host_memory()) copy.storage->wait();
+}
+
+void *Memory::acquire(Buffer buffer, Storage &storage, Access access)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  make_valid(entry, copy_in(entry, storage));
+  Copy &copy = copy_in(entry, storage);
+  if (access == Access::in) return copy.handle;
+  wait_for_readers(entry, storage);
+  for (Copy &other : entry.copies) other.valid = &other == &copy;
+  return copy.handle;
+}
+
+void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset)
+{
+  if (bytes == 0) return;
+  char *host = static_cast<char *>(acquire(buffer, host_storage(), Access::inout));
+  std::memcpy(host + offset, from, bytes);
+}
+
+/* Reads straight from a device when the host's copy is stale, so that reading a count moves a count. */
+void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
+{
+  if (bytes == 0) return;
+  Entry &entry = entries_[index_of(buffer)];
+  copy_in(entry, host_storage());
+  for (Copy &copy : entry.copies)
+    if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
+}
+
+/* Once the host has looked at a buffer its floats are valid beside the doubles. */
+Memory::Copy &Memory::most_precise(Entry &entry)
+{
+  copy_in(entry, host_storage());
+  const auto wide = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid && copy.storage->keeps_doubles(); });
+  if (wide != entry.copies.end()) return *wide;
+  return *std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+}
+
+std::vector<double> Memory::read_reals(Buffer buffer, size_t count, size_t first)
+{
+  std::vector<double> values(count);
+  Copy &copy = most_precise(entries_[index_of(buffer)]);
+  if (count > 0) copy.storage->read_reals(copy.handle, first, values.data(), count);
+  return values;
+}
+
+void Memory::write_reals(Buffer buffer, const double *from, size_t count, size_t first)
+{
+  if (count == 0) return;
+  Entry &entry = entries_[index_of(buffer)];
+  Copy &wide = most_precise(entry);
+  if (!wide.storage->keeps_doubles()) {
+    std::vector<float> rounded(count);
+    std::transform(from, from + count, rounded.begin(), [](double x) { return round_to_float(x); });
+    return upload(buffer, rounded.data(), count * sizeof(float), first * sizeof(float));
+  }
+  wide.storage->write_reals(wide.handle, first, from, count);
+  for (Copy &other : entry.copies) other.valid = &other == &wide;
+}
+
+} // namespace tandem

@@ -1,0 +1,114 @@
+/* program.cpp - builds programs, from source or from the cache of binaries.
+ *
+ * The embedded text keeps #line directives, so a compiler's log names the file and line people edit. */
+#include "host/runtime/opencl/program.h"
+
+#include <cctype>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "host/runtime/opencl/program_cache.h"
+#include "shared/features.h"
+
+namespace tandem::opencl {
+namespace {
+
+std::string all_options(const DeviceContext &context, const std::string &options)
+{
+  return options.empty() ? context.options : context.options + " " + options;
+}
+
+/* A binary that its driver no longer takes is not an error: the source is still here. */
+std::optional<cl::Program> build_cached(const DeviceContext &context, const std::string &key, const std::string &options)
+{
+  const std::optional<Binary> binary = load_binary(key);
+  if (!binary) return std::nullopt;
+  try {
+    fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithBinary");
+    cl::Program program(context.context, {context.device}, cl::Program::Binaries{*binary});
+    program.build({context.device}, options.c_str());
+    return program;
+  } catch (const cl::Error &) {
+    return std::nullopt;
+  }
+}
+
+cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
+{
+  fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithSource");
+  cl::Program program(context.context, std::string(embedded.source));
+  const cl_device_id device = context.device();
+  const cl_int result =
+      code_of(faults::Site::build, [&] { return clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr); });
+  if (result == CL_SUCCESS) return program;
+  std::string log;
+  try {
+    log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(context.device);
+  } catch (const cl::Error &) {
+    log = "(the driver keeps no log)";
+  }
+  throw BuildError(fmt::format("cl/{}.cl does not build on {} with '{}': {}\n{}", embedded.name, context.info.device_name,
+                               options, error_name(result), log));
+}
+
+Binary binary_of(const cl::Program &program)
+{
+  size_t bytes = 0;
+  if (clGetProgramInfo(program(), CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, nullptr) != CL_SUCCESS) return {};
+  Binary binary(bytes);
+  unsigned char *place = binary.data();
+  if (bytes == 0 || clGetProgramInfo(program(), CL_PROGRAM_BINARIES, sizeof place, &place, nullptr) != CL_SUCCESS) return {};
+  return binary;
+}
+
+} // namespace
+
+const EmbeddedProgram &embedded_program(const std::string &name)
+{
+  for (unsigned i = 0; i < embedded_program_count; ++i)
+    if (name == embedded_programs[i].name) return embedded_programs[i];
+  throw std::logic_error(fmt::format("cl/{}.cl is not embedded", name));
+}
+
+uint32_t features_read(const EmbeddedProgram &program)
+{
+  static const std::pair<std::string, uint32_t> names[] = {
+#define FEATURE(name, what) {"FEATURE_" #name, FEATURE_##name},
+#include "shared/features.def"
+#undef FEATURE
+  };
+  const std::string_view source = program.source;
+  const auto is_named = [&](const std::string &name) {
+    const auto goes_on = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+    size_t at = source.find(name);
+    while (at != source.npos && at + name.size() < source.size() && goes_on(source[at + name.size()])) at = source.find(name, at + 1);
+    return at != source.npos;
+  };
+  uint32_t features = 0;
+  for (const auto &[name, bit] : names)
+    if (is_named(name)) features |= bit;
+  return features;
+}
+
+std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options)
+{
+  const DeviceInfo &info = context.info;
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform_name, info.platform_version, info.device_name,
+                     info.driver_version, all_options(context, options), program.source);
+}
+
+cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
+{
+  const std::string all = all_options(context, options);
+  const std::string key = cache_key(context, embedded, options);
+  if (std::optional<cl::Program> cached = build_cached(context, key, all)) return *cached;
+  const cl::Program program = build_from_source(context, embedded, all);
+  store_binary(key, binary_of(program));
+  return program;
+}
+
+} // namespace tandem::opencl

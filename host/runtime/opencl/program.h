@@ -1,0 +1,24 @@
+/* program.h - from an embedded source to a built program. */
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "host/runtime/opencl/embedded_kernels.h"
+#include "host/runtime/opencl/context.h"
+
+namespace tandem::opencl {
+
+/* The program of cl/NAME.cl; std::logic_error if none is embedded. */
+const EmbeddedProgram &embedded_program(const std::string &name);
+
+/* Built with the context's options and these, from the cache where it can be. BuildError carries the compiler's log. */
+cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options = "");
+
+/* FEATURE_ bits that a program asks for: builds that differ in others alone are one. */
+uint32_t features_read(const EmbeddedProgram &program);
+
+/* What names a built program in the cache. */
+std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);
+
+} // namespace tandem::opencl

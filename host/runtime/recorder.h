@@ -1,0 +1,37 @@
+/* recorder.h - a launcher that runs nothing: which kernels a series of launches needs, and which buffers each touches. */
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "host/runtime/launcher.h"
+
+namespace tandem {
+
+class Recorder : public Launcher {
+public:
+  void launch(const Launch &launch) override
+  {
+    for (Buffer slot : launch.slots) touch(launch.kernel, slot);
+    if (std::find(kernels.begin(), kernels.end(), launch.kernel) != kernels.end()) return;
+    kernels.push_back(launch.kernel);
+    for (const Argument &argument : row_of(launch.kernel).arguments)
+      if (argument.kind == Argument::Kind::buffer) touch(launch.kernel, argument.buffer);
+  }
+
+  std::vector<Kernel> kernels; /* each once, in the order of their first launches */
+  std::array<bool, buffer_count> touched{};
+  std::set<std::pair<Kernel, Buffer>> uses;
+
+private:
+  void touch(Kernel kernel, Buffer buffer)
+  {
+    touched[index_of(buffer)] = true;
+    uses.emplace(kernel, buffer);
+  }
+};
+
+} // namespace tandem

@@ -1,0 +1,281 @@
+/* body_buffers.cpp - packs and unpacks body records; see body_buffers.h. */
+#include "host/scene/body_buffers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/scene/buffer_upload.h"
+#include "host/geometry/shape_mass.h"
+#include "host/base/hash.h"
+#include "host/scene/hull_buffers.h"
+#include <tandem/round_to_float.h>
+#include "host/scene/shape_bounds.h"
+#include "host/scene/specialise.h"
+#include "host/scene/tree_tables.h"
+#include "shared/body_codes.h"
+
+namespace tandem {
+namespace {
+
+row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
+Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
+
+Point point_of(const row *place)
+{
+  return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
+}
+
+/* A shape as it stands in a body: the body's own, or a child of its compound. */
+struct PlacedShape {
+  const Body *body;
+  const Shape *shape;
+  Vec3 position;
+  Quat orientation;
+  uint32_t material;
+  Filter filter;
+  float radius; /* of the whole body: kernels ask for that of no child */
+};
+
+/* Those of the bodies, then the children of each. */
+std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uint32_t> &order)
+{
+  std::vector<PlacedShape> placed;
+  for (uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material, filter_of(scene, body), bounding_radius(scene, body)});
+  }
+  for (uint32_t index : order) {
+    const Body &body = scene.bodies[index];
+    const Shape &shape = scene.shapes[body.shape];
+    for (uint32_t k = 0; k < children_of(shape); ++k) {
+      const Child &child = shape.compound->children[k];
+      const ShapePlace place = place_of_child(body, child);
+      const auto &[x, y, z] = place.position;
+      const auto &[qx, qy, qz, qw] = place.orientation;
+      placed.push_back({&body, &child.shape, {round_to_float(x), round_to_float(y), round_to_float(z)}, {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)}, child.material.value_or(body.material), filter_of(body, child), 0});
+    }
+  }
+  return placed;
+}
+
+uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
+{
+  const uint32_t shape = is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
+  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
+         (placed.body->continuous ? uint32_t{TRAIT_CONTINUOUS} : 0u);
+}
+
+float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
+
+Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity; }
+
+} // namespace
+
+std::array<row, 2> place_of(const Point &p)
+{
+  const row high{round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
+  return {high, {round_to_float(p[0] - double{high.x}), round_to_float(p[1] - double{high.y}), round_to_float(p[2] - double{high.z}), 0}};
+}
+
+Quat unit(const Quat &q)
+{
+  const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  if (std::abs(length - 1) < 1e-6) return q;
+  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length), round_to_float(q[3] / length)};
+}
+
+void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  std::vector<row> mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
+  for (size_t i = 0; i < n; ++i) {
+    const Body &body = scene.bodies[order[i]];
+    const Quat q = unit(body.orientation);
+    mass[2 * i] = row_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
+    mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
+    const auto place = place_of(body.position);
+    std::copy(place.begin(), place.end(), &position[2 * i]);
+    orientation[i] = {q[0], q[1], q[2], q[3]};
+    velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
+    velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor);
+  }
+  upload_all(memory, Buffer::body_mass, mass);
+  upload_all(memory, Buffer::body_position, position);
+  upload_all(memory, Buffer::body_orientation, orientation);
+  upload_all(memory, Buffer::body_velocity, velocity);
+}
+
+void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  const std::map<const ConvexHull *, uint32_t> hulls = hull_numbers(scene);
+  std::vector<row> sizes, poses;
+  std::vector<uint32_t> traits, filters, convexes;
+  for (const PlacedShape &placed : placed_shapes(scene, order)) {
+    const Shape &shape = *placed.shape;
+    const Quat q = unit(placed.orientation);
+    const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
+    sizes.push_back(row_of_vec(kernel_size(shape), placed.radius));
+    traits.push_back(traits_of(scene, placed));
+    filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
+    convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});
+    poses.insert(poses.end(), {row_of_vec(placed.position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0), row_of_vec(box.half_extents, 0)});
+  }
+  upload_all(memory, Buffer::body_shape, sizes);
+  upload_all(memory, Buffer::body_traits, traits);
+  upload_all(memory, Buffer::body_filter, filters);
+  upload_all(memory, Buffer::body_convex, convexes);
+  upload_all(memory, Buffer::body_shape_pose, poses);
+}
+
+void upload_materials(Memory &memory, const Scene &scene)
+{
+  std::vector<row> rows, rolling;
+  for (const Material &material : scene.materials) {
+    const float rules = static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
+    rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
+    rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
+  }
+  upload_all(memory, Buffer::material, rows);
+  upload_all(memory, Buffer::material_rolling, rolling);
+}
+
+namespace {
+
+/* All but the traits. What can fail comes before the first change. */
+void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
+{
+  for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity}) memory.prepare_upload(buffer);
+  memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
+  memory.upload(Buffer::body_orientation, &record.orientation, sizeof(row), size_t{index} * sizeof(row));
+  memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
+}
+
+} // namespace
+
+BodyRecord read_body(Memory &memory, uint32_t index)
+{
+  const auto position = memory.read<row>(Buffer::body_position, 2, 2 * size_t{index}), velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const row orientation = memory.read<row>(Buffer::body_orientation, 1, index).front();
+  return {{position[0], position[1]}, orientation, {velocity[0], velocity[1]}, memory.read<uint32_t>(Buffer::body_traits, 1, index).front()};
+}
+
+void write_body(Memory &memory, uint32_t index, const BodyRecord &record)
+{
+  memory.prepare_upload(Buffer::body_traits);
+  write_state(memory, index, record);
+  memory.upload(Buffer::body_traits, &record.traits, sizeof record.traits, size_t{index} * sizeof record.traits);
+}
+
+void upload_body(Memory &memory, uint32_t index, const BodyState &state)
+{
+  const Quat q = unit(state.orientation);
+  const auto place = place_of(state.position);
+  const row orientation{q[0], q[1], q[2], q[3]};
+  const auto velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const row linear = row_of_vec(state.linear_velocity, velocity[0].w), angular = row_of_vec(state.angular_velocity, velocity[1].w);
+  write_state(memory, index, {place, orientation, {linear, angular}, 0});
+}
+
+std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  const auto position = memory.read<row>(Buffer::body_position, 2 * n), orientation = memory.read<row>(Buffer::body_orientation, n);
+  const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * n);
+  std::vector<BodyState> states(n);
+  for (size_t i = 0; i < n; ++i)
+    states[order[i]] = {point_of(&position[2 * i]), {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
+                        vec_of_row(velocity[2 * i]), vec_of_row(velocity[2 * i + 1])};
+  return states;
+}
+
+std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order)
+{
+  const size_t n = order.size();
+  const auto position = memory.read_reals(Buffer::body_position, 8 * n), orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
+  const auto velocity = memory.read_reals(Buffer::body_velocity, 8 * n);
+  std::vector<PreciseBodyState> states(n);
+  for (size_t i = 0; i < n; ++i) {
+    PreciseBodyState &state = states[order[i]];
+    for (size_t k = 0; k < 3; ++k) state.position[k] = position[8 * i + k] + position[8 * i + 4 + k];
+    std::copy_n(&orientation[4 * i], 4, state.orientation.begin());
+    std::copy_n(&velocity[8 * i], 3, state.linear_velocity.begin());
+    std::copy_n(&velocity[8 * i + 4], 3, state.angular_velocity.begin());
+  }
+  return states;
+}
+
+bool is_finite(const BodyState &state)
+{
+  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); }); };
+  return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) && finite(state.angular_velocity);
+}
+
+void quarantine_body(Memory &memory, uint32_t index)
+{
+  BodyRecord record = read_body(memory, index);
+  for (const double x : point_of(record.position.data()))
+    if (!std::isfinite(x)) record.position = {};
+  record.orientation = {0, 0, 0, 1};
+  record.velocity = {};
+  record.traits = (record.traits & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
+  write_body(memory, index, record);
+}
+
+void measure_contacts(Memory &memory, Statistics &statistics)
+{
+  const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
+  const uint32_t pairs = counts[COUNT_PAIRS], stride = counts[CAPACITY_PAIRS];
+  statistics.pairs = pairs;
+  statistics.manifolds = counts[COUNT_CONSTRAINTS];
+  statistics.colors = counts[COUNT_COLORS];
+  statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
+  statistics.direct_left = counts[COUNT_DIRECT_LEFT];
+  statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
+  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs), colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
+  double sum = 0;
+  for (uint32_t plane = 0; plane < 4; ++plane) {
+    const auto rows = memory.read<row>(Buffer::manifold_points, pairs, size_t{plane} * stride);
+    for (uint32_t i = 0; i < pairs; ++i) {
+      if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* of triggers nothing counts */
+      const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
+      ++statistics.contacts;
+      sum += depth;
+      statistics.max_penetration = std::max(statistics.max_penetration, depth);
+    }
+  }
+  if (statistics.contacts > 0) statistics.mean_penetration = sum / statistics.contacts;
+}
+
+double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
+{
+  const std::vector<BodyState> states = download_bodies(memory, order);
+  double energy = 0;
+  for (size_t i = 0; i < states.size(); ++i) {
+    const Body &body = scene.bodies[i];
+    if (body.motion != Motion::dynamic) continue;
+    const BodyState &s = states[i];
+    const Vec3 inverse = inverse_inertia_of(scene, body);
+    const double x = s.orientation[0], y = s.orientation[1], z = s.orientation[2], w = s.orientation[3];
+    const double axes[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                               {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                               {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int k = 0; k < 3; ++k) {
+      const double v = s.linear_velocity[k];
+      const double spin = axes[k][0] * s.angular_velocity[0] + axes[k][1] * s.angular_velocity[1] + axes[k][2] * s.angular_velocity[2];
+      energy += 0.5 * body.mass * v * v + (inverse[k] > 0 ? 0.5 * spin * spin / inverse[k] : 0.0);
+    }
+  }
+  return energy;
+}
+
+uint64_t hash_buffers(Memory &memory, const std::vector<Buffer> &buffers, size_t items, uint64_t seed)
+{
+  for (Buffer buffer : buffers) {
+    const BufferRow &info = row_of(buffer);
+    const auto bytes = memory.read<char>(buffer, items * info.per_item * size_of(info.element));
+    seed = hash_bytes(bytes.data(), bytes.size(), seed);
+  }
+  return seed;
+}
+
+} // namespace tandem

@@ -1,0 +1,15 @@
+/* buffer_upload.h - a list into the front of a buffer, unless no kernel of the scene reads it. */
+#pragma once
+
+#include <vector>
+
+#include "host/runtime/memory.h"
+
+namespace tandem {
+
+template <class T> void upload_all(Memory &memory, Buffer buffer, const std::vector<T> &values)
+{
+  if (memory.bytes(buffer) > 0) memory.upload(buffer, values.data(), values.size() * sizeof(T));
+}
+
+} // namespace tandem

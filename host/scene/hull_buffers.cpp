@@ -1,0 +1,102 @@
+/* hull_buffers.cpp - see hull_buffers.h. */
+#include "host/scene/hull_buffers.h"
+
+#include <algorithm>
+
+#include "host/scene/buffer_upload.h"
+#include "host/geometry/convex_hull.h"
+#include "host/scene/hull_strips.h"
+#include <tandem/round_to_float.h>
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+void add_hull(std::vector<const ConvexHull *> &hulls, const Shape &shape)
+{
+  if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end()) hulls.push_back(shape.hull.get());
+  if (!shape.compound) return;
+  for (const Child &child : shape.compound->children) add_hull(hulls, child.shape);
+}
+
+/* In the order of the first shape that has them. */
+std::vector<const ConvexHull *> distinct_hulls(const Scene &scene)
+{
+  std::vector<const ConvexHull *> hulls;
+  for (const Shape &shape : scene.shapes) add_hull(hulls, shape);
+  return hulls;
+}
+
+uint32_t corners_of(const ConvexHull &hull)
+{
+  size_t corners = 0;
+  for (const auto &face : hull.faces) corners += face.size();
+  return static_cast<uint32_t>(corners);
+}
+
+struct Tables {
+  std::vector<uint32_t> headers, face_starts, corners, edges, links;
+  std::vector<row> vertices, planes, strips;
+
+  void add(const ConvexHull &hull, uint32_t map_side)
+  {
+    const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
+    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges), size(corners), corners_of(hull),
+                          size(strips), size(links), map_side})
+      headers.push_back(word);
+    for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
+    for (const HullPlane &p : hull.planes)
+      planes.push_back({round_to_float(p.normal[0]), round_to_float(p.normal[1]), round_to_float(p.normal[2]), round_to_float(p.distance)});
+    for (const auto &face : hull.faces) {
+      face_starts.push_back(size(corners));
+      corners.insert(corners.end(), face.begin(), face.end());
+    }
+    for (const HullEdge &e : hull.edges) edges.insert(edges.end(), {e.v0, e.v1, e.face_left, e.face_right});
+    append_strips(strips, std::span(vertices).last(hull.vertices.size()), 3);
+    append_strips(strips, std::span(planes).last(hull.faces.size()), 4);
+    strips.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
+    append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
+    append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()), strips.back(), map_side);
+  }
+};
+
+} // namespace
+
+HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
+{
+  HullSizes sizes;
+  for (const ConvexHull *hull : distinct_hulls(scene)) {
+    ++sizes.hulls;
+    sizes.vertices += hull->vertices.size();
+    sizes.faces += hull->faces.size();
+    sizes.edges += hull->edges.size();
+    sizes.corners += corners_of(*hull);
+    sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4) + 1;
+    sizes.links += hull->vertices.size() + 1 + 2 * uint64_t{corners_of(*hull)} + 12 * uint64_t{map_side} * map_side;
+  }
+  return sizes;
+}
+
+std::map<const ConvexHull *, uint32_t> hull_numbers(const Scene &scene)
+{
+  std::map<const ConvexHull *, uint32_t> numbers;
+  for (const ConvexHull *hull : distinct_hulls(scene)) numbers.emplace(hull, static_cast<uint32_t>(numbers.size()));
+  return numbers;
+}
+
+void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side)
+{
+  Tables tables;
+  for (const ConvexHull *hull : distinct_hulls(scene)) tables.add(*hull, map_side);
+  tables.face_starts.push_back(static_cast<uint32_t>(tables.corners.size()));
+  upload_all(memory, Buffer::hull_header, tables.headers);
+  upload_all(memory, Buffer::hull_vertex, tables.vertices);
+  upload_all(memory, Buffer::hull_plane, tables.planes);
+  upload_all(memory, Buffer::hull_face_start, tables.face_starts);
+  upload_all(memory, Buffer::hull_corner, tables.corners);
+  upload_all(memory, Buffer::hull_edge, tables.edges);
+  upload_all(memory, Buffer::hull_strip, tables.strips);
+  upload_all(memory, Buffer::hull_link, tables.links);
+}
+
+} // namespace tandem

@@ -1,0 +1,69 @@
+/* parameters.cpp - soft contact coefficients and margins; see parameters.h. */
+#include "host/scene/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tandem/round_to_float.h>
+#include "host/scene/specialise.h"
+
+namespace tandem {
+namespace {
+
+struct SoftContact {
+  float rate, mass_scale, impulse_scale;
+};
+
+/* A mass on a spring and damper of the given frequency and damping ratio, integrated implicitly over one
+ * substep, as coefficients of a velocity constraint (Catto, "Soft Constraints", GDC 2011). */
+SoftContact soft_contact(double hertz, double damping_ratio, double h)
+{
+  if (hertz == 0) return {0, 1, 0};
+  const double omega = 2 * M_PI * hertz;
+  const double a1 = 2 * damping_ratio + h * omega, a2 = h * omega * a1, a3 = 1 / (1 + a2);
+  return {round_to_float(omega / a1), round_to_float(a2 * a3), round_to_float(a3)};
+}
+
+/* Cells of two-stage batching are four bodies wide: more than the largest where sizes are much alike, so that cells of one
+ * class share no body, and few enough contacts that a work-group has its fill and no more. */
+float inverse_batch_cell(const Scene &scene)
+{
+  const float edge = 8 * median_radius(scene);
+  return edge > 0 ? 1 / edge : 1.0f;
+}
+
+} // namespace
+
+Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t features)
+{
+  const double h = static_cast<double>(settings.step) / settings.substeps;
+  /* Above a fifth of the substep rate the bias lifts under load faster than the leak lets sink, and tall columns bounce. */
+  const double hertz = std::min<double>(settings.contact_hertz, 0.2 / h);
+  const SoftContact soft = soft_contact(hertz, settings.contact_damping_ratio, h);
+  const SoftContact against_fixed = soft_contact(2 * hertz, settings.contact_damping_ratio, h);
+  Parameters p{};
+  p.step = settings.step;
+  p.substep = round_to_float(h);
+  p.inverse_substep = round_to_float(1 / h);
+  p.gravity_x = scene.gravity[0];
+  p.gravity_y = scene.gravity[1];
+  p.gravity_z = scene.gravity[2];
+  p.bias_rate = soft.rate;
+  p.mass_scale = soft.mass_scale;
+  p.impulse_scale = soft.impulse_scale;
+  p.static_bias_rate = against_fixed.rate;
+  p.static_mass_scale = against_fixed.mass_scale;
+  p.static_impulse_scale = against_fixed.impulse_scale;
+  p.push_speed = settings.push_speed;
+  p.slop = settings.slop;
+  p.slop_share = settings.slop_share;
+  p.speculative_distance = 4 * settings.slop;
+  p.bounds_margin = 0.5f * p.speculative_distance;
+  p.restitution_speed = settings.restitution_speed;
+  p.hybrid_cell = 4 * median_radius(scene);
+  p.inverse_batch_cell = inverse_batch_cell(scene);
+  p.features = features;
+  return p;
+}
+
+} // namespace tandem

@@ -1,0 +1,13 @@
+/* parameters.h - from settings to the numbers that kernels read (shared/parameters.h). */
+#pragma once
+
+#include <tandem/scene.h>
+#include <tandem/settings.h>
+#include "shared/platform.h"
+#include "shared/parameters.h"
+
+namespace tandem {
+
+Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t features);
+
+} // namespace tandem

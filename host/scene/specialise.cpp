@@ -1,0 +1,242 @@
+/* specialise.cpp - derives the features of a scene from what is in it; see specialise.h. */
+#include "host/scene/specialise.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <tandem/settings.h>
+#include "host/scene/shape_bounds.h"
+#include "shared/body_codes.h"
+#include "shared/features.h"
+
+namespace tandem {
+namespace {
+
+bool is_dynamic(const Body &body) { return body.motion == Motion::dynamic; }
+
+bool has_triggers(const Scene &scene)
+{
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.trigger; });
+}
+
+struct Presence {
+  bool fixed[3] = {};   /* by shape type: bodies that cannot be moved */
+  bool dynamic[3] = {}; /* where there are triggers, kinematic ones too: they meet fixed triggers */
+};
+
+Presence presence_of(const Scene &scene)
+{
+  Presence present;
+  const bool triggers = has_triggers(scene);
+  for (const Body &body : scene.bodies) {
+    const auto type = static_cast<size_t>(scene.shapes[body.shape].type);
+    if (is_general(scene, body)) continue;
+    const bool moves = is_dynamic(body) || (triggers && body.motion == Motion::kinematic);
+    (moves ? present.dynamic : present.fixed)[type] = true;
+  }
+  return present;
+}
+
+/* Of bodies, and of children of compounds. */
+bool any_shape(const Scene &scene, std::initializer_list<ShapeType> types)
+{
+  const auto wanted = [&](const Shape &shape) { return std::find(types.begin(), types.end(), shape.type) != types.end(); };
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) {
+    const Shape &shape = scene.shapes[body.shape];
+    if (wanted(shape)) return true;
+    return shape.compound && std::any_of(shape.compound->children.begin(), shape.compound->children.end(), [&](const Child &child) { return wanted(child.shape); });
+  });
+}
+
+uint32_t convex_features(const Scene &scene)
+{
+  const bool general = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
+  if (!general) return 0;
+  uint32_t features = FEATURE_CONVEX;
+  if (any_shape(scene, {ShapeType::half_space})) features |= FEATURE_CONVEX_HALF_SPACE;
+  if (any_shape(scene, {ShapeType::hull})) features |= FEATURE_HULL;
+  if (any_shape(scene, {ShapeType::capsule, ShapeType::cylinder})) features |= FEATURE_ROUND;
+  if (any_shape(scene, {ShapeType::mesh, ShapeType::compound})) features |= FEATURE_TREES;
+  return features;
+}
+
+/* Polytopes find their depth by axes; triangles, and all else that is not sampled, by expansion. */
+uint32_t narrowphase_features(const Scene &scene, uint32_t features, const Settings &settings)
+{
+  if ((features & FEATURE_CONVEX) == 0) return 0;
+  const uint32_t method = narrowphase_method(settings) & 255u;
+  if (method == CONVEX_SAMPLED) return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
+  if (method == CONVEX_EXPANSION) return FEATURE_EXPANSION;
+  if (method == CONVEX_FIELDS) return uint32_t{FEATURE_FIELDS} | uint32_t{FEATURE_EXPANSION};
+  const bool others = any_shape(scene, {ShapeType::sphere, ShapeType::capsule, ShapeType::cylinder, ShapeType::mesh});
+  return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) | (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
+}
+
+uint32_t support_features(uint32_t features, const Settings &settings)
+{
+  if ((features & FEATURE_HULL) == 0) return 0;
+  const uint32_t support = narrowphase_method(settings) >> 8;
+  return support == SUPPORT_HILL_CLIMBING ? uint32_t{FEATURE_HILL_CLIMBING} : support == SUPPORT_CUBE_MAP ? uint32_t{FEATURE_CUBE_MAP} : 0u;
+}
+
+uint32_t pair_features(const Presence &present)
+{
+  const auto meets = [&](ShapeType first, ShapeType second) {
+    const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
+    return (present.dynamic[a] && (present.dynamic[b] || present.fixed[b])) || (present.dynamic[b] && present.fixed[a]);
+  };
+  uint32_t features = 0;
+  if (meets(ShapeType::sphere, ShapeType::sphere)) features |= FEATURE_SPHERE_SPHERE;
+  if (meets(ShapeType::sphere, ShapeType::box)) features |= FEATURE_SPHERE_BOX;
+  if (meets(ShapeType::box, ShapeType::box)) features |= FEATURE_BOX_BOX;
+  if (meets(ShapeType::sphere, ShapeType::half_space)) features |= FEATURE_SPHERE_HALF_SPACE;
+  if (meets(ShapeType::box, ShapeType::half_space)) features |= FEATURE_BOX_HALF_SPACE;
+  return features;
+}
+
+bool spins_unevenly(const Scene &scene, const Body &body)
+{
+  const Vec3 inverse = inverse_inertia_of(scene, body);
+  return is_dynamic(body) && (inverse[0] != inverse[1] || inverse[1] != inverse[2]);
+}
+
+bool meet(const Filter &a, const Filter &b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
+
+/* The filters and materials of a body's shape, or of its children's. */
+template <class Visit> void for_each_filter(const Scene &scene, const Body &body, const Visit &visit)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) visit(filter_of(scene, body));
+  else
+    for (const Child &child : shape.compound->children) visit(filter_of(body, child));
+}
+template <class Visit> void for_each_material(const Scene &scene, const Body &body, const Visit &visit)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) visit(scene.materials[body.material]);
+  else
+    for (const Child &child : shape.compound->children) visit(scene.materials[child.material.value_or(body.material)]);
+}
+
+/* Nothing to filter where all are alike and meet each other. */
+bool filters(const Scene &scene)
+{
+  std::optional<Filter> first;
+  bool result = false;
+  for (const Body &body : scene.bodies)
+    for_each_filter(scene, body, [&](const Filter &filter) {
+      if (!first) first = filter;
+      result = result || !meet(*first, filter) || filter.group != first->group;
+    });
+  return result;
+}
+
+uint32_t features_of(const Material &material)
+{
+  uint32_t features = 0;
+  if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
+  if (material.restitution > 0) features |= FEATURE_RESTITUTION;
+  if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
+  return features;
+}
+
+uint32_t body_features(const Scene &scene)
+{
+  uint32_t features = 0;
+  for (const Body &body : scene.bodies) {
+    for_each_material(scene, body, [&](const Material &material) { features |= features_of(material); });
+    if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
+    if (body.continuous) features |= FEATURE_CONTINUOUS;
+    if (is_dynamic(body) && (body.linear_damping > 0 || body.angular_damping > 0)) features |= FEATURE_DAMPING;
+  }
+  if (filters(scene)) features |= FEATURE_FILTER;
+  if (has_triggers(scene)) features |= FEATURE_TRIGGER;
+  return features;
+}
+
+struct LargeBodies { std::vector<uint32_t> boundless, large; };
+
+LargeBodies large_bodies(const Scene &scene)
+{
+  const float limit = large_ratio * median_radius(scene);
+  std::vector<float> radii;
+  for (const Body &body : scene.bodies) radii.push_back(bounding_radius(scene, body));
+  const auto radius = [&](uint32_t body) { return radii[body]; };
+  std::vector<uint32_t> boundless, large;
+  for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
+    if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
+    else if (radius(body) > limit || scene.bodies[body].continuous) large.push_back(body); /* what is fast has bounds as large */
+  }
+  std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
+  if (large.size() > most_large_bodies) large.resize(most_large_bodies);
+  std::sort(large.begin(), large.end());
+  return {boundless, large};
+}
+
+} // namespace
+
+float median_radius(const Scene &scene)
+{
+  std::vector<float> radii;
+  for (const Body &body : scene.bodies)
+    if (scene.shapes[body.shape].type != ShapeType::half_space) radii.push_back(bounding_radius(scene, body));
+  if (radii.empty()) return 0;
+  std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
+  return radii[radii.size() / 2];
+}
+
+bool is_general(const Scene &scene, const Body &body)
+{
+  const bool posed = body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
+  const ShapeType type = scene.shapes[body.shape].type;
+  return posed || type > ShapeType::half_space || (body.continuous && type != ShapeType::half_space);
+}
+
+Filter filter_of(const Body &body, const Child &child)
+{
+  return {child.filter_group.value_or(body.filter_group), child.filter_mask.value_or(body.filter_mask)};
+}
+
+Filter filter_of(const Scene &scene, const Body &body)
+{
+  const Shape &shape = scene.shapes[body.shape];
+  if (!shape.compound) return {body.filter_group, body.filter_mask};
+  Filter any{0, 0};
+  for (const Child &child : shape.compound->children) {
+    const Filter own = filter_of(body, child);
+    any = {any.group | own.group, any.mask | own.mask};
+  }
+  return any;
+}
+
+Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
+{
+  if (!is_dynamic(body) || body.infinite_inertia) return {0, 0, 0};
+  const bool own = body.inertia[0] != 0 || body.inertia[1] != 0 || body.inertia[2] != 0;
+  const Vec3 moments = own ? body.inertia : inertia_of(scene.shapes[body.shape], body.mass);
+  Vec3 inverse;
+  for (int axis = 0; axis < 3; ++axis) inverse[axis] = moments[axis] > 0 ? 1.0f / moments[axis] : 0.0f;
+  return inverse;
+}
+
+uint32_t all_features() { return (1u << FEATURE_COUNT) - 1; }
+
+Specialisation specialise(const Scene &scene, const Settings &settings)
+{
+  Specialisation result;
+  result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
+  result.features |= narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
+  if (settings.events) result.features |= FEATURE_EVENTS;
+  const LargeBodies first = large_bodies(scene);
+  result.order = first.boundless;
+  result.order.insert(result.order.end(), first.large.begin(), first.large.end());
+  result.boundless = static_cast<uint32_t>(first.boundless.size());
+  result.large = static_cast<uint32_t>(result.order.size());
+  std::vector<bool> taken(scene.bodies.size());
+  for (uint32_t body : result.order) taken[body] = true;
+  for (uint32_t body = 0; body < scene.bodies.size(); ++body)
+    if (!taken[body]) result.order.push_back(body);
+  return result;
+}
+
+} // namespace tandem

@@ -1,0 +1,147 @@
+/* buffer_place.cpp - see buffer_place.h. */
+#include "host/verify/buffer_place.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "host/base/hash.h"
+
+namespace tandem {
+namespace {
+
+bool holds_reals(Buffer buffer)
+{
+  const Element element = row_of(buffer).element;
+  return element == Element::row || element == Element::real;
+}
+
+uint32_t scalars_per_element(Buffer buffer) { return row_of(buffer).element == Element::row ? 4 : 1; }
+
+std::vector<std::string> field_names(Buffer buffer)
+{
+  std::istringstream text(row_of(buffer).fields);
+  std::vector<std::string> names;
+  for (std::string name; text >> name;) names.push_back(name);
+  return names;
+}
+
+/* buffers.def: an item with one name per scalar is a record; rows of pairs that share names are planes. */
+bool lies_in_planes(Buffer buffer, size_t names)
+{
+  const BufferRow &row = row_of(buffer);
+  return row.capacity == Capacity::PAIRS && row.per_item > 1 && names < row.per_item * scalars_per_element(buffer);
+}
+
+uint64_t bits_of(Buffer buffer, const void *scalar)
+{
+  uint64_t bits = 0;
+  std::memcpy(&bits, scalar, scalar_bytes(buffer)); /* little endian, as every target of ours */
+  return bits;
+}
+
+/* Sign and magnitude turned into one ascending line of integers. */
+int64_t position_on_line(uint64_t bits, size_t bytes)
+{
+  const uint64_t sign = uint64_t{1} << (bytes * 8 - 1);
+  return bits & sign ? -static_cast<int64_t>(bits ^ sign) : static_cast<int64_t>(bits);
+}
+
+double real_at(Buffer buffer, const void *scalar)
+{
+  if (scalar_bytes(buffer) == sizeof(double)) {
+    double value;
+    std::memcpy(&value, scalar, sizeof value);
+    return value;
+  }
+  float value;
+  std::memcpy(&value, scalar, sizeof value);
+  return value;
+}
+
+template <class Real> bool any_nan(const void *contents, size_t bytes)
+{
+  const Real *numbers = static_cast<const Real *>(contents);
+  size_t found = 0;
+  for (size_t k = 0; k < bytes / sizeof(Real); ++k) found += std::isnan(numbers[k]);
+  return found > 0;
+}
+
+/* Every NaN becomes the same one. */
+template <class Real> uint64_t hash_reals(const void *contents, size_t bytes)
+{
+  if (!any_nan<Real>(contents, bytes)) return hash_bytes(contents, bytes);
+  std::vector<Real> numbers(bytes / sizeof(Real));
+  std::memcpy(numbers.data(), contents, bytes);
+  for (Real &number : numbers)
+    if (std::isnan(number)) number = std::numeric_limits<Real>::quiet_NaN();
+  return hash_bytes(numbers.data(), bytes);
+}
+
+} // namespace
+
+size_t scalar_bytes(Buffer buffer)
+{
+  const Element element = row_of(buffer).element;
+  if (element == Element::Parameters) return sizeof(uint32_t);
+  return size_of(element) / scalars_per_element(buffer);
+}
+
+BufferPlace place_in(Buffer buffer, size_t scalar, size_t capacity)
+{
+  const BufferRow &row = row_of(buffer);
+  const uint32_t width = scalars_per_element(buffer);
+  const std::vector<std::string> names = field_names(buffer);
+  const bool planes = lies_in_planes(buffer, names.size()) && capacity > 0;
+  BufferPlace place{};
+  place.element = scalar / width;
+  place.item = planes ? place.element % capacity : place.element / row.per_item;
+  place.part = static_cast<uint32_t>(planes ? place.element / capacity : place.element % row.per_item);
+  const size_t within = place.part * width + scalar % width;
+  if (within < names.size() && names.size() == row.per_item * width) place.field = names[within];
+  else if (!names.empty()) place.field = fmt::format("{}[{}]", names[scalar % width % names.size()], place.part);
+  return place;
+}
+
+BufferValue value_at(Buffer buffer, const void *scalar)
+{
+  const uint64_t bits = bits_of(buffer, scalar);
+  const int digits = static_cast<int>(scalar_bytes(buffer) * 2);
+  const int precision = scalar_bytes(buffer) == sizeof(double) ? 17 : 9;
+  return {holds_reals(buffer) ? fmt::format("{:.{}g}", real_at(buffer, scalar), precision) : fmt::format("{}", bits),
+          fmt::format("0x{:0{}x}", bits, digits)};
+}
+
+std::optional<uint64_t> ulps_between(Buffer buffer, const void *one, const void *other)
+{
+  if (!holds_reals(buffer) || std::isnan(real_at(buffer, one)) || std::isnan(real_at(buffer, other))) return {};
+  const uint64_t bits = bits_of(buffer, one), other_bits = bits_of(buffer, other);
+  const int64_t a = position_on_line(bits, scalar_bytes(buffer)), b = position_on_line(other_bits, scalar_bytes(buffer));
+  if (a == b) return bits == other_bits ? 0 : 1; /* 0 and -0 */
+  return static_cast<uint64_t>(a > b ? a - b : b - a);
+}
+
+bool same_number(Buffer buffer, const void *one, const void *other)
+{
+  if (bits_of(buffer, one) == bits_of(buffer, other)) return true;
+  return holds_reals(buffer) && std::isnan(real_at(buffer, one)) && std::isnan(real_at(buffer, other));
+}
+
+uint64_t hash_numbers(Buffer buffer, const void *contents, size_t bytes)
+{
+  if (!holds_reals(buffer)) return hash_bytes(contents, bytes);
+  return scalar_bytes(buffer) == sizeof(double) ? hash_reals<double>(contents, bytes) : hash_reals<float>(contents, bytes);
+}
+
+void change_least(Buffer buffer, void *scalar)
+{
+  uint64_t bits = bits_of(buffer, scalar);
+  bits = holds_reals(buffer) ? bits + 1 : bits ^ 1;
+  std::memcpy(scalar, &bits, scalar_bytes(buffer));
+}
+
+} // namespace tandem

@@ -1,0 +1,82 @@
+/* compare.h - one scene on several backends in lockstep, every kernel's outputs compared bit for bit.
+ *
+ * Exactness is a claim about every kernel, so it is checked after every launch, not at the end: the
+ * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
+ * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
+ * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
+ * two buffers side by side. Two numbers that are both NaN count as the same (buffer_place.h): a body that stops
+ * being finite is taken out at the end of the step on every backend.
+ */
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/pipeline/broadphases/choice.h"
+#include "host/verify/buffer_place.h"
+#include <tandem/world.h>
+
+namespace tandem {
+
+/* Changes memory after a launch on one of the worlds: how tests prove that a difference is found. */
+using Tamper = std::function<void(size_t world, uint64_t step, World &, const Launch &)>;
+
+/* A change of one number by the least possible, after the first launch of `kernel` in `step` on `world`.
+ * `scalar` counts in scalars of the buffer. */
+struct PlantedError {
+  size_t world = 1; /* index into ComparisonRequest::backends */
+  Kernel kernel{};
+  uint64_t step = 0;
+  Buffer buffer{};
+  size_t scalar = 0;
+};
+/* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the tamper. */
+Tamper plant(const PlantedError &error, std::string *missing = nullptr);
+
+struct ComparisonRequest {
+  Settings settings;
+  Placement placement;               /* `on` is replaced by each of the backends */
+  std::vector<std::string> backends; /* two or more; the first is the reference */
+  uint64_t steps = 1;
+  Tamper tamper;                                 /* optional */
+  std::function<void(uint64_t done)> after_step; /* optional: progress */
+};
+
+/* The first difference. Without a buffer (has_buffer false) the note alone says what differed. */
+struct Difference {
+  uint64_t step = 0;   /* 0 in the first */
+  uint32_t launch = 0; /* which launch of the step, 0 the first */
+  std::string backends[2];
+  std::optional<Kernel> kernel;
+  std::optional<Buffer> buffer;
+  size_t scalar = 0; /* index of the number in the buffer, in scalars */
+  BufferPlace place{};
+  BufferValue values[2];
+  std::optional<uint64_t> ulps;
+  uint64_t differing = 0; /* numbers of this buffer that differ */
+  std::vector<uint32_t> bodies; /* of the scene: the item's body, or the two of its pair */
+  std::string breakpoint;       /* for gdb on the serial backend: function and condition */
+  std::string note;             /* what else there is to say; empty if nothing */
+};
+
+struct Comparison {
+  bool equal = true;
+  BroadphaseChoice broadphase; /* on every backend; `auto` is decided once, for the first */
+  uint64_t steps = 0; /* run on every backend; the last may have differed */
+  uint64_t kernels_compared = 0;
+  uint64_t bytes_compared = 0;
+  std::optional<Difference> first_difference;
+  std::vector<Quarantine> quarantined;    /* on the first backend */
+  std::optional<BatchFault> batch_fault; /* the first on any backend; only with Settings::check */
+};
+
+/* InputError on fewer than two backends, and as World's constructor. */
+Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
+
+/* What a launch writes, slots included, in the order of its kernel's arguments. */
+std::vector<Buffer> buffers_written(const Launch &launch);
+
+} // namespace tandem

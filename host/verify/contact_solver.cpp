@@ -1,0 +1,206 @@
+/* contact_solver.cpp - launches of the solvers of frictional contact problems. */
+#include "host/verify/contact_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/runtime/launcher.h"
+#include "host/pipeline/primitives.h"
+#include <tandem/round_to_float.h>
+#include <tandem/scene.h>
+#include "shared/problem/residual.h"
+
+namespace tandem {
+namespace {
+
+class Solver {
+public:
+  Solver(const ContactProblem &problem, Backend &backend)
+      : contacts_(problem.contacts), levels_(contact_levels(problem)), backend_(backend), launcher_(memory_, backend)
+  {
+    std::vector<Kernel> kernels = {Kernel::reduce_real_tiles, Kernel::reduce_real_partials};
+    for (size_t k = 0; k < kernel_count; ++k)
+      if (row_of(kernel_at(k)).stage == Stage::problem) kernels.push_back(kernel_at(k));
+    backend_.prepare(0, kernels);
+    upload_problem(problem);
+    run({Kernel::problem_prepare, {Buffer::problem_term_a, Buffer::problem_term_b}, {}});
+    add_up(Reduction::sum, Buffer::problem_term_a, Buffer::problem_trace);
+    add_up(Reduction::sum, Buffer::problem_term_b, Buffer::problem_sum);
+    const double trace = memory_.read_reals(Buffer::problem_trace, 1)[0];
+    const double size = double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
+    scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and found at once */
+  }
+  ~Solver() { backend_.finish(); }
+
+  void sweep(const std::string &solver)
+  {
+    if (solver == "jacobi") return jacobi_sweep();
+    for (uint32_t level = 0; level + 1 < levels_.start.size(); ++level)
+      launcher_.launch({Kernel::problem_sweep, {}, {}, COUNT_TOTAL + level, COUNT_TOTAL + level + 1,
+                        levels_.start[level + 1] - levels_.start[level]});
+    if (solver == "nncg") conjugate();
+  }
+
+  double natural_residual()
+  {
+    run({Kernel::problem_residual, {impulse_, Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c}, {}});
+    return relative(Buffer::problem_term_a);
+  }
+
+  /* After natural_residual(). */
+  ContactResiduals residuals()
+  {
+    add_up(Reduction::largest, Buffer::problem_term_c, Buffer::problem_sum);
+    const double violation = memory_.read_reals(Buffer::problem_sum, 1)[0];
+    return {relative(Buffer::problem_term_a), relative(Buffer::problem_term_b), std::max(violation, 0.0)};
+  }
+
+  std::vector<std::array<double, 3>> impulses()
+  {
+    const std::vector<double> reals = memory_.read_reals(impulse_, size_t{contacts_} * 4);
+    std::vector<std::array<double, 3>> impulses(contacts_);
+    for (size_t i = 0; i < contacts_; ++i) impulses[i] = {reals[4 * i], reals[4 * i + 1], reals[4 * i + 2]};
+    return impulses;
+  }
+
+private:
+  template <class T> void upload(Buffer buffer, const std::vector<T> &values)
+  {
+    memory_.resize(buffer, values.size() * sizeof(T));
+    memory_.upload(buffer, values.data(), values.size() * sizeof(T));
+  }
+
+  void upload_problem(const ContactProblem &problem)
+  {
+    std::vector<float> blocks, free;
+    for (const std::array<double, 9> &block : problem.blocks)
+      for (size_t axis = 0; axis < 3; ++axis)
+        for (size_t k = 0; k < 4; ++k) blocks.push_back(k < 3 ? round_to_float(block[3 * axis + k]) : 0.0f);
+    for (size_t i = 0; i < contacts_; ++i) {
+      for (const double velocity : problem.free_velocity[i]) free.push_back(round_to_float(velocity));
+      free.push_back(round_to_float(problem.friction[i]));
+    }
+    std::vector<uint32_t> counts(COUNT_TOTAL);
+    counts[COUNT_ONE] = 1;
+    counts[COUNT_LENGTH] = contacts_;
+    counts.insert(counts.end(), levels_.start.begin(), levels_.start.end());
+    upload(Buffer::counts, counts);
+    upload(Buffer::problem_start, problem.start);
+    upload(Buffer::problem_column, problem.column);
+    upload(Buffer::problem_order, levels_.order);
+    upload(Buffer::problem_block, blocks);
+    upload(Buffer::problem_free, free);
+    for (const Buffer rows : {Buffer::problem_step, Buffer::problem_impulse, Buffer::problem_previous, Buffer::problem_direction})
+      memory_.resize(rows, size_of(Element::row) * contacts_);
+    for (const Buffer terms : {Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c})
+      memory_.resize(terms, size_of(Element::real) * contacts_);
+    for (const Buffer sum : {Buffer::problem_trace, Buffer::problem_change, Buffer::problem_change_other, Buffer::problem_sum})
+      memory_.resize(sum, size_of(Element::real));
+    memory_.resize(Buffer::problem_partial, size_of(Element::real) * reduce_partial_words(contacts_));
+  }
+
+  void run(Launch launch)
+  {
+    launch.last = COUNT_LENGTH;
+    launch.expected = contacts_;
+    launcher_.launch(launch);
+  }
+
+  void add_up(Reduction reduction, Buffer terms, Buffer sum)
+  {
+    reduce_real(launcher_, reduction, terms, Buffer::problem_partial, sum, COUNT_LENGTH, contacts_);
+  }
+
+  double relative(Buffer terms)
+  {
+    add_up(Reduction::sum, terms, Buffer::problem_sum);
+    return scale_ * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
+  }
+
+  void jacobi_sweep()
+  {
+    const Buffer to = impulse_ == Buffer::problem_impulse ? Buffer::problem_previous : Buffer::problem_impulse;
+    run({Kernel::problem_jacobi, {impulse_, to}, {}});
+    impulse_ = to;
+  }
+
+  void conjugate()
+  {
+    run({Kernel::problem_change, {Buffer::problem_term_a}, {}});
+    add_up(Reduction::sum, Buffer::problem_term_a, change_);
+    run({Kernel::problem_conjugate, {change_, change_before_}, {conjugate_passes_++ == 0 ? 1u : 0u}});
+    std::swap(change_, change_before_);
+  }
+
+  uint32_t contacts_;
+  ContactLevels levels_;
+  Backend &backend_;
+  Memory memory_;
+  DirectLauncher launcher_;
+  Buffer impulse_ = Buffer::problem_impulse;
+  Buffer change_ = Buffer::problem_change, change_before_ = Buffer::problem_change_other;
+  uint32_t conjugate_passes_ = 0;
+  double scale_ = 1;
+};
+
+} // namespace
+
+const std::vector<std::string> &contact_solver_names()
+{
+  static const std::vector<std::string> names = {"pgs", "nncg", "jacobi", "nsgs"};
+  return names;
+}
+
+/* W couples both ways in theory; a file may hold one of the two blocks alone, so both directions count. */
+ContactLevels contact_levels(const ContactProblem &problem)
+{
+  const uint32_t n = problem.contacts;
+  std::vector<uint32_t> level(n, 0);
+  std::vector<std::vector<uint32_t>> earlier(n);
+  for (uint32_t i = 0; i < n; ++i)
+    for (uint32_t k = problem.start[i]; k < problem.start[i + 1]; ++k)
+      if (const uint32_t j = problem.column[k]; j != i) earlier[std::max(i, j)].push_back(std::min(i, j));
+  uint32_t levels = 1;
+  for (uint32_t i = 0; i < n; ++i) {
+    for (const uint32_t j : earlier[i]) level[i] = std::max(level[i], level[j] + 1);
+    levels = std::max(levels, level[i] + 1);
+  }
+  ContactLevels result;
+  result.order.resize(n);
+  std::iota(result.order.begin(), result.order.end(), 0u);
+  std::stable_sort(result.order.begin(), result.order.end(), [&](uint32_t a, uint32_t b) { return level[a] < level[b]; });
+  result.start.assign(levels + 1, 0);
+  for (const uint32_t l : level) ++result.start[l + 1];
+  std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
+  return result;
+}
+
+ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings, Backend &backend)
+{
+  const auto &names = contact_solver_names();
+  if (std::find(names.begin(), names.end(), settings.solver) == names.end())
+    throw InputError(fmt::format("--solver '{}' is unknown; use {}", settings.solver, fmt::join(names, ", ")));
+  Solver solver(problem, backend);
+  ContactSolution solution;
+  backend.finish();
+  const auto begin = std::chrono::steady_clock::now();
+  double residual = solver.natural_residual();
+  while (!(residual <= settings.tolerance) && solution.sweeps < settings.iterations && std::isfinite(residual)) {
+    solver.sweep(settings.solver);
+    solution.history.push_back(residual = solver.natural_residual());
+    ++solution.sweeps;
+  }
+  backend.finish();
+  solution.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  solution.converged = residual <= settings.tolerance;
+  solution.residuals = solver.residuals();
+  solution.impulse = solver.impulses();
+  return solution;
+}
+
+} // namespace tandem

@@ -1,0 +1,48 @@
+/* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
+ *
+ * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and shared/problem/sweep.h for the methods.
+ */
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/runtime/interface/backend.h"
+#include "host/io/contact_problem_file.h"
+#include "host/runtime/memory.h"
+
+namespace tandem {
+
+/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision: on the backend `reference` wherever asked for. */
+const std::vector<std::string> &contact_solver_names();
+
+struct ContactSolverSettings {
+  std::string solver = "pgs"; /* InputError for any other than contact_solver_names() */
+  double tolerance = 1e-3;    /* relative natural-map residual at which to stop, >= 0 */
+  uint32_t iterations = 1000; /* passes at most */
+};
+
+struct ContactResiduals {
+  double natural = 0, fischer_burmeister = 0; /* relative */
+  double cone_violation = 0;                  /* the largest of a contact, N s */
+};
+
+struct ContactSolution {
+  bool converged = false;
+  uint32_t sweeps = 0;
+  std::vector<double> history; /* relative natural-map residual after each sweep */
+  ContactResiduals residuals;  /* after the last */
+  std::vector<std::array<double, 3>> impulse;
+  double milliseconds = 0; /* sweeps and residuals; without building kernels and the first moves */
+};
+
+ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings, Backend &backend);
+
+/* Contacts in an order of levels in which a parallel pass equals the pass from 0 to the last: order, and where levels start. */
+struct ContactLevels {
+  std::vector<uint32_t> order, start;
+};
+ContactLevels contact_levels(const ContactProblem &problem);
+
+} // namespace tandem

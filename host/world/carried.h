@@ -1,0 +1,25 @@
+/* carried.h - what one step hands to the next: the rows of buffers.def that are CARRIED.
+ *
+ * Each has two sides. The commit reads the previous one and writes the other, so the host turns them when it begins, and turns them back
+ * when the step fails: then the state is as it was, whatever the commit had written by then.
+ */
+#pragma once
+
+#include <span>
+
+#include "host/runtime/memory.h"
+
+namespace tandem {
+
+struct CarriedBuffer {
+  Buffer now, previous;
+};
+std::span<const CarriedBuffer> carried_buffers();
+bool is_carried(Buffer buffer); /* as its present side */
+
+void turn_carried(Memory &memory) noexcept;
+
+/* Of all that is carried over, as far as a scene of these features has it. Equal iff the next step will be equal. */
+uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features);
+
+} // namespace tandem

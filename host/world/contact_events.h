@@ -1,0 +1,16 @@
+/* contact_events.h - from the lists that the events stage leaves on the device to what World::contact_events and World::pair_events give. */
+#pragma once
+
+#include <vector>
+
+#include "host/runtime/memory.h"
+#include <tandem/world.h>
+
+namespace tandem {
+
+/* Those of the last step. order: the scene's body at each index of the body buffers. */
+std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
+
+std::vector<PairEvent> download_pair_events(Memory &memory, const std::vector<uint32_t> &order);
+
+} // namespace tandem

@@ -1,0 +1,292 @@
+/* queries.cpp - checks, packs and unpacks batches of queries; see queries.h. */
+#include "host/world/queries.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "host/scene/body_buffers.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/base/finite_vector.h"
+#include "host/geometry/convex_hull.h"
+#include "host/scene/hull_strips.h"
+#include "host/pipeline/primitives.h"
+#include "host/scene/shape_bounds.h"
+#include "shared/platform.h"
+
+namespace tandem {
+namespace {
+
+[[noreturn]] void refuse(const char *what, size_t index, const std::string &why) { throw InputError(fmt::format("{} {}: {}", what, index, why)); }
+
+double length(const Vec3 &v) { return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]); }
+
+/* Squares of lengths are taken in float. */
+constexpr double shortest = 1e-15, longest = 1e15;
+
+template <class T> void upload(Memory &memory, Buffer buffer, const std::vector<T> &values)
+{
+  memory.resize(buffer, values.size() * sizeof(T));
+  memory.upload(buffer, values.data(), values.size() * sizeof(T));
+}
+
+void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order, const std::vector<uint32_t> &filters)
+{
+  std::vector<uint32_t> bodies;
+  for (const uint32_t body : order) bodies.insert(bodies.end(), {body, scene.bodies[body].filter_group, scene.bodies[body].filter_mask, 0u});
+  upload(memory, Buffer::query_body, bodies);
+  upload(memory, Buffer::query_filter, filters);
+}
+
+/* Kernels number the rows of queries, two of a start, with 32 bits. */
+constexpr size_t most_queries = size_t{1} << 31;
+
+void set_length(Memory &memory, size_t queries)
+{
+  const auto length = static_cast<uint32_t>(queries);
+  memory.upload(Buffer::counts, &length, sizeof length, COUNT_LENGTH * sizeof length);
+}
+
+void check_number(size_t queries)
+{
+  if (queries > most_queries) throw InputError(fmt::format("{} queries in one batch; at most {} are possible", queries, most_queries));
+}
+
+void make_room_for_hits(Memory &memory, size_t hits)
+{
+  for (const Buffer buffer : {Buffer::query_hit, Buffer::query_point}) memory.resize(buffer, hits * sizeof(row));
+  memory.resize(Buffer::query_hit_body, hits * sizeof(uint32_t));
+}
+
+/* A kernel over all queries; the structure is the last value of each. */
+void launch(const QueryTarget &target, Kernel kernel, size_t queries, std::vector<uint32_t> values = {})
+{
+  values.push_back(target.structure);
+  target.launcher.launch({kernel, {}, values, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(queries)});
+}
+
+QueryHit hit_of(uint32_t body, const row &hit, const row &point, const Point &from)
+{
+  return {body, hit.w, {from[0] + double{point.x}, from[1] + double{point.y}, from[2] + double{point.z}}, {hit.x, hit.y, hit.z}};
+}
+
+template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t queries, Start &&start)
+{
+  const auto hits = memory.read<row>(Buffer::query_hit, queries), points = memory.read<row>(Buffer::query_point, queries);
+  const auto bodies = memory.read<uint32_t>(Buffer::query_hit_body, queries);
+  std::vector<QueryHit> found(queries);
+  for (size_t i = 0; i < queries; ++i)
+    if (bodies[i] != no_body) found[i] = hit_of(bodies[i], hits[i], points[i], start(i));
+  return found;
+}
+
+/* Counts the hits of each query, scans, writes: where the hits of each start, and behind the last. */
+std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel write, size_t queries)
+{
+  Memory &memory = target.memory;
+  const auto capacity = static_cast<uint32_t>(queries);
+  memory.resize(Buffer::query_found, (queries + 1) * sizeof(uint32_t));
+  memory.resize(Buffer::scan_sums, std::max(memory.bytes(Buffer::scan_sums), scan_sum_words(queries + 1) * sizeof(uint32_t)));
+  launch(target, count, queries);
+  exclusive_scan(target.launcher, Buffer::query_found, Buffer::query_found, Buffer::scan_sums, COUNT_LENGTH, capacity);
+  const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
+  if (starts.back() == UINT32_MAX) /* the scan saturates */
+    throw InputError(fmt::format("{} queries have {} hits or more; smaller batches are needed", queries, UINT32_MAX));
+  make_room_for_hits(memory, std::max(starts.back(), 1u));
+  launch(target, write, queries);
+  return starts;
+}
+
+/* By place along the way, then by body. */
+template <class Hit> bool comes_before(const Hit &a, const Hit &b) { return a.fraction != b.fraction ? a.fraction < b.fraction : a.body < b.body; }
+
+void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  std::vector<row> starts, ways;
+  std::vector<uint32_t> filters;
+  for (const Ray &ray : rays) {
+    const std::array<row, 2> place = place_of(ray.origin);
+    starts.insert(starts.end(), place.begin(), place.end());
+    ways.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
+    filters.insert(filters.end(), {ray.filter.group, ray.filter.mask});
+  }
+  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_start, starts);
+  upload(target.memory, Buffer::query_way, ways);
+  set_length(target.memory, rays.size());
+}
+
+void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
+{
+  std::vector<row> starts, ways, extents;
+  std::vector<uint32_t> filters;
+  for (const QueryBox &box : boxes) {
+    const std::array<row, 2> place = place_of(box.center);
+    const Vec3 &way = box.displacement, &half = box.half_extents;
+    starts.insert(starts.end(), place.begin(), place.end());
+    ways.push_back({way[0], way[1], way[2], 1});
+    extents.push_back({half[0], half[1], half[2], 0});
+    filters.insert(filters.end(), {box.filter.group, box.filter.mask});
+  }
+  upload_filters(target.memory, target.scene, target.order, filters);
+  upload(target.memory, Buffer::query_start, starts);
+  upload(target.memory, Buffer::query_way, ways);
+  upload(target.memory, Buffer::query_extent, extents);
+  set_length(target.memory, boxes.size());
+}
+
+/* Of a shape in the middle of its body. */
+float radius_of(const Shape &shape)
+{
+  Scene scene;
+  scene.shapes = {shape};
+  scene.bodies.resize(1);
+  return bounding_radius(scene, scene.bodies[0]);
+}
+
+/* What a scene would refuse, a sweep refuses: as a body that need not have a mass. */
+void check_swept_shape(const Shape &shape)
+{
+  if (shape.type == ShapeType::half_space || shape.type >= ShapeType::mesh)
+    throw InputError("sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
+  Scene scene;
+  scene.shapes = {shape};
+  validate(scene, "sweep");
+}
+
+} // namespace
+
+void check_rays(std::span<const Ray> rays)
+{
+  check_number(rays.size());
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const Ray &ray = rays[i];
+    if (!is_finite_vector(ray.origin)) refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", vector_text(ray.origin)));
+    if (!is_finite_vector(ray.direction) || !(length(ray.direction) >= shortest && length(ray.direction) <= longest))
+      refuse("ray", i, fmt::format("direction is {}; a vector of a length from {} to {} is needed", vector_text(ray.direction), shortest, longest));
+    if (!(ray.reach >= 0)) refuse("ray", i, fmt::format("reach is {}; a number of at least 0 is needed", ray.reach));
+  }
+}
+
+void check_boxes(std::span<const QueryBox> boxes)
+{
+  check_number(boxes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const QueryBox &box = boxes[i];
+    if (!is_finite_vector(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", vector_text(box.center)));
+    const bool negative = box.half_extents[0] < 0 || box.half_extents[1] < 0 || box.half_extents[2] < 0;
+    if (!is_finite_vector(box.half_extents) || negative) refuse("box", i, fmt::format("half extents are {}; three finite numbers of at least 0 are needed", vector_text(box.half_extents)));
+    if (!is_finite_vector(box.displacement) || length(box.displacement) > longest)
+      refuse("box", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(box.displacement), longest));
+  }
+}
+
+void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
+{
+  check_swept_shape(shape);
+  check_number(poses.size());
+  if (poses.size() != displacements.size())
+    throw InputError(fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
+  for (size_t i = 0; i < poses.size(); ++i) {
+    if (!is_finite_vector(poses[i].position)) refuse("sweep", i, fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
+    if (!is_finite_vector(displacements[i]) || length(displacements[i]) > longest)
+      refuse("sweep", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
+    const Quat &q = poses[i].orientation;
+    const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
+    if (!(std::abs(square - 1) < 2e-3))
+      refuse("sweep", i, fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+  }
+}
+
+void launch_query_structure(StepLaunches &step, uint32_t structure)
+{
+  step.run(Kernel::compute_query_bounds);
+  if (structure == QUERY_HIERARCHY) build_hierarchy(step, false);
+  if (structure == QUERY_GRID) sort_into_cells(step);
+}
+
+std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  make_room_for_hits(target.memory, rays.size());
+  launch(target, Kernel::cast_rays, rays.size());
+  return take_hits(target.memory, rays.size(), [&](size_t i) -> const Point & { return rays[i].origin; });
+}
+
+std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  target.memory.resize(Buffer::query_found, rays.size() * sizeof(uint32_t));
+  launch(target, Kernel::find_blocked_rays, rays.size());
+  const auto found = target.memory.read<uint32_t>(Buffer::query_found, rays.size());
+  return {found.begin(), found.end()};
+}
+
+std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays)
+{
+  if (rays.empty()) return {};
+  upload_rays(target, rays);
+  const std::vector<uint32_t> starts = find_all(target, Kernel::count_ray_hits, Kernel::write_ray_hits, rays.size());
+  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back()), points = target.memory.read<row>(Buffer::query_point, starts.back());
+  const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
+  std::vector<std::vector<RayHit>> found(rays.size());
+  for (size_t i = 0; i < rays.size(); ++i) {
+    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at) found[i].push_back(hit_of(bodies[at], hits[at], points[at], rays[i].origin));
+    std::sort(found[i].begin(), found[i].end(), comes_before<RayHit>);
+  }
+  return found;
+}
+
+std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
+{
+  if (boxes.empty()) return {};
+  upload_boxes(target, boxes);
+  const std::vector<uint32_t> starts = find_all(target, Kernel::count_box_hits, Kernel::write_box_hits, boxes.size());
+  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back());
+  const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
+  std::vector<std::vector<BoxHit>> found(boxes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at) found[i].push_back({bodies[at], hits[at].w});
+    std::sort(found[i].begin(), found[i].end(), comes_before<BoxHit>);
+  }
+  return found;
+}
+
+std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
+                            const QueryFilter &filter)
+{
+  if (poses.empty()) return {};
+  Memory &memory = target.memory;
+  std::vector<row> starts, turns, ways, vertices{{0, 0, 0, 0}}, strips;
+  std::vector<uint32_t> filters;
+  for (size_t i = 0; i < poses.size(); ++i) {
+    const std::array<row, 2> place = place_of(poses[i].position);
+    const Quat q = unit(poses[i].orientation);
+    starts.insert(starts.end(), place.begin(), place.end());
+    turns.push_back({q[0], q[1], q[2], q[3]});
+    ways.push_back({displacements[i][0], displacements[i][1], displacements[i][2], 1});
+    filters.insert(filters.end(), {filter.group, filter.mask});
+  }
+  if (shape.hull) {
+    vertices.clear();
+    for (const Vec3 &v : shape.hull->vertices) vertices.push_back({v[0], v[1], v[2], 0});
+  }
+  append_strips(strips, vertices, 3);
+  const Vec3 size = kernel_size(shape);
+  upload_filters(memory, target.scene, target.order, filters);
+  upload(memory, Buffer::query_start, starts);
+  upload(memory, Buffer::query_turn, turns);
+  upload(memory, Buffer::query_way, ways);
+  upload(memory, Buffer::query_shape, std::vector<row>{{size[0], size[1], size[2], radius_of(shape)}});
+  upload(memory, Buffer::query_vertex, vertices);
+  upload(memory, Buffer::query_strip, strips);
+  set_length(memory, poses.size());
+  make_room_for_hits(memory, poses.size());
+  launch(target, Kernel::sweep_shape, poses.size(), {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
+  return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
+}
+
+} // namespace tandem

@@ -1,0 +1,293 @@
+/* compare_test.cpp - the comparison proves itself: errors of one ulp are planted and must be found. */
+#include "tests/catch.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "host/runtime/backend_list.h"
+#include "host/verify/breakpoint.h"
+#include "host/verify/compare.h"
+#include "host/catalog/catalog.h"
+#include "host/runtime/memory.h"
+#include "host/runtime/interface/backend.h"
+
+using namespace tandem;
+
+namespace {
+
+ComparisonRequest request_of(std::vector<std::string> backends, uint64_t steps)
+{
+  ComparisonRequest request;
+  request.backends = std::move(backends);
+  request.steps = steps;
+  return request;
+}
+
+Scene small_scene() { return load_scene("box-grid:nx=3,ny=3,nz=3"); }
+
+/* Where a number lies: row `item` of the buffer, or row `plane` of the item, component within it. */
+size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component) { return (item * rows + row) * 4 + component; }
+
+Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1)
+{
+  ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, step + 3);
+  request.tamper = plant({world, kernel, step, buffer, scalar});
+  const Comparison comparison = compare_backends(small_scene(), request);
+  REQUIRE_FALSE(comparison.equal);
+  REQUIRE(comparison.first_difference);
+  CHECK(comparison.steps == step + 1);
+  const Difference &found = *comparison.first_difference;
+  CHECK(found.step == step);
+  REQUIRE(found.kernel);
+  CHECK(std::string(row_of(*found.kernel).name) == row_of(kernel).name);
+  REQUIRE(found.buffer);
+  CHECK(std::string(row_of(*found.buffer).name) == row_of(buffer).name);
+  CHECK(found.scalar == scalar);
+  CHECK(found.differing == 1);
+  CHECK(found.values[0].bits != found.values[1].bits);
+  CHECK(found.breakpoint.find(row_of(kernel).name) == 0);
+  CHECK(found.breakpoint.find("tandem::step_of_launch == " + std::to_string(step)) != std::string::npos);
+  return found;
+}
+
+uint32_t pairs_there_is_room_for()
+{
+  World world(small_scene(), Settings{}, Placement{"serial", {}, false});
+  return static_cast<uint32_t>(pair_capacity(world));
+}
+
+} // namespace
+
+TEST_CASE("compare: backends of the CPU are equal in every kernel", "[compare]")
+{
+  ComparisonRequest request = request_of({"serial", "serial:order=backward", "tbb:threads=2,lanes=1", "tbb:threads=2,lanes=4"}, 8);
+  const Comparison comparison = compare_backends(small_scene(), request);
+  if (comparison.first_difference && comparison.first_difference->kernel)
+    INFO(row_of(*comparison.first_difference->kernel).name);
+  CHECK(comparison.equal);
+  CHECK(comparison.steps == 8);
+  CHECK(comparison.kernels_compared > 3 * 8 * 20);
+  CHECK(comparison.bytes_compared > comparison.kernels_compared);
+}
+
+TEST_CASE("compare: one ulp in the bounds of a body", "[compare]")
+{
+  const Difference found = find_planted(Kernel::compute_bounds, Buffer::bounds, scalar_of_record(7, 2, 1, 2), 0);
+  CHECK(found.place.item == 7);
+  CHECK(found.place.element == 15);
+  CHECK(found.place.field == "upper.z");
+  CHECK(found.ulps == 1u);
+  CHECK(found.bodies.size() == 1);
+  CHECK(found.breakpoint.find("i == 7 &&") != std::string::npos);
+}
+
+TEST_CASE("compare: one ulp in the separation of a contact point", "[compare]")
+{
+  const size_t element = 2 * pairs_there_is_room_for() + 4; /* plane 2, pair 4 */
+  const Difference found = find_planted(Kernel::collide_box_box, Buffer::manifold_points, element * 4 + 3, 2);
+  CHECK(found.place.item == 4);
+  CHECK(found.place.element == element);
+  CHECK(found.place.field == "separation[2]");
+  CHECK(found.ulps == 1u);
+  CHECK(found.bodies.size() == 2);
+}
+
+TEST_CASE("compare: the last bit of a sort key", "[compare]")
+{
+  const Difference found = find_planted(Kernel::grid_keys, Buffer::sort_key, 3, 1);
+  CHECK(found.place.item == 3);
+  CHECK(found.place.field == "key");
+  CHECK_FALSE(found.ulps);
+}
+
+TEST_CASE("compare: one ulp in a constraint", "[compare]")
+{
+  const Difference found = find_planted(Kernel::prepare_contacts, Buffer::constraint_normal, 5 * 4 + 3, 1);
+  CHECK(found.place.item == 5);
+  CHECK(found.place.field == "friction");
+  CHECK(found.ulps == 1u);
+  CHECK(found.bodies.size() == 2);
+}
+
+TEST_CASE("compare: one ulp in a velocity, and the constraint that wrote it", "[compare]")
+{
+  const uint64_t step = 2;
+  World world(small_scene(), Settings{}, Placement{"serial", {}, false});
+  for (uint64_t k = 0; k <= step; ++k) world.step();
+  /* Of the first constraint, which is of the first colour, whose launch is the first. */
+  const uint32_t body = world.memory().read<uint32_t>(Buffer::constraint_b, 1, 0).at(0);
+  const Difference found = find_planted(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);
+  CHECK(found.place.field == "angular.x");
+  CHECK(found.ulps == 1u);
+  const size_t at = found.breakpoint.find("i == ");
+  CAPTURE(found.breakpoint);
+  REQUIRE(at != std::string::npos);
+  const auto constraint = static_cast<size_t>(std::stoul(found.breakpoint.substr(at + 5)));
+  const uint32_t a = world.memory().read<uint32_t>(Buffer::constraint_a, 1, constraint).at(0);
+  const uint32_t b = world.memory().read<uint32_t>(Buffer::constraint_b, 1, constraint).at(0);
+  CHECK((a == body || b == body));
+}
+
+TEST_CASE("compare: one ulp in a position, on the reference itself", "[compare]")
+{
+  const Difference found =
+      find_planted(Kernel::integrate_positions, Buffer::solver_delta, scalar_of_record(9, 2, 0, 1), 1, 0);
+  CHECK(found.place.field == "translation.y");
+  CHECK(found.ulps == 1u);
+}
+
+TEST_CASE("compare: a reference that does not repeat itself is named", "[compare]")
+{
+  int worlds_seen = 0;
+  World *last = nullptr;
+  ComparisonRequest request = request_of({"serial", "serial:order=backward"}, 2);
+  request.tamper = [&](size_t index, uint64_t, World &world, const Launch &launch) {
+    if (index != 0 || launch.kernel != Kernel::compute_bounds) return;
+    if (last != &world) ++worlds_seen, last = &world;
+    if (worlds_seen > 1) return; /* its second run is clean */
+    float value = 1234.0f;
+    world.memory().upload(Buffer::bounds, &value, sizeof value, 0);
+  };
+  const Comparison comparison = compare_backends(small_scene(), request);
+  REQUIRE(comparison.first_difference);
+  CHECK(comparison.first_difference->note.find("does not repeat itself") != std::string::npos);
+}
+
+TEST_CASE("compare: takes two backends", "[compare]")
+{
+  CHECK_THROWS_AS(compare_backends(small_scene(), request_of({"serial"}, 1)), InputError);
+}
+
+TEST_CASE("buffer place: records, planes, single numbers", "[compare]")
+{
+  const BufferPlace mass = place_in(Buffer::body_mass, scalar_of_record(3, 2, 1, 1), 100);
+  CHECK(mass.item == 3);
+  CHECK(mass.field == "angular_damping");
+  const BufferPlace center = place_in(Buffer::constraint_center, (100 + 17) * 4 + 3, 100);
+  CHECK(center.item == 17);
+  CHECK(center.part == 1);
+  CHECK(center.field == "mass[1]");
+  const BufferPlace pair = place_in(Buffer::pair_a, 42, 100);
+  CHECK(pair.item == 42);
+  CHECK(pair.field == "body");
+}
+
+TEST_CASE("buffer place: values and their distance", "[compare]")
+{
+  const auto ulps = [](float a, float b) { return ulps_between(Buffer::body_position, &a, &b); };
+  CHECK(ulps(1.0f, 1.0f) == 0u);
+  CHECK(ulps(1.0f, std::nextafter(1.0f, 2.0f)) == 1u);
+  CHECK(ulps(1.0f, 2.0f) == 1u << 23);
+  CHECK(ulps(-1e-45f, 1e-45f) == 2u);
+  CHECK(ulps(0.0f, -0.0f) == 1u);
+  CHECK_FALSE(ulps(1.0f, std::nanf("")));
+  const float eighth = 0.125f;
+  CHECK(value_at(Buffer::body_position, &eighth).decimal == "0.125");
+  CHECK(value_at(Buffer::body_position, &eighth).bits == "0x3e000000");
+  float one = -1.0f;
+  change_least(Buffer::body_position, &one);
+  CHECK(one == std::nextafter(-1.0f, -2.0f));
+}
+
+/* The parameter that the gdb line compares must exist: read from the shared functions themselves. */
+TEST_CASE("breakpoint: names the item as its kernel does", "[compare]")
+{
+  std::string sources;
+  for (const auto &entry : std::filesystem::recursive_directory_iterator(TANDEM_SOURCE_DIR "/shared"))
+    if (entry.path().extension() == ".h") {
+      std::ifstream file(entry.path());
+      std::stringstream text;
+      text << file.rdbuf();
+      sources += text.str();
+    }
+  for (size_t k = 0; k < kernel_count; ++k) {
+    const std::string name = iteration_name(kernel_at(k));
+    if (name.empty()) continue;
+    const KernelRow &row = row_of(kernel_at(k));
+    const std::string function = std::string(" ") + row.name + (row.form == Form::group ? "_group(" : "_item(");
+    const size_t start = sources.find(function);
+    INFO(row.name);
+    REQUIRE(start != std::string::npos);
+    const std::string parameters = sources.substr(start, sources.find(')', start) - start);
+    CHECK(parameters.substr(parameters.find_last_of(" *") + 1) == name);
+  }
+}
+
+TEST_CASE("backend list: options keep their commas", "[settings]")
+{
+  CHECK(split_backends("serial") == std::vector<std::string>{"serial"});
+  CHECK(split_backends("serial,tbb:threads=2,lanes=4,cl:pocl") ==
+        std::vector<std::string>{"serial", "tbb:threads=2,lanes=4", "cl:pocl"});
+  CHECK(split_backends("tbb:threads=2,tbb:lanes=4,serial:order=backward").size() == 3);
+  for (const char *bad : {"", ",", "serial,", ",tbb", "serial,,tbb"}) CHECK_THROWS_AS(split_backends(bad), InputError);
+}
+
+TEST_CASE("placement: stages and kernels, with options of backends", "[settings]")
+{
+  using Pairs = std::vector<std::pair<std::string, std::string>>;
+  CHECK(parse_placement("solve=serial") == Pairs{{"solve", "serial"}});
+  CHECK(parse_placement("narrowphase=tbb:threads=2,lanes=4,solve_contacts=cl:0.0") ==
+        Pairs{{"narrowphase", "tbb:threads=2,lanes=4"}, {"solve_contacts", "cl:0.0"}});
+  for (const char *bad : {"solve", "=serial", "solve=", "nowhere=serial", "lanes=4"})
+    CHECK_THROWS_AS(parse_placement(bad), InputError);
+}
+
+TEST_CASE("settings: what cannot be simulated is refused", "[settings]")
+{
+  CHECK_NOTHROW(validate(Settings{}));
+  const auto refused = [](auto change) {
+    Settings settings;
+    change(settings);
+    CHECK_THROWS_AS(validate(settings), InputError);
+  };
+  for (const float step : {0.0f, -0.1f, std::nanf(""), INFINITY, 1e9f}) refused([&](Settings &s) { s.step = step; });
+  for (const uint32_t count : {0u, 1001u}) {
+    refused([&](Settings &s) { s.substeps = count; });
+    refused([&](Settings &s) { s.iterations = count; });
+  }
+  refused([](Settings &s) { s.solver = "magic"; });
+  refused([](Settings &s) { s.broadphase = ""; });
+  refused([](Settings &s) { s.narrowphase = "gjk"; });
+  refused([](Settings &s) { s.batching = "random"; });
+  refused([](Settings &s) { s.contact_hertz = 0; });
+  refused([](Settings &s) { s.slop = -1; });
+  refused([](Settings &s) { s.step = 1e-9f, s.substeps = 1000; });
+}
+
+/* Two numbers of one buffer, as floats would lie in it. */
+TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "[compare]")
+{
+  const uint32_t nan = 0x7fc00000, minus_nan = 0xffc00000, payload = 0x7fffffff, infinite = 0x7f800000, zero = 0,
+                 minus_zero = 0x80000000;
+  const Buffer reals = Buffer::solver_velocity, integers = Buffer::body_traits;
+  for (const uint32_t other : {nan, minus_nan, payload}) {
+    CHECK(same_number(reals, &nan, &other));
+    CHECK(hash_numbers(reals, &nan, 4) == hash_numbers(reals, &other, 4));
+  }
+  for (const uint32_t other : {infinite, zero}) {
+    CHECK_FALSE(same_number(reals, &nan, &other));
+    CHECK(hash_numbers(reals, &nan, 4) != hash_numbers(reals, &other, 4));
+  }
+  CHECK_FALSE(same_number(reals, &zero, &minus_zero));
+  CHECK(hash_numbers(reals, &zero, 4) != hash_numbers(reals, &minus_zero, 4));
+  CHECK_FALSE(same_number(integers, &nan, &minus_nan));
+  CHECK(hash_numbers(integers, &nan, 4) != hash_numbers(integers, &minus_nan, 4));
+}
+
+/* Speeds that the solver's squares cannot hold, between bodies that touch: infinity less infinity is made in lanes
+ * and in scalars with other signs. */
+TEST_CASE("compare: bodies that stop being finite in the solver do so alike in scalars and in lanes", "[compare]")
+{
+  Scene scene = load_scene("box-grid:nx=4,ny=4,nz=4");
+  for (size_t body = 1; body < scene.bodies.size(); body += 3) scene.bodies[body].linear_velocity = {3e37f, -3e38f, 1e38f};
+  for (const char *solver : {"soft-step", "jacobi"}) {
+    ComparisonRequest request = request_of({"serial", "tbb:threads=2,lanes=4", "serial:order=backward"}, 2);
+    request.settings = settings_for(solver);
+    const Comparison comparison = compare_backends(scene, request);
+    CAPTURE(solver);
+    CHECK(comparison.equal);
+    CHECK(comparison.quarantined.size() > 10);
+  }
+}

@@ -1,0 +1,147 @@
+/* What one step hands to the next: each number of it changes the hash of the state, and what changes the next step's bits is in that hash. */
+#include "host/world/carried.h"
+
+#include <limits>
+#include <memory>
+
+#include <set>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/layout.h"
+#include "host/catalog/catalog.h"
+#include <tandem/world.h>
+#include "shared/platform.h"
+#include "tests/catch.h"
+
+using namespace tandem;
+
+namespace {
+
+struct Case {
+  const char *scene, *solver, *broadphase;
+};
+
+/* Together they carry over every buffer that there is. */
+const std::vector<Case> cases = {{"box-grid:nx=2,ny=2,nz=2", "soft-step", "grid"}, {"box-grid:nx=2,ny=2,nz=2", "xpbd", "trees"},
+                                 {"box-grid:nx=2,ny=2,nz=2", "avbd", "sap3"},      {"compounds:n=6", "pgs", "bvh"},
+                                 {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", "soft-step", "hybrid"}, {"spheres:n=12,height=0", "jacobi", "grid"}};
+
+/* After so many steps; with events, whose pairs are carried over too. */
+std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
+{
+  Settings settings = settings_for(c.solver);
+  settings.broadphase = c.broadphase;
+  settings.events = true;
+  auto world = std::make_unique<World>(load_scene(c.scene), settings, Placement{"serial", {}, false});
+  for (uint64_t k = 0; k < steps; ++k) world->step();
+  return world;
+}
+
+uint32_t bodies_of(World &world) { return static_cast<uint32_t>(world.scene().bodies.size()); }
+uint32_t pairs_of(World &world) { return world.memory().read<uint32_t>(Buffer::cached_start, 1, bodies_of(world)).front(); }
+
+size_t words_of(World &world, Buffer buffer)
+{
+  const BufferRow &row = row_of(buffer);
+  const size_t bodies = bodies_of(world);
+  const size_t items = row.capacity == Capacity::BODIES ? bodies : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1 : pairs_of(world);
+  return items * row.per_item * size_of(row.element) / sizeof(uint32_t);
+}
+
+/* Flips bits of one word of a buffer; a second time it is as it was. */
+void flip(World &world, Buffer buffer, size_t word, uint32_t bits)
+{
+  const uint32_t changed = world.memory().read<uint32_t>(buffer, 1, word).front() ^ bits;
+  world.memory().upload(buffer, &changed, sizeof changed, word * sizeof changed);
+}
+
+} // namespace
+
+TEST_CASE("every number that is carried over changes the hash of the state")
+{
+  std::set<Buffer> seen;
+  for (const Case &c : cases) {
+    const auto world = world_of(c, 20);
+    const uint64_t hash = world->state_hash();
+    REQUIRE(pairs_of(*world) > 0);
+    for (const CarriedBuffer &carried : carried_buffers()) {
+      if (world->memory().bytes(carried.now) == 0) continue;
+      seen.insert(carried.now);
+      /* The last of the starts says how many pairs there are: it is not changed into what no scene has. */
+      const size_t words = words_of(*world, carried.now) - (carried.now == Buffer::cached_start ? 1 : 0);
+      for (size_t word = 0; word < words; ++word) {
+        CAPTURE(c.scene, c.solver, row_of(carried.now).name, word);
+        flip(*world, carried.now, word, 1);
+        REQUIRE(world->state_hash() != hash);
+        flip(*world, carried.now, word, 1);
+      }
+    }
+    REQUIRE(world->state_hash() == hash);
+  }
+  CHECK(seen.size() == carried_buffers().size());
+}
+
+/* Of every other buffer that a step may write, one word after the other is changed: the next step must not notice. The scene's own buffers
+ * are never written, and what a broadphase keeps is forgotten first, as it is where buffers grow: bits follow from neither. */
+TEST_CASE("nothing but what is carried over changes the bits of the next step")
+{
+  for (const Case &c : cases) {
+    const auto undisturbed = world_of(c, 11);
+    const auto disturbed = world_of(c, 10);
+    forget_kept(disturbed->memory());
+    std::set<Buffer> written;
+    for (const Kernel kernel : disturbed->kernels())
+      for (const Argument &argument : row_of(kernel).arguments)
+        if (argument.kind == Argument::Kind::buffer && argument.access != Access::in) written.insert(argument.buffer);
+    size_t changed = 0;
+    for (const Buffer buffer : written) {
+      const size_t words = disturbed->memory().bytes(buffer) / sizeof(uint32_t);
+      if (is_carried(buffer) || buffer == Buffer::counts || buffer == Buffer::tile_changed) continue;
+      for (size_t word = 0; word < words; ++word) flip(*disturbed, buffer, word, 0x00400001u);
+      changed += words;
+    }
+    CAPTURE(c.scene, c.solver, c.broadphase);
+    CHECK(changed > 1000);
+    REQUIRE(disturbed->state_hash() == world_of(c, 10)->state_hash());
+    disturbed->step();
+    CHECK(disturbed->state_hash() == undisturbed->state_hash());
+  }
+}
+
+TEST_CASE("what changes the motion of the next step changes the hash before it")
+{
+  for (const Case &c : cases) {
+    const auto undisturbed = world_of(c, 21);
+    const uint64_t before = world_of(c, 20)->state_hash();
+    size_t noticed = 0;
+    for (const CarriedBuffer &carried : carried_buffers()) {
+      const auto first = world_of(c, 20);
+      if (row_of(carried.now).element != Element::row || first->memory().bytes(carried.now) == 0) continue;
+      const size_t words = words_of(*first, carried.now);
+      for (size_t word = 0; word < words; word += 1 + words / 5) {
+        const auto world = world_of(c, 20);
+        flip(*world, carried.now, word, 0x00400000u);
+        const uint64_t hash = world->state_hash();
+        world->step();
+        const bool moved = world->body_hash() != undisturbed->body_hash();
+        CAPTURE(c.scene, c.solver, row_of(carried.now).name, word);
+        if (moved) CHECK(hash != before);
+        noticed += moved;
+      }
+    }
+    CHECK(noticed > 3);
+  }
+}
+
+TEST_CASE("a world in which a body was taken out is another state")
+{
+  const Case c = cases[0];
+  const auto world = world_of(c, 2), other = world_of(c, 2);
+  BodyState broken = world->bodies()[1];
+  broken.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
+  world->set_body_unchecked(1, broken);
+  world->step();
+  other->step();
+  CHECK(world->quarantined().size() == 1);
+  CHECK(world->state_hash() != other->state_hash());
+}
