@@ -11,7 +11,7 @@
 /* Every entry ends with these arguments: the counts, and the two entries of them that bound the range. */
 #define RANGE __global const uint *range, uint first, uint last
 
-#define FOR_EACH_IN_RANGE(i)                                                                     \
+#define FOR_EACH_IN_RANGE(i)                                                                         \
   for (uint i = range[first] + (uint)get_global_id(0), end_of_range = range[last]; i < end_of_range; \
        i += (uint)get_global_size(0))
 

@@ -16,12 +16,12 @@ __kernel void begin_step(__global uint *counts, RANGE)
 __kernel void prepare_bodies(__global const row *body_mass, __global const row *body_position,
                              __global const row *body_orientation, __global const row *body_velocity,
                              __global uint *counts, __global row *solver_velocity, __global row *solver_delta,
-                             __global row *solver_push, __global row *solver_inertia,
-                             __global row *solver_orientation, __global uint *body_colors, __global uint *body_bid, RANGE)
+                             __global row *solver_push, __global row *solver_inertia, __global row *solver_orientation,
+                             __global uint *body_colors, __global uint *body_bid, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  prepare_bodies_item(body_mass, body_position, body_orientation, body_velocity, counts, solver_velocity,
-                      solver_delta, solver_push, solver_inertia, solver_orientation, body_colors, body_bid, i);
+  prepare_bodies_item(body_mass, body_position, body_orientation, body_velocity, counts, solver_velocity, solver_delta,
+                      solver_push, solver_inertia, solver_orientation, body_colors, body_bid, i);
 }
 
 __kernel void integrate_velocities(__global const Parameters *parameters, __global const row *body_mass,
@@ -62,8 +62,8 @@ __kernel void commit_bodies(__global const row *solver_velocity, __global const 
                             __global row *body_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, previous_body_position, body_mass, body_position,
-                     body_orientation, body_velocity, i);
+  commit_bodies_item(solver_velocity, solver_delta, solver_orientation, previous_body_position, body_mass,
+                     body_position, body_orientation, body_velocity, i);
 }
 
 __kernel void cache_starts(__global const uint *pair_start, __global uint *cached_start, RANGE)
@@ -79,23 +79,23 @@ __kernel void cache_normals(__global const row *manifold_normal, __global row *c
 }
 
 __kernel void cache_pairs(__global const uint *pair_b, __global const uint *pair_color,
-                          __global const uint *manifold_feature, __global uint *cached_b,
-                          __global uint *cached_color, __global uint *cached_feature,
-                          __global row *cached_normal_impulse, __global row *cached_friction_impulse, RANGE)
+                          __global const uint *manifold_feature, __global uint *cached_b, __global uint *cached_color,
+                          __global uint *cached_feature, __global row *cached_normal_impulse,
+                          __global row *cached_friction_impulse, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  cache_pairs_item(pair_b, pair_color, manifold_feature, cached_b, cached_color, cached_feature,
-                   cached_normal_impulse, cached_friction_impulse, i);
+  cache_pairs_item(pair_b, pair_color, manifold_feature, cached_b, cached_color, cached_feature, cached_normal_impulse,
+                   cached_friction_impulse, i);
 }
 
 __kernel void cache_impulses(__global const uint *constraint_pair, __global const row *constraint_normal,
                              __global const row *constraint_normal_impulse,
-                             __global const row *constraint_friction_impulse,
-                             __global row *cached_normal_impulse, __global row *cached_friction_impulse, RANGE)
+                             __global const row *constraint_friction_impulse, __global row *cached_normal_impulse,
+                             __global row *cached_friction_impulse, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  cache_impulses_item(constraint_pair, constraint_normal, constraint_normal_impulse,
-                      constraint_friction_impulse, cached_normal_impulse, cached_friction_impulse, i);
+  cache_impulses_item(constraint_pair, constraint_normal, constraint_normal_impulse, constraint_friction_impulse,
+                      cached_normal_impulse, cached_friction_impulse, i);
 }
 
 __kernel void clear_cached(__global row *rows, uint per_item, RANGE)

@@ -11,25 +11,16 @@
 #include "shared/parallel/scan.h"
 #include "shared/parallel/search.h"
 
-__kernel void fill(__global uint *values, uint value, RANGE)
-{
-  FOR_EACH_IN_RANGE(i) fill_item(values, value, i);
-}
+__kernel void fill(__global uint *values, uint value, RANGE) { FOR_EACH_IN_RANGE(i) fill_item(values, value, i); }
 
-__kernel void copy(__global const uint *from, __global uint *to, RANGE)
-{
-  FOR_EACH_IN_RANGE(i) copy_item(from, to, i);
-}
+__kernel void copy(__global const uint *from, __global uint *to, RANGE) { FOR_EACH_IN_RANGE(i) copy_item(from, to, i); }
 
 __kernel void copy64(__global const ulong *from, __global ulong *to, RANGE)
 {
   FOR_EACH_IN_RANGE(i) copy64_item(from, to, i);
 }
 
-__kernel void sequence(__global uint *values, RANGE)
-{
-  FOR_EACH_IN_RANGE(i) sequence_item(values, i);
-}
+__kernel void sequence(__global uint *values, RANGE) { FOR_EACH_IN_RANGE(i) sequence_item(values, i); }
 
 __kernel void scan_reduce(__global const uint *counts, __global const uint *values, __global uint *sums, uint length,
                           uint unit, uint per_unit, RANGE)
@@ -55,8 +46,8 @@ __kernel void scan_tiles(__global const uint *counts, __global const uint *value
   END_GROUP;
 }
 
-__kernel void sort_histogram(__global const uint *counts, __global const uint *keys, __global uint *histogram, uint length,
-                             uint shift, uint bits, RANGE)
+__kernel void sort_histogram(__global const uint *counts, __global const uint *keys, __global uint *histogram,
+                             uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_DIGITS];
   sort_histogram_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
@@ -64,7 +55,7 @@ __kernel void sort_histogram(__global const uint *counts, __global const uint *k
 }
 
 __kernel void sort_histogram64(__global const uint *counts, __global const ulong *keys, __global uint *histogram,
-                                  uint length, uint shift, uint bits, RANGE)
+                               uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_DIGITS];
   sort_histogram64_group(counts, keys, histogram, length, shift, bits, local_memory, GROUP_NUMBER);
@@ -72,7 +63,7 @@ __kernel void sort_histogram64(__global const uint *counts, __global const ulong
 }
 
 __kernel void sort_scatter(__global const uint *counts, __global const uint *keys, __global const uint *offsets,
-                                __global uint *sorted_keys, uint length, uint shift, uint bits, RANGE)
+                           __global uint *sorted_keys, uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
@@ -84,12 +75,13 @@ __kernel void sort_scatter_pairs(__global const uint *counts, __global const uin
                                  uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  sort_scatter_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
+  sort_scatter_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory,
+                           GROUP_NUMBER);
   END_GROUP;
 }
 
 __kernel void sort_scatter64(__global const uint *counts, __global const ulong *keys, __global const uint *offsets,
-                                     __global ulong *sorted_keys, uint length, uint shift, uint bits, RANGE)
+                             __global ulong *sorted_keys, uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
   sort_scatter64_group(counts, keys, offsets, sorted_keys, length, shift, bits, local_memory, GROUP_NUMBER);
@@ -97,11 +89,12 @@ __kernel void sort_scatter64(__global const uint *counts, __global const ulong *
 }
 
 __kernel void sort_scatter64_pairs(__global const uint *counts, __global const ulong *keys, __global const uint *values,
-                                      __global const uint *offsets, __global ulong *sorted_keys, __global uint *sorted_values,
-                                      uint length, uint shift, uint bits, RANGE)
+                                   __global const uint *offsets, __global ulong *sorted_keys,
+                                   __global uint *sorted_values, uint length, uint shift, uint bits, RANGE)
 {
   __local uint local_memory[SORT_LOCAL_WORDS];
-  sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits, local_memory, GROUP_NUMBER);
+  sort_scatter64_pairs_group(counts, keys, values, offsets, sorted_keys, sorted_values, length, shift, bits,
+                             local_memory, GROUP_NUMBER);
   END_GROUP;
 }
 
@@ -143,8 +136,7 @@ __kernel void compact_count(__global const uint *flags, __global uint *offsets, 
   compact_count_item(flags, offsets, i);
 }
 
-__kernel void compact_write(__global const uint *flags, __global const uint *offsets, __global uint *indices,
-                            RANGE)
+__kernel void compact_write(__global const uint *flags, __global const uint *offsets, __global uint *indices, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   compact_write_item(flags, offsets, indices, i);
@@ -156,15 +148,15 @@ __kernel void compact_total(__global const uint *offsets, __global uint *counts,
   compact_total_item(offsets, counts, length, to, i);
 }
 
-__kernel void lower_bound(__global const uint *counts, __global const uint *sorted,
-                          __global const uint *queries, __global uint *places, uint length, RANGE)
+__kernel void lower_bound(__global const uint *counts, __global const uint *sorted, __global const uint *queries,
+                          __global uint *places, uint length, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   lower_bound_item(counts, sorted, queries, places, length, i);
 }
 
-__kernel void upper_bound(__global const uint *counts, __global const uint *sorted,
-                          __global const uint *queries, __global uint *places, uint length, RANGE)
+__kernel void upper_bound(__global const uint *counts, __global const uint *sorted, __global const uint *queries,
+                          __global uint *places, uint length, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   upper_bound_item(counts, sorted, queries, places, length, i);

@@ -14,4 +14,5 @@ if(TANDEM_BUILD_COMMAND)
 endif()
 
 add_library(tandem_dependencies INTERFACE)
-target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog TinyGLTF::TinyGLTF)
+target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog
+  TinyGLTF::TinyGLTF)

@@ -1,7 +1,8 @@
-# JoinSources.cmake - the sources of one concern are compiled as one, where a tree is built beside others (tools/run-tests.sh).
+# JoinSources.cmake - the sources of one concern are compiled as one, where a tree is built beside others
+# (tools/run-tests.sh).
 #
-# Most of their time goes into headers that they share. The release tree compiles each by itself, so a source that leans on its
-# neighbours' includes fails there. Within a group a name in an unnamed namespace stands once.
+# Most of their time goes into headers that they share. The release tree compiles each by itself, so a source that leans
+# on its neighbours' includes fails there. Within a group a name in an unnamed namespace stands once.
 set_target_properties(tandem PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 function(join_sources group pattern)
   set(sources ${HOST_SOURCES})

@@ -1,15 +1,20 @@
 # What a sanitizer tree (presets asan and tsan) watches, and what it need not compile.
 #
-# The library is instrumented whole, with the loaders; of the command what a hostile input passes through. Other tools and
-# most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a tree without sanitizers, of the same source and
-# compiler, and take no time. The library is linked before them, so that of inline functions in both, its are taken.
-set(TANDEM_OBJECTS_FROM "" CACHE PATH "Build folder without sanitizers, whose tools and tests are linked, not compiled again")
+# The library is instrumented whole, with the loaders; of the command what a hostile input passes through. Other tools
+# and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a tree without sanitizers, of the same
+# source and compiler, and take no time. The library is linked before them, so that of inline functions in both, its are
+# taken.
+set(TANDEM_OBJECTS_FROM "" CACHE PATH
+  "Build folder without sanitizers, whose tools and tests are linked, not compiled again")
 
-# scalar.cpp is watched for all that the sanitizers know. The other widths and orders are the same source: only what depends on
-# them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for all, 7 s so).
-set(same_kernels minicl/scalar_avx2.cpp minicl/backward.cpp minicl/reference.cpp minicl/lanes4.cpp minicl/lanes8.cpp minicl/lanes16.cpp)
+# scalar.cpp is watched for all that the sanitizers know. The other widths and orders are the same source: only what
+# depends on them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for
+# all, 7 s so).
+set(same_kernels minicl/scalar_avx2.cpp minicl/backward.cpp minicl/reference.cpp minicl/lanes4.cpp minicl/lanes8.cpp
+  minicl/lanes16.cpp)
 if(TANDEM_SANITIZE MATCHES address)
-  set_property(SOURCE host/io/gltf/document.cpp host/io/gltf/mesh.cpp APPEND PROPERTY COMPILE_OPTIONS "-fsanitize=alignment")
+  set_property(SOURCE host/io/gltf/document.cpp host/io/gltf/mesh.cpp APPEND PROPERTY COMPILE_OPTIONS
+    "-fsanitize=alignment")
   set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
     set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS
@@ -18,9 +23,11 @@ if(TANDEM_SANITIZE MATCHES address)
 elseif(TANDEM_SANITIZE MATCHES thread) # threads share the rows of lanes4.cpp as they do those of the wider two
   set_property(SOURCE minicl/lanes8.cpp minicl/lanes16.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
 endif()
-set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined") # Eigen's solver: as long
+# Eigen's solver: as long
+set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
 
-set(watched_tools tools/contact_problem.cpp tools/diff.cpp tools/image.cpp tools/output.cpp tools/plan.cpp tools/run.cpp tools/scene_options.cpp)
+set(watched_tools tools/contact_problem.cpp tools/diff.cpp tools/image.cpp tools/output.cpp tools/plan.cpp
+  tools/run.cpp tools/scene_options.cpp)
 set_source_files_properties(${watched_tools} tools/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 set(borrowed_tools)
 if(TANDEM_OBJECTS_FROM)

@@ -1,4 +1,5 @@
-# Toolchain for AArch64 on another Linux: Debian's cross compiler, its libraries of that architecture, and QEMU to run what is built.
+# Toolchain for AArch64 on another Linux: Debian's cross compiler, its libraries of that architecture, and QEMU to run
+# what is built.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)

@@ -20,7 +20,8 @@ namespace tandem::minicl {
 #define FORM_GROUP(name) backward::run_groups<&backward::name##_group>
 #define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-const KernelTable backward_kernels = {1, {
+const KernelTable backward_kernels = {1,
+                                      {
 #include "shared/kernels.def"
-}};
+                                      }};
 } // namespace tandem::minicl

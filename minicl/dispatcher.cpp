@@ -80,8 +80,7 @@ Storage &storage_for([[maybe_unused]] const Options &options)
 class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
-      : name_(name), order_(options.order), threads_(options.threads),
-        scalar_(scalar_table(options)),
+      : name_(name), order_(options.order), threads_(options.threads), scalar_(scalar_table(options)),
         lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(storage_for(options))
   {
     want_threads(options.threads);
@@ -93,7 +92,10 @@ public:
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
   std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
-  uint32_t threads_used() const { return static_cast<uint32_t>(std::popcount(threads_seen_.load(std::memory_order_relaxed))); }
+  uint32_t threads_used() const
+  {
+    return static_cast<uint32_t>(std::popcount(threads_seen_.load(std::memory_order_relaxed)));
+  }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
@@ -103,7 +105,8 @@ public:
     const KernelRow &row = row_of(launch.kernel);
     std::vector<void *> arguments;
     for (size_t i = 0; i < bound.size(); ++i)
-      arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value) : bound[i].handle);
+      arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
+                                                                         : bound[i].handle);
     const uint32_t first = count[launch.first], last = count[launch.last];
     if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), units_of(last - first, TILE));
     else if (last > first) run_items(launch.kernel, arguments.data(), first, last);
@@ -119,7 +122,8 @@ private:
   {
     const RunRange run = scalar_.run[index_of(kernel)];
     if (order_ != Order::forward) return run_permuted(run, arguments, 0, groups);
-    parallel(0, groups, 1, tbb::auto_partitioner{}, [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
+    parallel(0, groups, 1, tbb::auto_partitioner{},
+             [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
   }
 
   void run_items(Kernel kernel, void *const *arguments, uint32_t first, uint32_t last)
@@ -137,9 +141,10 @@ private:
     else parallel(first, last, grain, tbb::auto_partitioner{}, range);
   }
 
-  /* Items in lanes take about as long as each other, and one pass of the solver is like the last: in equal shares each thread finds its
-   * own in its cache again. What takes as long as it takes is handed out in small pieces. */
-  template <class Partitioner, class Body> void parallel(uint32_t first, uint32_t last, uint32_t grain, const Partitioner &partitioner, Body body)
+  /* Items in lanes take about as long as each other, and one pass of the solver is like the last: in equal shares each
+   * thread finds its own in its cache again. What takes as long as it takes is handed out in small pieces. */
+  template <class Partitioner, class Body>
+  void parallel(uint32_t first, uint32_t last, uint32_t grain, const Partitioner &partitioner, Body body)
   {
     const auto exact = [&](uint32_t begin, uint32_t end) {
       const ExactFloatingPoint environment;
@@ -150,13 +155,16 @@ private:
     LaunchOrder order;
     order.launch_begins();
     arena_->execute([&, step = uint64_t{step_of_launch}] {
-      tbb::parallel_for(tbb::blocked_range<uint32_t>(first, last, grain), [&](const tbb::blocked_range<uint32_t> &range) TANDEM_UNWATCHED {
-        order.items_begin();
-        step_of_launch = step;
-        note_thread();
-        exact(range.begin(), range.end());
-        order.items_end();
-      }, partitioner);
+      tbb::parallel_for(
+          tbb::blocked_range<uint32_t>(first, last, grain),
+          [&](const tbb::blocked_range<uint32_t> &range) TANDEM_UNWATCHED {
+            order.items_begin();
+            step_of_launch = step;
+            note_thread();
+            exact(range.begin(), range.end());
+            order.items_end();
+          },
+          partitioner);
     });
     order.launch_ends();
   }
@@ -207,7 +215,9 @@ std::unique_ptr<Backend> make_backend(const std::string &name, const Options &op
 {
 #if defined(TANDEM_PORTABLE_KERNELS_ONLY)
   if (options.reference || options.order != Backend::Order::forward)
-    throw InputError(name + ": this build has kernels neither in double nor in reverse; one without TANDEM_PORTABLE_KERNELS_ONLY has");
+    throw InputError(
+        name +
+        ": this build has kernels neither in double nor in reverse; one without TANDEM_PORTABLE_KERNELS_ONLY has");
 #endif
   Options filled = options;
   if (filled.threads == 0) filled.threads = static_cast<uint32_t>(tbb::this_task_arena::max_concurrency());

@@ -22,8 +22,8 @@ struct Options {
 
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options);
 
-/* How many threads have run items of launches that were split, so far: tests that watch threads ask whether there were several.
- * For backends of make_backend alone. */
+/* How many threads have run items of launches that were split, so far: tests that watch threads ask whether there were
+ * several. For backends of make_backend alone. */
 uint32_t threads_used(const Backend &backend);
 
 } // namespace tandem::minicl

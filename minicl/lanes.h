@@ -8,8 +8,8 @@
 
 constexpr int width = TANDEM_LANES;
 
-/* A function that takes wide vectors on the stack wants the stack aligned for them, and GCC 12 has been seen to call one from a
- * frame that is not; so nothing that takes one is ever called. */
+/* A function that takes wide vectors on the stack wants the stack aligned for them, and GCC 12 has been seen to call
+ * one from a frame that is not; so nothing that takes one is ever called. */
 #undef SHARED
 #define SHARED static inline __attribute__((always_inline))
 
@@ -93,7 +93,7 @@ SHARED natural operator*(item_index i, uint32_t factor) { return natural(i) * na
 
 SHARED real to_real(natural x) { return real(__builtin_convertvector((int_lanes)x.v, float_lanes)); }
 SHARED real int_to_real(natural x) { return to_real(x); }
-SHARED natural to_natural(real x) { return natural((uint_lanes)__builtin_convertvector(x.v, int_lanes)); }
+SHARED natural to_natural(real x) { return natural((uint_lanes) __builtin_convertvector(x.v, int_lanes)); }
 
 #if defined(__x86_64__)
 #include "minicl/lanes_x86.h"
@@ -126,15 +126,24 @@ SHARED real load_real(const memory_real *from, item_index i)
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
-SHARED void store_real(memory_real *to, item_index i, real value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
+SHARED void store_real(memory_real *to, item_index i, real value)
+{
+  __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
+}
 SHARED natural load_natural(const uint *from, item_index i)
 {
   natural r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
-SHARED void store_natural(uint *to, item_index i, natural value) { __builtin_memcpy(to + i.first, &value.v, sizeof value.v); }
-SHARED void store_natural_if(mask m, uint *to, item_index i, natural value) { store_natural_if(m, to, natural(i), value); }
+SHARED void store_natural(uint *to, item_index i, natural value)
+{
+  __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
+}
+SHARED void store_natural_if(mask m, uint *to, item_index i, natural value)
+{
+  store_natural_if(m, to, natural(i), value);
+}
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
 SHARED vec4 load_row(const row *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }

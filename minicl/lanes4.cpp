@@ -24,9 +24,10 @@ namespace tandem::minicl {
 #define FORM_GROUP(name) nullptr
 #define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-const KernelTable lanes4_kernels = {4, {
+const KernelTable lanes4_kernels = {4,
+                                    {
 #include "shared/kernels.def"
-}};
+                                    }};
 } // namespace tandem::minicl
 #else
 namespace tandem::minicl {

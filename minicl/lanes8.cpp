@@ -24,9 +24,10 @@ namespace tandem::minicl {
 #define FORM_GROUP(name) nullptr
 #define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-const KernelTable lanes8_kernels = {8, {
+const KernelTable lanes8_kernels = {8,
+                                    {
 #include "shared/kernels.def"
-}};
+                                    }};
 } // namespace tandem::minicl
 #else
 namespace tandem::minicl {

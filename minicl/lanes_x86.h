@@ -130,7 +130,8 @@ SHARED quarters transpose(vec4 value)
   const quarter_rows z = (quarter_rows)value.z.v, w = (quarter_rows)value.w.v;
   const quarter_rows xy_low = unpack_low(x, y), xy_high = unpack_high(x, y);
   const quarter_rows zw_low = unpack_low(z, w), zw_high = unpack_high(z, w);
-  return {halves_low(xy_low, zw_low), halves_high(xy_low, zw_low), halves_low(xy_high, zw_high), halves_high(xy_high, zw_high)};
+  return {halves_low(xy_low, zw_low), halves_high(xy_low, zw_low), halves_low(xy_high, zw_high),
+          halves_high(xy_high, zw_high)};
 }
 
 /* Records that lie side by side: whole registers hold consecutive records, which are dealt out to quarters. */
@@ -144,7 +145,8 @@ SHARED quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
 }
 SHARED quarters load_in_order(const float *from)
 {
-  return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32), _mm512_loadu_ps(from + 48));
+  return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32),
+              _mm512_loadu_ps(from + 48));
 }
 /* Dealing is a transpose of 4 x 4 records, and so its own inverse. */
 SHARED void store_in_order(float *to, quarters q)

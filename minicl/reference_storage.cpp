@@ -41,7 +41,8 @@ public:
   {
     if (faults::strikes(faults::Site::allocation)) throw std::bad_alloc();
     const Layout layout = layout_of(element, bytes);
-    const size_t needed = element == Element::Parameters ? std::max(wide_bytes(layout), reference_parameters.bytes) : wide_bytes(layout);
+    const size_t needed =
+        element == Element::Parameters ? std::max(wide_bytes(layout), reference_parameters.bytes) : wide_bytes(layout);
     const size_t rounded = (std::max<size_t>(needed, 1) + 63) / 64 * 64;
     void *memory = std::aligned_alloc(64, rounded);
     if (!memory) throw std::bad_alloc();
@@ -74,7 +75,8 @@ public:
       static_cast<double *>(handle)[offset / sizeof value + i] = value;
     }
     const size_t done = reals * sizeof(float);
-    std::memcpy(static_cast<char *>(handle) + layout.reals_end + offset + done, static_cast<const char *>(from) + done, bytes - done);
+    std::memcpy(static_cast<char *>(handle) + layout.reals_end + offset + done, static_cast<const char *>(from) + done,
+                bytes - done);
   }
 
   void read(void *handle, size_t offset, void *to, size_t bytes) override
@@ -86,7 +88,8 @@ public:
       std::memcpy(static_cast<char *>(to) + i * sizeof value, &value, sizeof value);
     }
     const size_t done = reals * sizeof(float);
-    std::memcpy(static_cast<char *>(to) + done, static_cast<const char *>(handle) + layout.reals_end + offset + done, bytes - done);
+    std::memcpy(static_cast<char *>(to) + done, static_cast<const char *>(handle) + layout.reals_end + offset + done,
+                bytes - done);
   }
 
   void read_reals(void *handle, size_t first, double *to, size_t count) override

@@ -18,7 +18,8 @@ namespace tandem::minicl {
 #define FORM_GROUP(name) scalar::run_groups<&scalar::name##_group>
 #define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-const KernelTable scalar_kernels = {1, {
+const KernelTable scalar_kernels = {1,
+                                    {
 #include "shared/kernels.def"
-}};
+                                    }};
 } // namespace tandem::minicl

@@ -1,4 +1,5 @@
-/* scalar_avx2.cpp - every kernel one item at a time, for processors with AVX2: strips (shared/strip.h) are one register. */
+/* scalar_avx2.cpp - every kernel one item at a time, for processors with AVX2: strips (shared/strip.h) are one
+ * register. */
 #include <cstdint>
 #include <tuple>
 #include <type_traits>
@@ -18,7 +19,8 @@ namespace tandem::minicl {
 #define FORM_GROUP(name) scalar_avx2::run_groups<&scalar_avx2::name##_group>
 #define FORM_HOST(name) nullptr
 #define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-const KernelTable scalar_avx2_kernels = {1, {
+const KernelTable scalar_avx2_kernels = {1,
+                                         {
 #include "shared/kernels.def"
-}};
+                                         }};
 } // namespace tandem::minicl

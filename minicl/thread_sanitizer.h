@@ -10,7 +10,8 @@
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void *address);
 extern "C" void __tsan_release(void *address);
-/* Of the function that marks items: where the launch's order lies it must read before there is one. What it calls is watched. */
+/* Of the function that marks items: where the launch's order lies it must read before there is one. What it calls is
+ * watched. */
 #define TANDEM_UNWATCHED __attribute__((no_sanitize_thread))
 #else
 #define TANDEM_UNWATCHED

@@ -26,8 +26,7 @@ class Reservation {
 public:
   explicit Reservation(size_t bytes)
       : bytes_(bytes), place_(::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0))
-  {
-  }
+  {}
   Reservation(Reservation &&other) noexcept : bytes_(other.bytes_), place_(std::exchange(other.place_, MAP_FAILED)) {}
   ~Reservation()
   {
@@ -99,7 +98,8 @@ public:
     if (settled_.load(std::memory_order_acquire)) return allowed_;
     const std::lock_guard<std::mutex> lock(mutex_);
     if (settled_) return allowed_;
-    allowed_ += startable_threads(wanted_ - allowed_, tbb::global_control::active_value(tbb::global_control::thread_stack_size));
+    allowed_ += startable_threads(wanted_ - allowed_,
+                                  tbb::global_control::active_value(tbb::global_control::thread_stack_size));
     auto control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, allowed_);
     control_ = std::move(control); /* the old one goes last, so that no moment is without */
     settled_.store(true, std::memory_order_release);
@@ -109,7 +109,8 @@ public:
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!settled_ || allowed_ >= wanted_) return {};
-    return fmt::format("only {} of {} threads could be started and took part; the results are the same", allowed_.load(), wanted_);
+    return fmt::format("only {} of {} threads could be started and took part; the results are the same",
+                       allowed_.load(), wanted_);
   }
 
 private:

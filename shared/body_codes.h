@@ -5,11 +5,19 @@
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
 
-/* SHAPE_OTHER: what body_convex says, where body_shape_pose says. SHAPE_TRIANGLE: one of a mesh, in the narrowphase alone. The others are
- * those of ShapeType in host/include/tandem/scene.h. */
+/* SHAPE_OTHER: what body_convex says, where body_shape_pose says. SHAPE_TRIANGLE: one of a mesh, in the narrowphase
+ * alone. The others are those of ShapeType in host/include/tandem/scene.h. */
 enum {
-  SHAPE_SPHERE = 0, SHAPE_BOX = 1, SHAPE_HALF_SPACE = 2, SHAPE_CAPSULE = 3, SHAPE_CYLINDER = 4, SHAPE_HULL = 5, SHAPE_MESH = 6, SHAPE_OTHER = 7,
-  SHAPE_COMPOUND = 8, SHAPE_TRIANGLE = 9
+  SHAPE_SPHERE = 0,
+  SHAPE_BOX = 1,
+  SHAPE_HALF_SPACE = 2,
+  SHAPE_CAPSULE = 3,
+  SHAPE_CYLINDER = 4,
+  SHAPE_HULL = 5,
+  SHAPE_MESH = 6,
+  SHAPE_OTHER = 7,
+  SHAPE_COMPOUND = 8,
+  SHAPE_TRIANGLE = 9
 };
 
 /* Quarantined: taken out of the simulation, since it stopped being finite. */
@@ -23,7 +31,8 @@ enum { TRAIT_TRIGGER = 1 << 5 };
 
 /* In body_share: all of a motion, as whole numbers count it. */
 #define WHOLE_MOTION (1u << 24u)
-/* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex (hull_support.h). */
+/* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex
+ * (hull_support.h). */
 enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS = 3 };
 enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
 /* How the hierarchy of the broadphase is walked (broadphase/hierarchy_walks.h). */

@@ -14,89 +14,93 @@
 #define INDEX_NONE 0xffffffffu
 
 enum {
-  COUNT_ZERO,          /* always 0 */
-  COUNT_ONE,           /* always 1 */
-  COUNT_BODIES,        /* bodies of the scene; set by the host */
+  COUNT_ZERO,   /* always 0 */
+  COUNT_ONE,    /* always 1 */
+  COUNT_BODIES, /* bodies of the scene; set by the host */
   COUNT_BODIES_PLUS_ONE,
-  COUNT_BOUNDLESS,     /* the first bodies: half-spaces; set by the host */
-  COUNT_BOUNDED,       /* the bodies after them */
-  COUNT_LARGE,         /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
-  COUNT_SMALL,         /* the bodies after them */
-  COUNT_HIERARCHY,     /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
-  COUNT_LEAVES,        /* leaves of the pyramid under it: a power of two, at least as many */
-  COUNT_LEAF_TILES,    /* nodes of that with TILE leaves each, at least 1 */
-  COUNT_FILED,         /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
-  COUNT_FILED_LEAVES,  /* leaves of the pyramid in a step that does so */
-  COUNT_RAISED,        /* leaves above which boxes are made anew: all, or none */
-  COUNT_STRAYS,        /* leaves that have left the boxes they were filed under */
-  COUNT_KEPT,          /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or bodies change */
-  COUNT_HIERARCHY_KEPT, /* the same of the order of the hierarchy */
-  COUNT_PAIRS,         /* pairs kept: min(needed, capacity) */
-  COUNT_PAIRS_NEEDED,  /* pairs found */
-  COUNT_BODY_PAIRS,    /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */
+  COUNT_BOUNDLESS,    /* the first bodies: half-spaces; set by the host */
+  COUNT_BOUNDED,      /* the bodies after them */
+  COUNT_LARGE,        /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
+  COUNT_SMALL,        /* the bodies after them */
+  COUNT_HIERARCHY,    /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
+  COUNT_LEAVES,       /* leaves of the pyramid under it: a power of two, at least as many */
+  COUNT_LEAF_TILES,   /* nodes of that with TILE leaves each, at least 1 */
+  COUNT_FILED,        /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
+  COUNT_FILED_LEAVES, /* leaves of the pyramid in a step that does so */
+  COUNT_RAISED,       /* leaves above which boxes are made anew: all, or none */
+  COUNT_STRAYS,       /* leaves that have left the boxes they were filed under */
+  COUNT_KEPT, /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or
+                 bodies change */
+  COUNT_HIERARCHY_KEPT,   /* the same of the order of the hierarchy */
+  COUNT_PAIRS,            /* pairs kept: min(needed, capacity) */
+  COUNT_PAIRS_NEEDED,     /* pairs found */
+  COUNT_BODY_PAIRS,       /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */
   COUNT_PAIR_GROUP_ITEMS, /* TILE times the groups of pairs of bodies: midphase/subtree_pairs.h */
-  CAPACITY_PAIRS,      /* pairs there is room for; also the stride of manifold and constraint rows */
-  COUNT_CACHED_PAIRS,  /* pairs of the last committed step */
-  COUNT_CONSTRAINTS,   /* touching pairs, in colour order */
-  COUNT_UNCOLORED,     /* touching pairs that no round of colouring has reached yet */
-  COUNT_ROUNDS,        /* rounds that coloured something */
-  COUNT_COLORS,        /* colours in use; COLOR_LIMIT + 1 if there is a tail */
-  COUNT_STATUS,        /* STATUS_ bits; 0: the step may be committed */
-  COUNT_NONFINITE,     /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
-  COUNT_COMMIT_BODIES, /* what the commit kernels run over: nothing unless the status is 0 */
+  CAPACITY_PAIRS,         /* pairs there is room for; also the stride of manifold and constraint rows */
+  COUNT_CACHED_PAIRS,     /* pairs of the last committed step */
+  COUNT_CONSTRAINTS,      /* touching pairs, in colour order */
+  COUNT_UNCOLORED,        /* touching pairs that no round of colouring has reached yet */
+  COUNT_ROUNDS,           /* rounds that coloured something */
+  COUNT_COLORS,           /* colours in use; COLOR_LIMIT + 1 if there is a tail */
+  COUNT_STATUS,           /* STATUS_ bits; 0: the step may be committed */
+  COUNT_NONFINITE,        /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
+  COUNT_COMMIT_BODIES,    /* what the commit kernels run over: nothing unless the status is 0 */
   COUNT_COMMIT_BODIES_PLUS_ONE,
   COUNT_COMMIT_PAIRS,
   COUNT_COMMIT_CONSTRAINTS,
-  COUNT_GRID_X,        /* cells of the uniform grid along each axis */
+  COUNT_GRID_X, /* cells of the uniform grid along each axis */
   COUNT_GRID_Y,
   COUNT_GRID_Z,
   COUNT_CELLS,
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
-  COUNT_SHARES,        /* four times the bodies: work-items of the windowed sweep; set by the host */
-  COUNT_SWEEP_BLOCKS,  /* groups of it, of SWEEP_BLOCK bodies each */
-  COUNT_SWEEP_ITEMS,   /* TILE times as many: a group a block */
-  COUNT_HALVES,        /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
-  COUNT_LEFT,          /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
-  COUNT_LARGE_LEFT,    /* COUNT_LARGE if one of these did */
-  COUNT_CHANGED,       /* all bodies if any did */
-  COUNT_NEAR_KEYS,     /* new pairs of fat boxes, as many as found room */
-  COUNT_NEAR_NEEDED,   /* the most that any list of them needed */
-  COUNT_NEAR_SIDE,     /* 0 or 1: the side of the kept list that holds */
-  COUNT_CHANGES,       /* pairs that came or went since the last launch of an incremental broadphase: min(found, CAPACITY_PAIRS) */
+  COUNT_SHARES,       /* four times the bodies: work-items of the windowed sweep; set by the host */
+  COUNT_SWEEP_BLOCKS, /* groups of it, of SWEEP_BLOCK bodies each */
+  COUNT_SWEEP_ITEMS,  /* TILE times as many: a group a block */
+  COUNT_HALVES,       /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
+  COUNT_LEFT,         /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
+  COUNT_LARGE_LEFT,   /* COUNT_LARGE if one of these did */
+  COUNT_CHANGED,      /* all bodies if any did */
+  COUNT_NEAR_KEYS,    /* new pairs of fat boxes, as many as found room */
+  COUNT_NEAR_NEEDED,  /* the most that any list of them needed */
+  COUNT_NEAR_SIDE,    /* 0 or 1: the side of the kept list that holds */
+  COUNT_CHANGES,      /* pairs that came or went since the last launch of an incremental broadphase: min(found,
+                         CAPACITY_PAIRS) */
   COUNT_CHANGES_FOUND,
-  COUNT_SWEEP_AXIS,    /* axis of the sweep and prune: 0, 1 or 2 */
-  COUNT_DIRECT_ISLANDS, /* islands that the solver `direct` solved in the last pass of the step */
-  COUNT_DIRECT_LEFT,    /* constraints it left to the iterative rows: their islands are too large, or not finite */
-  COUNT_DIRECT_STALLED, /* islands, over the passes of the step, whose solve did not reach its tolerance */
-  COUNT_LENGTH,        /* length of a free-standing primitive (tests, benchmarks), or of a batch of queries */
-  COUNT_INCIDENCES,    /* twice the constraints: each has two bodies */
+  COUNT_SWEEP_AXIS,      /* axis of the sweep and prune: 0, 1 or 2 */
+  COUNT_DIRECT_ISLANDS,  /* islands that the solver `direct` solved in the last pass of the step */
+  COUNT_DIRECT_LEFT,     /* constraints it left to the iterative rows: their islands are too large, or not finite */
+  COUNT_DIRECT_STALLED,  /* islands, over the passes of the step, whose solve did not reach its tolerance */
+  COUNT_LENGTH,          /* length of a free-standing primitive (tests, benchmarks), or of a batch of queries */
+  COUNT_INCIDENCES,      /* twice the constraints: each has two bodies */
   COUNT_TAIL_INCIDENCES, /* twice the constraints of the tail */
-  COUNT_COLOR_STARTS,  /* always COLOR_LIMIT + 1: the colours and the tail */
-  COUNT_BATCH_CELLS,   /* cells of a class for two-stage batching, a power of two; set by the host */
-  COUNT_BATCH_ITEMS,   /* TILE times as many: a group a cell */
-  COUNT_CONFLICTS,     /* constraints whose colour touches one of their moving bodies twice; filled by --check alone */
+  COUNT_COLOR_STARTS,    /* always COLOR_LIMIT + 1: the colours and the tail */
+  COUNT_BATCH_CELLS,     /* cells of a class for two-stage batching, a power of two; set by the host */
+  COUNT_BATCH_ITEMS,     /* TILE times as many: a group a cell */
+  COUNT_CONFLICTS,      /* constraints whose colour touches one of their moving bodies twice; filled by --check alone */
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
-  COUNT_MISBATCHED,    /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
+  COUNT_MISBATCHED,     /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */
   COUNT_FIRST_MISBATCHED,
-  COUNT_EVENTS,        /* of the step; 0 unless it was committed */
-  COUNT_PAIR_EVENTS,   /* the same of pairs that come near, stay or leave */
-  BODY_COLOR_START,    /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
-  COLOR_START = BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
+  COUNT_EVENTS,      /* of the step; 0 unless it was committed */
+  COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
+  BODY_COLOR_START,  /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  COLOR_START =
+      BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2
 };
 
 enum {
-  STATUS_PAIRS = 1,     /* more pairs than capacity: grow and run the step again */
-  STATUS_ROUNDS = 2,    /* colouring needs more rounds */
-  STATUS_COLORS = 4,    /* more colours than were launched */
-  STATUS_NONFINITE = 8  /* a body is not finite: quarantine it and run the step again */
+  STATUS_PAIRS = 1,    /* more pairs than capacity: grow and run the step again */
+  STATUS_ROUNDS = 2,   /* colouring needs more rounds */
+  STATUS_COLORS = 4,   /* more colours than were launched */
+  STATUS_NONFINITE = 8 /* a body is not finite: quarantine it and run the step again */
 };
 
 /* Where a body was first seen to be non-finite, in pipeline order. */
 enum { NONFINITE_AT_START = 0, NONFINITE_IN_SOLVE = 1, NONFINITE_IN_INTEGRATE = 2 };
 
-/* Stands beside the count of a manifold's points until a kernel of its own has followed the pair (narrowphase/time_of_impact.h). */
+/* Stands beside the count of a manifold's points until a kernel of its own has followed the pair
+ * (narrowphase/time_of_impact.h). */
 #define TO_FOLLOW 8u
 
 #endif

@@ -22,8 +22,8 @@ enum {
 
 #ifdef FEATURES
 #define HAS_FEATURE(parameters, bit) (((FEATURES) & (uint)(bit)) != 0u)
-/* For what cannot be true of a scene without the feature: a compiler of devices then leaves it out. The shape of a query need not be one
- * of the scene's. */
+/* For what cannot be true of a scene without the feature: a compiler of devices then leaves it out. The shape of a
+ * query need not be one of the scene's. */
 #ifdef ASKED_ABOUT_ANY_SHAPE
 #define MAY_OCCUR(bit) (((FEATURES) & (uint)(bit)) != 0u || ((bit) & (FEATURE_HULL | FEATURE_ROUND)) != 0)
 #else

@@ -9,13 +9,21 @@
 
 #include "shared/real.h"
 
-typedef struct { real x, y, z; } vec3;
+typedef struct {
+  real x, y, z;
+} vec3;
 /* Rotation: w + xi + yj + zk, unit length. */
-typedef struct { real x, y, z, w; } quat;
+typedef struct {
+  real x, y, z, w;
+} quat;
 /* Rows of a rotation: row k holds the k-th coordinate of the three body axes. */
-typedef struct { vec3 x, y, z; } mat3;
+typedef struct {
+  vec3 x, y, z;
+} mat3;
 /* Symmetric 3x3 matrix. */
-typedef struct { real xx, yy, zz, xy, xz, yz; } symmetric3;
+typedef struct {
+  real xx, yy, zz, xy, xz, yz;
+} symmetric3;
 
 SHARED real minimum(real a, real b) { return choose(a < b, a, b); }
 SHARED real maximum(real a, real b) { return choose(a > b, a, b); }
@@ -46,14 +54,20 @@ SHARED vec3 negate(vec3 v) { return make_vec3(-v.x, -v.y, -v.z); }
 SHARED vec3 add_scaled(vec3 a, vec3 b, real s) { return make_vec3(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s); }
 SHARED vec3 multiply(vec3 a, vec3 b) { return make_vec3(a.x * b.x, a.y * b.y, a.z * b.z); }
 SHARED vec3 absolute(vec3 v) { return make_vec3(magnitude(v.x), magnitude(v.y), magnitude(v.z)); }
-SHARED vec3 choose3(mask m, vec3 a, vec3 b) { return make_vec3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z)); }
+SHARED vec3 choose3(mask m, vec3 a, vec3 b)
+{
+  return make_vec3(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z));
+}
 
 SHARED vec4 choose4(mask m, vec4 a, vec4 b)
 {
   return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
 }
 /* Of the row of four: k from 0. */
-SHARED real component(vec4 v, natural k) { return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w)); }
+SHARED real component(vec4 v, natural k)
+{
+  return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w));
+}
 
 SHARED real inner(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 SHARED vec3 outer(vec3 a, vec3 b)
@@ -65,14 +79,15 @@ SHARED real length_of(vec3 v) { return square_root(inner(v, v)); }
 
 SHARED vec3 symmetric_times(symmetric3 m, vec3 v)
 {
-  return make_vec3(m.xx * v.x + m.xy * v.y + m.xz * v.z,
-                   m.xy * v.x + m.yy * v.y + m.yz * v.z,
+  return make_vec3(m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
                    m.xz * v.x + m.yz * v.y + m.zz * v.z);
 }
 
 /* Two unit vectors that complete the unit vector n to a right-handed basis.
  * Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
-typedef struct { vec3 first, second; } tangents;
+typedef struct {
+  vec3 first, second;
+} tangents;
 SHARED tangents tangents_of(vec3 n)
 {
   real sign = choose(n.z >= R(0.0), (real)R(1.0), (real)R(-1.0));
@@ -91,10 +106,8 @@ SHARED quat quat_from(vec4 v) { return make_quat(v.x, v.y, v.z, v.w); }
 SHARED vec4 quat_to_row(quat q) { return make_vec4(q.x, q.y, q.z, q.w); }
 SHARED quat quat_multiply(quat a, quat b)
 {
-  return make_quat(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-                   a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-                   a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z);
+  return make_quat(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z);
 }
 SHARED quat quat_normalized(quat q)
 {
@@ -115,8 +128,7 @@ SHARED vec3 rotate(mat3 m, vec3 v) { return make_vec3(inner(m.x, v), inner(m.y, 
 /* The transpose times v: from world to body axes. */
 SHARED vec3 rotate_back(mat3 m, vec3 v)
 {
-  return make_vec3(m.x.x * v.x + m.y.x * v.y + m.z.x * v.z,
-                   m.x.y * v.x + m.y.y * v.y + m.z.y * v.z,
+  return make_vec3(m.x.x * v.x + m.y.x * v.y + m.z.x * v.z, m.x.y * v.x + m.y.y * v.y + m.z.y * v.z,
                    m.x.z * v.x + m.y.z * v.y + m.z.z * v.z);
 }
 SHARED vec3 axis_x(mat3 m) { return make_vec3(m.x.x, m.y.x, m.z.x); }
@@ -139,14 +151,15 @@ SHARED mat3 relative_rotation(mat3 to, mat3 from)
   return m;
 }
 
-/* R diag(d) R^T = least I + R diag(d - least) R^T: the rows of R are square to one another only to rounding, and what all three
- * share would leave that rounding, times its own size, in every element off the diagonal. */
+/* R diag(d) R^T = least I + R diag(d - least) R^T: the rows of R are square to one another only to rounding, and what
+ * all three share would leave that rounding, times its own size, in every element off the diagonal. */
 SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)
 {
   real least = minimum(d.x, minimum(d.y, d.z));
   vec3 rest = make_vec3(d.x - least, d.y - least, d.z - least);
   vec3 x = multiply(m.x, rest), y = multiply(m.y, rest), z = multiply(m.z, rest);
-  symmetric3 s = {least + inner(x, m.x), least + inner(y, m.y), least + inner(z, m.z), inner(x, m.y), inner(x, m.z), inner(y, m.z)};
+  symmetric3 s = {least + inner(x, m.x), least + inner(y, m.y), least + inner(z, m.z),
+                  inner(x, m.y),         inner(x, m.z),         inner(y, m.z)};
   return s;
 }
 

@@ -15,25 +15,25 @@
 #ifndef TANDEM_PARAMETERS_TYPE
 #define TANDEM_PARAMETERS_TYPE
 typedef struct {
-  PARAMETER_REAL step;              /* s, whole step */
-  PARAMETER_REAL substep;           /* s */
-  PARAMETER_REAL inverse_substep;   /* 1/s */
+  PARAMETER_REAL step;                            /* s, whole step */
+  PARAMETER_REAL substep;                         /* s */
+  PARAMETER_REAL inverse_substep;                 /* 1/s */
   PARAMETER_REAL gravity_x, gravity_y, gravity_z; /* m/s^2 */
-  PARAMETER_REAL bias_rate;         /* 1/s, soft contact: penetration is removed at this rate */
-  PARAMETER_REAL mass_scale;        /* soft contact: share of the impulse of a rigid one */
-  PARAMETER_REAL impulse_scale;     /* soft contact: leak of the accumulated impulse */
-  PARAMETER_REAL static_bias_rate;  /* the same three against bodies that cannot move */
+  PARAMETER_REAL bias_rate;                       /* 1/s, soft contact: penetration is removed at this rate */
+  PARAMETER_REAL mass_scale;                      /* soft contact: share of the impulse of a rigid one */
+  PARAMETER_REAL impulse_scale;                   /* soft contact: leak of the accumulated impulse */
+  PARAMETER_REAL static_bias_rate;                /* the same three against bodies that cannot move */
   PARAMETER_REAL static_mass_scale;
   PARAMETER_REAL static_impulse_scale;
-  PARAMETER_REAL push_speed;        /* m/s, penetration is never removed faster */
+  PARAMETER_REAL push_speed;           /* m/s, penetration is never removed faster */
   PARAMETER_REAL speculative_distance; /* m, contacts are made this far ahead of touching */
-  PARAMETER_REAL bounds_margin;     /* m, added to every bound */
-  PARAMETER_REAL slop;              /* m, penetration left in place */
-  PARAMETER_REAL slop_share;        /* of the smallest half extent of a pair: no more than this is left in place */
-  PARAMETER_REAL restitution_speed; /* m/s, slower impacts do not bounce */
-  PARAMETER_REAL hybrid_cell;       /* m, cell of the hybrid broadphase: what is larger is not in its grid */
-  PARAMETER_REAL inverse_batch_cell; /* 1/m, cells of two-stage batching */
-  uint features;                    /* FEATURE_ bits */
+  PARAMETER_REAL bounds_margin;        /* m, added to every bound */
+  PARAMETER_REAL slop;                 /* m, penetration left in place */
+  PARAMETER_REAL slop_share;           /* of the smallest half extent of a pair: no more than this is left in place */
+  PARAMETER_REAL restitution_speed;    /* m/s, slower impacts do not bounce */
+  PARAMETER_REAL hybrid_cell;          /* m, cell of the hybrid broadphase: what is larger is not in its grid */
+  PARAMETER_REAL inverse_batch_cell;   /* 1/m, cells of two-stage batching */
+  uint features;                       /* FEATURE_ bits */
   uint reserved;
 } Parameters;
 #endif

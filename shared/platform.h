@@ -44,9 +44,9 @@ typedef unsigned short half_word;
 
 /* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. A phase of a
  * single item holds no loop of its own: PoCL 3.1 then runs that loop once for every item. */
-#define FOR_EACH_ITEM(i, n)                                                                   \
-  for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); \
-       i < (uint)(n); i += (uint)get_local_size(0))
+#define FOR_EACH_ITEM(i, n)                                                                                  \
+  for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); i < (uint)(n); \
+       i += (uint)get_local_size(0))
 #define STRIPS(many) (many)
 
 #else /* C or C++ on the CPU */
@@ -63,10 +63,14 @@ typedef uint64_t ulong;
 typedef unsigned short __attribute__((may_alias)) half_word;
 #ifdef TANDEM_REFERENCE
 typedef double memory_real;
-typedef struct __attribute__((aligned(32))) row { memory_real x, y, z, w; } row;
+typedef struct __attribute__((aligned(32))) row {
+  memory_real x, y, z, w;
+} row;
 #else
 typedef float memory_real;
-typedef struct __attribute__((aligned(16))) row { memory_real x, y, z, w; } row;
+typedef struct __attribute__((aligned(16))) row {
+  memory_real x, y, z, w;
+} row;
 #endif
 
 static inline uint float_bits(float x)
@@ -75,8 +79,14 @@ static inline uint float_bits(float x)
   __builtin_memcpy(&bits, &x, sizeof bits);
   return bits;
 }
-static inline uint atomic_add_uint(uint *pointer, uint value) { return __atomic_fetch_add(pointer, value, __ATOMIC_RELAXED); }
-static inline uint atomic_or_uint(uint *pointer, uint value) { return __atomic_fetch_or(pointer, value, __ATOMIC_RELAXED); }
+static inline uint atomic_add_uint(uint *pointer, uint value)
+{
+  return __atomic_fetch_add(pointer, value, __ATOMIC_RELAXED);
+}
+static inline uint atomic_or_uint(uint *pointer, uint value)
+{
+  return __atomic_fetch_or(pointer, value, __ATOMIC_RELAXED);
+}
 static inline uint atomic_max_uint(uint *pointer, uint value)
 {
   uint old = __atomic_load_n(pointer, __ATOMIC_RELAXED);

@@ -38,7 +38,9 @@ typedef uint natural;
 typedef uint item_index;
 typedef int mask;
 
-typedef struct { real x, y, z, w; } vec4;
+typedef struct {
+  real x, y, z, w;
+} vec4;
 
 #define choose(m, a, b) ((m) ? (a) : (b))
 
@@ -74,7 +76,10 @@ SHARED vec4 load_row(GLOBAL const row *from, natural i)
 SHARED void store_row(GLOBAL row *to, natural i, vec4 v)
 {
   row r;
-  r.x = v.x; r.y = v.y; r.z = v.z; r.w = v.w;
+  r.x = v.x;
+  r.y = v.y;
+  r.z = v.z;
+  r.w = v.w;
   to[i] = r;
 }
 SHARED void store_row_if(mask m, GLOBAL row *to, natural i, vec4 v)

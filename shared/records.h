@@ -17,15 +17,20 @@ SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return (traits >> 8u) & (MOST_MATERIALS - 1u); }
 SHARED mask is_continuous(natural traits) { return (traits & TRAIT_CONTINUOUS) != 0u; }
 
-/* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1 for b. */
-SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side, natural body)
+/* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1
+ * for b. */
+SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side,
+                             natural body)
 {
   return HAS_FEATURE(parameters, FEATURE_TREES) ? load_natural(pair_leaf, pair * 4u + side * 2u) : body;
 }
 
-/* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low` is what rounding
- * took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971). */
-typedef struct { vec3 high, low; } place;
+/* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low`
+ * is what rounding took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971).
+ */
+typedef struct {
+  vec3 high, low;
+} place;
 
 SHARED place load_place(GLOBAL const row *body_position, natural body)
 {
@@ -82,14 +87,18 @@ SHARED motion load_motion(GLOBAL const row *velocity, natural body)
 {
   return motion_of_rows(load_row(velocity, body * 2u), load_row(velocity, body * 2u + 1u));
 }
-/* Which share of what two bodies slide past each other the arm of a follows; that of b follows the rest. Arms must end in one point of
- * the world, or an impulse through them adds angular momentum: a body that cannot move takes the whole, two that can share it. */
+/* Which share of what two bodies slide past each other the arm of a follows; that of b follows the rest. Arms must end
+ * in one point of the world, or an impulse through them adds angular momentum: a body that cannot move takes the whole,
+ * two that can share it. */
 SHARED real share_of_slide(motion a, motion b)
 {
   return choose(a.inverse_mass == R(0.0), (real)R(1.0), choose(b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
 }
 
-SHARED vec3 gravity_of(GLOBAL const Parameters *parameters) { return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z); }
+SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
+{
+  return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
+}
 
 /* The velocity that gravity adds over the substeps of a step, on average. first, second: rows of body_velocity. */
 SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 second)

@@ -1,7 +1,7 @@
 /* strip.h - eight numbers of one item, worked on at once: tables of a shape that an item scans from end to end.
  *
- * LANES kernels put eight items side by side; a kernel whose items branch apart (ITEM) cannot, but may scan its own tables
- * eight entries a step: vertices for the highest, faces for the nearest. Stored number by number:
+ * LANES kernels put eight items side by side; a kernel whose items branch apart (ITEM) cannot, but may scan its own
+ * tables eight entries a step: vertices for the highest, faces for the nearest. Stored number by number:
  *
  *   row     0        1        2        3        4        5
  *        x0..x3   x4..x7   y0..y3   y4..y7   z0..z3   z4..z7        then the next eight vertices
@@ -45,7 +45,8 @@ typedef uint32_t strip_index __attribute__((vector_size(32)));
 #define STRIP_CHOOSE(m, a, b) ((strip)(((m) & (strip_mask)(a)) | (~(m) & (strip_mask)(b))))
 #define STRIP_CHOOSE_INDEX(m, a, b) ((strip_index)(((m) & (strip_mask)(a)) | (~(m) & (strip_mask)(b))))
 #endif
-#define STRIP_IOTA (strip_index){0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}
+#define STRIP_IOTA \
+  (strip_index) { 0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u }
 #define STRIP_OF(a, b, c, d, e, f, g, h) ((strip){(a), (b), (c), (d), (e), (f), (g), (h)})
 #define STRIP_ALL(x) STRIP_OF(x, x, x, x, x, x, x, x)
 #define STRIP_STORE(to, from) __builtin_memcpy((to), (from), sizeof(strip))
@@ -92,9 +93,18 @@ SHARED highest_entry highest_of_strip(const strip_leader *best)
   float4 h = wins ? high : low;
   uint4 at = wins ? at_high : at_low;
   highest_entry top = {h.x, at.x};
-  if (h.y > top.height || (h.y == top.height && at.y < top.at)) { top.height = h.y; top.at = at.y; }
-  if (h.z > top.height || (h.z == top.height && at.z < top.at)) { top.height = h.z; top.at = at.z; }
-  if (h.w > top.height || (h.w == top.height && at.w < top.at)) { top.height = h.w; top.at = at.w; }
+  if (h.y > top.height || (h.y == top.height && at.y < top.at)) {
+    top.height = h.y;
+    top.at = at.y;
+  }
+  if (h.z > top.height || (h.z == top.height && at.z < top.at)) {
+    top.height = h.z;
+    top.at = at.z;
+  }
+  if (h.w > top.height || (h.w == top.height && at.w < top.at)) {
+    top.height = h.w;
+    top.at = at.w;
+  }
   return top;
 }
 #else

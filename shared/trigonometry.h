@@ -13,15 +13,27 @@
 /* Angles beyond this are taken as this: no substep turns a body by thousands of turns. */
 #define ANGLE_LIMIT R(8192.0)
 
-typedef struct { real sine, cosine; } angle_functions;
+typedef struct {
+  real sine, cosine;
+} angle_functions;
 
-/* Up to an eighth of a turn, as polynomials of the square rr: sin r = r + r rr (...), cos r = 1 - rr / 2 + rr rr (...). The
- * reference build goes on to the terms that double precision needs. */
+/* Up to an eighth of a turn, as polynomials of the square rr: sin r = r + r rr (...), cos r = 1 - rr / 2 + rr rr (...).
+ * The reference build goes on to the terms that double precision needs. */
 #ifdef TANDEM_REFERENCE
-#define SINE_TERMS(rr) (-1.0 / 6 + rr * (1.0 / 120 + rr * (-1.0 / 5040 + rr * (1.0 / 362880 + rr * (-1.0 / 39916800 + \
-  rr * (1.0 / 6227020800 + rr * (-1.0 / 1307674368000 + rr * (1.0 / 355687428096000))))))))
-#define COSINE_TERMS(rr) (1.0 / 24 + rr * (-1.0 / 720 + rr * (1.0 / 40320 + rr * (-1.0 / 3628800 + rr * (1.0 / 479001600 + \
-  rr * (-1.0 / 87178291200 + rr * (1.0 / 20922789888000 + rr * (-1.0 / 6402373705728000))))))))
+#define SINE_TERMS(rr)                       \
+  (-1.0 / 6 +                                \
+   rr * (1.0 / 120 +                         \
+         rr * (-1.0 / 5040 +                 \
+               rr * (1.0 / 362880 +          \
+                     rr * (-1.0 / 39916800 + \
+                           rr * (1.0 / 6227020800 + rr * (-1.0 / 1307674368000 + rr * (1.0 / 355687428096000))))))))
+#define COSINE_TERMS(rr)                                                \
+  (1.0 / 24 +                                                           \
+   rr * (-1.0 / 720 +                                                   \
+         rr * (1.0 / 40320 +                                            \
+               rr * (-1.0 / 3628800 +                                   \
+                     rr * (1.0 / 479001600 + rr * (-1.0 / 87178291200 + \
+                                                   rr * (1.0 / 20922789888000 + rr * (-1.0 / 6402373705728000))))))))
 #else
 #define SINE_TERMS(rr) (R(-1.6666654611e-1) + rr * (R(8.3321608736e-3) + rr * R(-1.9515295891e-4)))
 #define COSINE_TERMS(rr) (R(4.166664568298827e-2) + rr * (R(-1.388731625493765e-3) + rr * R(2.443315711809948e-5)))
@@ -40,14 +52,16 @@ SHARED angle_functions sine_cosine(real angle)
   real x = clamped(angle, -ANGLE_LIMIT, ANGLE_LIMIT);
   real quarter_turns = nearest_integer(x * R(0.63661977236758134));
   /* pi/2 in three parts, the first two short, so that the products are exact. */
-  real r = ((x - quarter_turns * R(1.5703125)) - quarter_turns * R(4.837512969970703125e-4)) - quarter_turns * R(7.54978995489188216e-8);
+  real r = ((x - quarter_turns * R(1.5703125)) - quarter_turns * R(4.837512969970703125e-4)) -
+           quarter_turns * R(7.54978995489188216e-8);
   real rr = r * r;
   real s = r + r * rr * SINE_TERMS(rr);
   real c = (R(1.0) - R(0.5) * rr) + rr * rr * COSINE_TERMS(rr);
   natural quadrant = to_natural(quarter_turns) & 3u;
   mask swapped = (quadrant & 1u) == 1u;
   real sine = choose(swapped, c, s), cosine = choose(swapped, s, c);
-  angle_functions f = {choose(quadrant >= 2u, -sine, sine), choose((quadrant == 1u) | (quadrant == 2u), -cosine, cosine)};
+  angle_functions f = {choose(quadrant >= 2u, -sine, sine),
+                       choose((quadrant == 1u) | (quadrant == 2u), -cosine, cosine)};
   return f;
 }
 
@@ -60,7 +74,9 @@ SHARED real arc_tangent(real y, real x)
   mask upper = ratio > R(0.41421356237);
   real t = choose(upper, (ratio - R(1.0)) / (ratio + R(1.0)), ratio);
   real tt = t * t;
-  real angle = t + t * tt * (R(-3.33329491539e-1) + tt * (R(1.99777106478e-1) + tt * (R(-1.38776856032e-1) + tt * R(8.05374449538e-2))));
+  real angle = t + t * tt *
+                       (R(-3.33329491539e-1) +
+                        tt * (R(1.99777106478e-1) + tt * (R(-1.38776856032e-1) + tt * R(8.05374449538e-2))));
   angle = angle + choose(upper, (real)R(0.78539816339744831), (real)R(0.0));
   angle = choose(up > across, R(1.57079632679489662) - angle, angle);
   angle = choose(x < R(0.0), R(3.14159265358979324) - angle, angle);
@@ -74,7 +90,8 @@ SHARED quat turned(quat q, vec3 v)
   mask turns = angle > R(1e-9);
   angle_functions halved = sine_cosine(R(0.5) * angle);
   real s = choose(turns, halved.sine / choose(turns, angle, (real)R(1.0)), (real)R(0.5));
-  return quat_normalized(quat_multiply(make_quat(v.x * s, v.y * s, v.z * s, choose(turns, halved.cosine, (real)R(1.0))), q));
+  return quat_normalized(
+      quat_multiply(make_quat(v.x * s, v.y * s, v.z * s, choose(turns, halved.cosine, (real)R(1.0))), q));
 }
 
 #endif

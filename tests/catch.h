@@ -1,8 +1,8 @@
-/* catch.h - Catch2 version 2 (Debian 12) or 3 (Ubuntu 24.04), whichever is installed, under the names of version 3, and what a
- * test does that cannot run here, or not wholly.
+/* catch.h - Catch2 version 2 (Debian 12) or 3 (Ubuntu 24.04), whichever is installed, under the names of version 3, and
+ * what a test does that cannot run here, or not wholly.
  *
- * A test that only returned would count as passed. It says what is missing instead, and tests/main.cpp ends with the exit status
- * by which CTest shows it as skipped. */
+ * A test that only returned would count as passed. It says what is missing instead, and tests/main.cpp ends with the
+ * exit status by which CTest shows it as skipped. */
 #pragma once
 
 #include <cstdlib>

@@ -1,7 +1,7 @@
 /* bench_batching.cpp - see bench_batching.h.
  *
- * One world gives the list of contacts; then each batcher works on that list, over and over, from bodies without colours.
- * `coloring` is measured a second time with the colours of the last step, as it works in a run.
+ * One world gives the list of contacts; then each batcher works on that list, over and over, from bodies without
+ * colours. `coloring` is measured a second time with the colours of the last step, as it works in a run.
  */
 #include "tools/bench_batching.h"
 
@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "host/catalog/catalog.h"
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/layout.h"
-#include "host/catalog/catalog.h"
 #include "tools/progress.h"
 
 namespace tandem {
@@ -37,8 +37,15 @@ public:
     plan_.bodies = counts_[COUNT_BODIES];
     plan_.capacity_pairs = counts_[CAPACITY_PAIRS];
     plan_.rounds = 256;
-    const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan_.capacity_pairs, .cells = counts_[CAPACITY_CELLS], .features = plan_.features};
-    for (Buffer buffer : {Buffer::body_cells, Buffer::body_marks, Buffer::pair_marks}) memory.resize(buffer, bytes_of(buffer, sizes));
+    const Sizes sizes{.bodies = plan_.bodies,
+                      .materials = 1,
+                      .hulls = {},
+                      .trees = {},
+                      .pairs = plan_.capacity_pairs,
+                      .cells = counts_[CAPACITY_CELLS],
+                      .features = plan_.features};
+    for (Buffer buffer : {Buffer::body_cells, Buffer::body_marks, Buffer::pair_marks})
+      memory.resize(buffer, bytes_of(buffer, sizes));
     prepare_kernels();
   }
 
@@ -57,14 +64,16 @@ private:
   {
     std::vector<Kernel> kernels;
     for (size_t k = 0; k < kernel_count; ++k)
-      if (const Stage stage = row_of(kernel_at(k)).stage; stage == Stage::batching || stage == Stage::parallel) kernels.push_back(kernel_at(k));
+      if (const Stage stage = row_of(kernel_at(k)).stage; stage == Stage::batching || stage == Stage::parallel)
+        kernels.push_back(kernel_at(k));
     kernels.push_back(Kernel::prepare_bodies);
     backend_.prepare(plan_.features, kernels);
   }
 
   void begin(bool keep)
   {
-    for (int entry : {COUNT_UNCOLORED, COUNT_ROUNDS, COUNT_COLORS, COUNT_CONFLICTS, COUNT_MISBATCHED}) counts_[entry] = 0;
+    for (int entry : {COUNT_UNCOLORED, COUNT_ROUNDS, COUNT_COLORS, COUNT_CONFLICTS, COUNT_MISBATCHED})
+      counts_[entry] = 0;
     counts_[COUNT_FIRST_CONFLICT] = counts_[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
     world_.memory().upload(Buffer::counts, counts_.data(), sizeof counts_);
     plan_.known = counts_;
@@ -99,7 +108,8 @@ private:
     const auto after = world_.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     BatchTable table;
     for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
-      if (const uint32_t size = after[COLOR_START + color + 1] - after[COLOR_START + color]) table.sizes.push_back(size);
+      if (const uint32_t size = after[COLOR_START + color + 1] - after[COLOR_START + color])
+        table.sizes.push_back(size);
     table.tail = after[COLOR_START + COLOR_LIMIT + 1] - after[COLOR_START + COLOR_LIMIT];
     table.rounds = after[COUNT_ROUNDS];
     table.right = after[COUNT_CONFLICTS] == 0 && after[COUNT_MISBATCHED] == 0;
@@ -116,7 +126,8 @@ private:
 };
 
 /* Steps until so many pairs touch. */
-BatchScene batch_scene(const std::string &text, const std::string &backend, bool allow_inexact, uint64_t most_steps, uint32_t wanted)
+BatchScene batch_scene(const std::string &text, const std::string &backend, bool allow_inexact, uint64_t most_steps,
+                       uint32_t wanted)
 {
   World world(load_scene(text), Settings{}, Placement{backend, {}, allow_inexact});
   BatchScene result{text, 0, 0, 0, 0, {}, {}};
@@ -152,7 +163,9 @@ std::string size_table(const BatchScene &scene)
     rows = std::max(rows, table.sizes.size());
   }
   Table text(header);
-  const auto cell = [](const std::vector<uint32_t> &sizes, size_t k) { return k < sizes.size() ? fmt::format("{}", sizes[k]) : ""; };
+  const auto cell = [](const std::vector<uint32_t> &sizes, size_t k) {
+    return k < sizes.size() ? fmt::format("{}", sizes[k]) : "";
+  };
   for (size_t k = 0; k < rows; ++k) {
     std::vector<std::string> row{fmt::format("{}", k)};
     if (!scene.talk.empty()) row.push_back(cell(scene.talk, k));
@@ -190,29 +203,32 @@ std::vector<BatchScene> bench_batching(const std::string &backend, uint64_t boxe
 
 std::string batch_text(const BatchScene &scene)
 {
-  std::string text = fmt::format("{} after {} steps: {} bodies, {} pairs of bounds, {} contacts\n{}", scene.scene, scene.steps, scene.bodies,
-                                 scene.pairs, scene.constraints, size_table(scene));
+  std::string text = fmt::format("{} after {} steps: {} bodies, {} pairs of bounds, {} contacts\n{}", scene.scene,
+                                 scene.steps, scene.bodies, scene.pairs, scene.constraints, size_table(scene));
   Table table({"batcher", "batches", "tail", "fill", "rounds", "ms", "least", "most", "check"});
   for (const BatchTable &t : scene.tables)
-    table.add({t.batcher, fmt::format("{}", t.sizes.size()), fmt::format("{}", t.tail), fmt::format("{:.0f}%", 100 * fill_of(t)),
-               fmt::format("{}", t.rounds), fmt::format("{:.3f}", t.milliseconds.median), fmt::format("{:.3f}", t.milliseconds.minimum),
+    table.add({t.batcher, fmt::format("{}", t.sizes.size()), fmt::format("{}", t.tail),
+               fmt::format("{:.0f}%", 100 * fill_of(t)), fmt::format("{}", t.rounds),
+               fmt::format("{:.3f}", t.milliseconds.median), fmt::format("{:.3f}", t.milliseconds.minimum),
                fmt::format("{:.3f}", t.milliseconds.maximum), t.right ? "right" : "WRONG"});
   return text + "\n" + table.text("  ");
 }
 
 Json batch_json(const BatchScene &scene)
 {
-  Json json = {{"scene", scene.scene}, {"steps", scene.steps},     {"bodies", scene.bodies}, {"pairs", scene.pairs},
-               {"contacts", scene.constraints}, {"talk", scene.talk}, {"batchers", Json::array()}};
+  Json json = {{"scene", scene.scene},     {"steps", scene.steps},          {"bodies", scene.bodies},
+               {"pairs", scene.pairs},     {"contacts", scene.constraints}, {"talk", scene.talk},
+               {"batchers", Json::array()}};
   for (const BatchTable &t : scene.tables)
-    json["batchers"].push_back({{"name", t.batcher},
-                                {"batches", t.sizes.size()},
-                                {"sizes", t.sizes},
-                                {"tail", t.tail},
-                                {"fill", fill_of(t)},
-                                {"rounds", t.rounds},
-                                {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
-                                {"right", t.right}});
+    json["batchers"].push_back(
+        {{"name", t.batcher},
+         {"batches", t.sizes.size()},
+         {"sizes", t.sizes},
+         {"tail", t.tail},
+         {"fill", fill_of(t)},
+         {"rounds", t.rounds},
+         {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
+         {"right", t.right}});
   return json;
 }
 

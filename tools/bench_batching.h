@@ -1,4 +1,5 @@
-/* bench_batching.h - `tandem bench batching`: every batcher on the same contacts, beside the batch tables of the talks. */
+/* bench_batching.h - `tandem bench batching`: every batcher on the same contacts, beside the batch tables of the
+ * talks. */
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
 /* bench_broadphase.cpp - see bench_broadphase.h. */
-#include "host/runtime/make_backend.h"
 #include "tools/bench_broadphase.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "host/runtime/make_backend.h"
 #include "tools/broadphase_frames.h"
 #include "tools/chart.h"
 #include "tools/progress.h"
@@ -18,21 +18,23 @@ namespace {
 /* More than the least while they are short: what is kept from frame to frame makes some cost more than others. */
 constexpr uint32_t warm_frames = 2, timed_frames = 9, most_timed_frames = 30;
 constexpr double enough_milliseconds = 3000;
-constexpr uint32_t most_by_brute_force = 16384;  /* its work is that of the square */
-constexpr double longest_milliseconds = 5000;    /* of a frame: 11 of them are a minute */
+constexpr uint32_t most_by_brute_force = 16384; /* its work is that of the square */
+constexpr double longest_milliseconds = 5000;   /* of a frame: 11 of them are a minute */
 constexpr const char *oracle = "brute-force";
 
 std::vector<TimeAt> times_of(const std::vector<BroadphaseRun> &runs, const std::string &broadphase)
 {
   std::vector<TimeAt> times;
   for (const BroadphaseRun &run : runs)
-    if (run.broadphase == broadphase && run.skipped.empty()) times.push_back({double(run.bodies), spread_of(run.milliseconds).median});
+    if (run.broadphase == broadphase && run.skipped.empty())
+      times.push_back({double(run.bodies), spread_of(run.milliseconds).median});
   return times;
 }
 
 bool was_too_slow(const std::vector<BroadphaseRun> &runs, const std::string &broadphase)
 {
-  return std::any_of(runs.begin(), runs.end(), [&](const BroadphaseRun &run) { return run.broadphase == broadphase && !run.skipped.empty(); });
+  return std::any_of(runs.begin(), runs.end(),
+                     [&](const BroadphaseRun &run) { return run.broadphase == broadphase && !run.skipped.empty(); });
 }
 
 /* Empty if there is none. */
@@ -47,7 +49,9 @@ std::string reason_to_skip(const std::vector<BroadphaseRun> &smaller, const std:
 void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::function<void()> &after_frame)
 {
   double spent = 0;
-  for (uint32_t frame = 0; frame < warm_frames + timed_frames || (spent < enough_milliseconds && frame < warm_frames + most_timed_frames); ++frame) {
+  for (uint32_t frame = 0;
+       frame < warm_frames + timed_frames || (spent < enough_milliseconds && frame < warm_frames + most_timed_frames);
+       ++frame) {
     const double milliseconds = frames.run(frame);
     run.pairs.push_back(frames.pairs());
     run.hashes.push_back(frames.hash());
@@ -55,7 +59,8 @@ void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::functio
     if (frame >= warm_frames) {
       run.milliseconds.push_back(milliseconds);
       spent += milliseconds;
-    } else if (frame + 1 == warm_frames && milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
+    } else if (frame + 1 == warm_frames &&
+               milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
       run.skipped = "too slow: stopped";
       return;
     }
@@ -68,7 +73,8 @@ std::string difference_between(const BroadphaseRun &run, const BroadphaseRun &re
   const size_t frames = std::min(run.hashes.size(), reference.hashes.size());
   for (size_t frame = 0; frame < frames; ++frame)
     if (run.hashes[frame] != reference.hashes[frame])
-      return fmt::format("{} gives other pairs than {} in frame {}: {} and {}", run.broadphase, reference.broadphase, frame, run.pairs[frame], reference.pairs[frame]);
+      return fmt::format("{} gives other pairs than {} in frame {}: {} and {}", run.broadphase, reference.broadphase,
+                         frame, run.pairs[frame], reference.pairs[frame]);
   return "";
 }
 
@@ -82,7 +88,8 @@ void compare(std::vector<BroadphaseRun> &runs)
     if (reference && &run != reference) run.difference = difference_between(run, *reference);
 }
 
-std::vector<BroadphaseRun> run_all(const BroadphaseRequest &request, const BroadphaseInput &input, uint32_t bodies, const std::vector<BroadphaseRun> &smaller, Backend &backend)
+std::vector<BroadphaseRun> run_all(const BroadphaseRequest &request, const BroadphaseInput &input, uint32_t bodies,
+                                   const std::vector<BroadphaseRun> &smaller, Backend &backend)
 {
   std::vector<BroadphaseRun> runs;
   uint64_t wanted = 0, done = 0;
@@ -113,7 +120,8 @@ template <class Value> std::vector<Value> distinct(const BroadphaseScene &scene,
 
 const BroadphaseRun &run_of(const BroadphaseScene &scene, const std::string &broadphase, uint32_t bodies)
 {
-  return *std::find_if(scene.runs.begin(), scene.runs.end(), [&](const BroadphaseRun &run) { return run.broadphase == broadphase && run.bodies == bodies; });
+  return *std::find_if(scene.runs.begin(), scene.runs.end(),
+                       [&](const BroadphaseRun &run) { return run.broadphase == broadphase && run.bodies == bodies; });
 }
 
 std::string cell_text(const BroadphaseRun &run)
@@ -138,7 +146,10 @@ std::string pairs_text(const BroadphaseScene &scene, uint32_t bodies)
   return "";
 }
 
-double mean_of(const std::vector<double> &values) { return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<size_t>(values.size(), 1)); }
+double mean_of(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0) / double(std::max<size_t>(values.size(), 1));
+}
 
 Json run_json(const BroadphaseRun &run)
 {
@@ -147,7 +158,11 @@ Json run_json(const BroadphaseRun &run)
   return {{"broadphase", run.broadphase},
           {"n", run.bodies},
           {"pairs", last_pairs(run) ? Json(*last_pairs(run)) : Json(nullptr)},
-          {"ms", ran ? Json{{"median", time.median}, {"mean", mean_of(run.milliseconds)}, {"min", time.minimum}, {"max", time.maximum}} : Json(nullptr)},
+          {"ms", ran ? Json{{"median", time.median},
+                            {"mean", mean_of(run.milliseconds)},
+                            {"min", time.minimum},
+                            {"max", time.maximum}}
+                     : Json(nullptr)},
           {"frames_ms", run.milliseconds},
           {"skipped", ran ? Json(nullptr) : Json(run.skipped)},
           {"difference", run.difference.empty() ? Json(nullptr) : Json(run.difference)}};
@@ -155,11 +170,15 @@ Json run_json(const BroadphaseRun &run)
 
 Chart chart_of(const BroadphaseScene &scene, const std::string &backend)
 {
-  Chart chart{fmt::format("pairs of bounds: {}, on {}", scene.input->name, backend), {"bodies", AxisScale::logarithmic}, {"ms a frame", AxisScale::logarithmic}};
+  Chart chart{fmt::format("pairs of bounds: {}, on {}", scene.input->name, backend),
+              {"bodies", AxisScale::logarithmic},
+              {"ms a frame", AxisScale::logarithmic}};
   for (const std::string &name : distinct(scene, &BroadphaseRun::broadphase)) {
     ChartSeries series{name};
     for (const TimeAt &time : times_of(scene.runs, name))
-      series.points.push_back({time.bodies, time.milliseconds, fmt::format("{} pairs", last_pairs(run_of(scene, name, uint32_t(time.bodies))).value_or(0))});
+      series.points.push_back(
+          {time.bodies, time.milliseconds,
+           fmt::format("{} pairs", last_pairs(run_of(scene, name, uint32_t(time.bodies))).value_or(0))});
     chart.series.push_back(series);
   }
   return chart;
@@ -170,7 +189,9 @@ Chart chart_of(const BroadphaseScene &scene, const std::string &backend)
 BroadphaseRequest broadphase_request(const std::vector<std::string> &names, const std::vector<std::string> &scenes)
 {
   BroadphaseRequest request;
-  const auto wanted = [](const std::vector<std::string> &list, const char *name) { return list.empty() || std::find(list.begin(), list.end(), name) != list.end(); };
+  const auto wanted = [](const std::vector<std::string> &list, const char *name) {
+    return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+  };
   for (const std::string &scene : scenes) broadphase_input_named(scene);
   for (const Broadphase &broadphase : broadphases())
     if (wanted(names, broadphase.name)) request.broadphases.push_back(broadphase);
@@ -179,7 +200,8 @@ BroadphaseRequest broadphase_request(const std::vector<std::string> &names, cons
   return request;
 }
 
-std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request, const std::function<void(const BroadphaseScene &)> &after_scene)
+std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request,
+                                              const std::function<void(const BroadphaseScene &)> &after_scene)
 {
   const std::unique_ptr<Backend> backend = make_backend(request.backend, request.allow_inexact);
   std::vector<BroadphaseScene> scenes;
@@ -214,7 +236,8 @@ std::vector<std::string> differences_of(const std::vector<BroadphaseScene> &scen
   std::vector<std::string> lines;
   for (const BroadphaseScene &scene : scenes)
     for (const BroadphaseRun &run : scene.runs)
-      if (!run.difference.empty()) lines.push_back(fmt::format("{}, {} bodies: {}", scene.input->name, run.bodies, run.difference));
+      if (!run.difference.empty())
+        lines.push_back(fmt::format("{}, {} bodies: {}", scene.input->name, run.bodies, run.difference));
   return lines;
 }
 
@@ -240,7 +263,8 @@ std::string broadphase_text(const BroadphaseScene &scene)
 
 Json broadphase_json(const BroadphaseScene &scene)
 {
-  Json json = {{"name", scene.input->name}, {"what", scene.input->what}, {"runs", Json::array()}, {"slopes", Json::object()}};
+  Json json = {
+      {"name", scene.input->name}, {"what", scene.input->what}, {"runs", Json::array()}, {"slopes", Json::object()}};
   for (const BroadphaseRun &run : scene.runs) json["runs"].push_back(run_json(run));
   for (const std::string &name : distinct(scene, &BroadphaseRun::broadphase)) {
     const std::optional<double> slope = slope_of(times_of(scene.runs, name));

@@ -1,7 +1,9 @@
-/* bench_broadphase.h - `tandem bench broadphase`: every broadphase on the same moving bodies, from thousands to a million of them.
+/* bench_broadphase.h - `tandem bench broadphase`: every broadphase on the same moving bodies, from thousands to a
+ * million of them.
  *
- * They must give the same pair list in every frame, or the benchmark says which did not. How time grows with the number of bodies is
- * what tells them apart: the slope of the line through the two largest on a chart whose axes are both logarithmic.
+ * They must give the same pair list in every frame, or the benchmark says which did not. How time grows with the number
+ * of bodies is what tells them apart: the slope of the line through the two largest on a chart whose axes are both
+ * logarithmic.
  */
 #pragma once
 
@@ -21,11 +23,11 @@ namespace tandem {
 struct BroadphaseRun {
   std::string broadphase;
   uint32_t bodies = 0;
-  std::string skipped;                /* why it did not run; empty if it did */
-  std::vector<double> milliseconds;   /* of the timed frames */
-  std::vector<uint32_t> pairs;        /* of all frames, */
-  std::vector<uint64_t> hashes;       /* warm ones included */
-  std::string difference;             /* where its pairs differ from those of the others; empty if nowhere */
+  std::string skipped;              /* why it did not run; empty if it did */
+  std::vector<double> milliseconds; /* of the timed frames */
+  std::vector<uint32_t> pairs;      /* of all frames, */
+  std::vector<uint64_t> hashes;     /* warm ones included */
+  std::string difference;           /* where its pairs differ from those of the others; empty if nowhere */
 };
 
 struct BroadphaseScene {
@@ -35,24 +37,29 @@ struct BroadphaseScene {
 
 struct BroadphaseRequest {
   std::string backend;
-  std::vector<uint32_t> bodies;        /* ascending */
+  std::vector<uint32_t> bodies; /* ascending */
   std::vector<Broadphase> broadphases;
   std::vector<const BroadphaseInput *> inputs;
   bool allow_inexact = false;
 };
 
-/* Of all that there is those that are named, in the order of the list; all if none are. InputError for a scene that does not exist. */
-BroadphaseRequest broadphase_request(const std::vector<std::string> &broadphases, const std::vector<std::string> &scenes);
+/* Of all that there is those that are named, in the order of the list; all if none are. InputError for a scene that
+ * does not exist. */
+BroadphaseRequest broadphase_request(const std::vector<std::string> &broadphases,
+                                     const std::vector<std::string> &scenes);
 
 /* `after_scene` hears of each as it is done: all take minutes. InputError as make_backend. */
-std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request, const std::function<void(const BroadphaseScene &)> &after_scene = {});
+std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request,
+                                              const std::function<void(const BroadphaseScene &)> &after_scene = {});
 
 struct TimeAt {
   double bodies, milliseconds;
 };
-/* d log(time) / d log(bodies) between the last two: 1 where time is proportional to bodies, 2 to their square. None with less than two. */
+/* d log(time) / d log(bodies) between the last two: 1 where time is proportional to bodies, 2 to their square. None
+ * with less than two. */
 std::optional<double> slope_of(const std::vector<TimeAt> &times);
-/* What a frame of so many bodies may take: along that slope, taken to be 1 to 2, and 2 after one time; none without any. */
+/* What a frame of so many bodies may take: along that slope, taken to be 1 to 2, and 2 after one time; none without
+ * any. */
 std::optional<double> predicted_milliseconds(const std::vector<TimeAt> &times, double bodies);
 
 /* One line each. */

@@ -1,10 +1,12 @@
 /* bench_narrowphase.cpp - see bench_narrowphase.h.
  *
- *    (a)(b)   .   (a)(b)   .      Pairs far from each other, at random poses near contact: a third apart, yet within reach of a
- *      .   (a)(b)   .   (a)(b)    contact ahead of touching, the others overlapping by up to 2 cm. Every pair makes a manifold.
+ *    (a)(b)   .   (a)(b)   .      Pairs far from each other, at random poses near contact: a third apart, yet within
+ * reach of a .   (a)(b)   .   (a)(b)    contact ahead of touching, the others overlapping by up to 2 cm. Every pair
+ * makes a manifold.
  *
- * b comes from afar along a line through both middles until it touches (conservative advancement), then steps along the normal to
- * the gap wanted. A first step of a microsecond makes the list of pairs, and moves nothing; then the kernel runs again and again.
+ * b comes from afar along a line through both middles until it touches (conservative advancement), then steps along the
+ * normal to the gap wanted. A first step of a microsecond makes the list of pairs, and moves nothing; then the kernel
+ * runs again and again.
  */
 #include "tools/bench_narrowphase.h"
 
@@ -26,7 +28,7 @@ namespace {
 using scene_builders::add_body;
 
 constexpr int repetitions = 9;
-constexpr uint32_t variants = 16; /* sizes and stones of each shape */
+constexpr uint32_t variants = 16;                            /* sizes and stones of each shape */
 constexpr double cell = 4, deepest = 0.02, farthest = 0.015; /* m; contacts are made 0.02 ahead */
 
 /* --- shapes --------------------------------------------------------------------------------------------- */
@@ -35,7 +37,10 @@ using Maker = std::function<Shape(Random &)>;
 
 float size_of(Random &random) { return float(random.uniform(0.25, 0.5)); }
 Shape ball(Random &random) { return sphere_shape(size_of(random)); }
-Vec3 sizes_of(Random &random) { return {size_of(random), size_of(random), size_of(random)}; } /* in this order, which arguments have not */
+Vec3 sizes_of(Random &random)
+{
+  return {size_of(random), size_of(random), size_of(random)};
+} /* in this order, which arguments have not */
 Shape box(Random &random) { return {ShapeType::box, sizes_of(random)}; }
 Shape capsule(Random &random)
 {
@@ -52,8 +57,10 @@ Shape hull32(Random &random)
   const Vec3 size = sizes_of(random);
   std::vector<Vec3> points;
   while (points.size() < 32) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
-    if (length > 0.1 && length < 1) points.push_back({float(x / length) * size[0], float(y / length) * size[1], float(z / length) * size[2]});
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1),
+                 length = std::sqrt(x * x + y * y + z * z);
+    if (length > 0.1 && length < 1)
+      points.push_back({float(x / length) * size[0], float(y / length) * size[1], float(z / length) * size[2]});
   }
   return hull_shape(points, "hull32");
 }
@@ -70,7 +77,8 @@ struct PairKind {
   std::vector<std::string> methods;
 };
 
-/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. After a comma: the support of hulls. */
+/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. After a comma: the support of
+ * hulls. */
 std::vector<PairKind> kinds()
 {
   const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = narrowphase_names();
@@ -88,7 +96,10 @@ std::vector<PairKind> kinds()
 
 /* --- poses ---------------------------------------------------------------------------------------------- */
 
-double wanted_gap(uint32_t pair, Random &random) { return pair % 3 == 0 ? random.uniform(0, farthest) : random.uniform(-deepest, 0); }
+double wanted_gap(uint32_t pair, Random &random)
+{
+  return pair % 3 == 0 ? random.uniform(0, farthest) : random.uniform(-deepest, 0);
+}
 
 /* The shapes of a scene as kernels read them. */
 class Convexes {
@@ -103,8 +114,11 @@ public:
   /* Seen from the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
-    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(), face_starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), nullptr, nullptr, SUPPORT_BRUTE_FORCE};
-    return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset, {index_[body], index_[body], INDEX_NONE});
+    const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(),     face_starts_.data(),
+                                corners_.data(), edges_.data(),    strips_.data(),     links_.data(),
+                                nullptr,         nullptr,          SUPPORT_BRUTE_FORCE};
+    return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset,
+                       {index_[body], index_[body], INDEX_NONE});
   }
 
 private:
@@ -114,14 +128,20 @@ private:
     settings.specialise = false;
     return settings;
   }
-  template <class T> std::vector<T> all(Buffer buffer) { return world_.memory().read<T>(buffer, world_.memory().bytes(buffer) / sizeof(T)); }
+  template <class T> std::vector<T> all(Buffer buffer)
+  {
+    return world_.memory().read<T>(buffer, world_.memory().bytes(buffer) / sizeof(T));
+  }
 
   World world_;
   std::vector<uint32_t> index_;
-  std::vector<row> shapes_ = all<row>(Buffer::body_shape), poses_ = all<row>(Buffer::body_shape_pose), orientations_ = all<row>(Buffer::body_orientation);
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane), strips_ = all<row>(Buffer::hull_strip);
+  std::vector<row> shapes_ = all<row>(Buffer::body_shape), poses_ = all<row>(Buffer::body_shape_pose),
+                   orientations_ = all<row>(Buffer::body_orientation);
+  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane),
+                   strips_ = all<row>(Buffer::hull_strip);
   std::vector<uint32_t> convexes_ = all<uint32_t>(Buffer::body_convex), headers_ = all<uint32_t>(Buffer::hull_header);
-  std::vector<uint32_t> face_starts_ = all<uint32_t>(Buffer::hull_face_start), corners_ = all<uint32_t>(Buffer::hull_corner);
+  std::vector<uint32_t> face_starts_ = all<uint32_t>(Buffer::hull_face_start),
+                        corners_ = all<uint32_t>(Buffer::hull_corner);
   std::vector<uint32_t> edges_ = all<uint32_t>(Buffer::hull_edge), links_ = all<uint32_t>(Buffer::hull_link);
 };
 
@@ -167,7 +187,8 @@ Scene scene_of(const PairKind &kind, uint32_t pairs)
   for (uint32_t k = 0; k < variants && !on_plane; ++k) scene.shapes.push_back(kind.b(random));
   const auto side = static_cast<uint32_t>(std::ceil(on_plane ? std::sqrt(double(pairs)) : std::cbrt(double(pairs))));
   for (uint32_t pair = 0; pair < pairs; ++pair) {
-    const Point middle{cell * (pair % side), on_plane ? 0 : cell * (pair / side % side), cell * (on_plane ? pair / side : pair / side / side)};
+    const Point middle{cell * (pair % side), on_plane ? 0 : cell * (pair / side % side),
+                       cell * (on_plane ? pair / side : pair / side / side)};
     for (uint32_t k = 0; k < (on_plane ? 1u : 2u); ++k) {
       Body &body = add_body(scene, random.below(variants) + k * variants, middle);
       body.orientation = random.orientation();
@@ -194,7 +215,8 @@ void bring_pair_near(Scene &scene, const Convexes &convexes, bool on_plane, uint
 {
   if (on_plane) {
     const convex shape = convexes.of(pair, make_vec3(0, 0, 0));
-    scene.bodies[pair].position[1] = approach.gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
+    scene.bodies[pair].position[1] =
+        approach.gap + double(core_radius(&shape)) - double(support_of(&shape, make_vec3(0, -1, 0)).y);
     return;
   }
   const vec3 offset = near_contact(convexes, 2 * pair, 2 * pair + 1, approach);
@@ -210,7 +232,8 @@ void bring_near(Scene &scene, bool on_plane)
   constexpr uint32_t block = 256;
   in_parallel((pairs + block - 1) / block, processor_count(), [&](size_t k) {
     const auto first = static_cast<uint32_t>(k * block);
-    for (uint32_t pair = first; pair < std::min(pairs, first + block); ++pair) bring_pair_near(scene, convexes, on_plane, pair, approaches[pair]);
+    for (uint32_t pair = first; pair < std::min(pairs, first + block); ++pair)
+      bring_pair_near(scene, convexes, on_plane, pair, approaches[pair]);
   });
 }
 
@@ -232,7 +255,8 @@ public:
     Backend &backend = world_.backend_of(kernels[0]);
     DirectLauncher launcher(world_.memory(), backend);
     StepLaunches step(launcher, plan_, settings_);
-    const std::vector<uint32_t> values = method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
+    const std::vector<uint32_t> values =
+        method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
     for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
@@ -258,7 +282,9 @@ private:
     Settings settings;
     settings.step = 1e-6f;
     if (!method.empty()) settings.narrowphase = method.substr(0, method.find(','));
-    settings.support = method.ends_with(", hill-climbing") ? "hill-climbing" : method.ends_with(", cube-map") ? "cube-map" : "brute-force";
+    settings.support = method.ends_with(", hill-climbing") ? "hill-climbing"
+                       : method.ends_with(", cube-map")    ? "cube-map"
+                                                           : "brute-force";
     return settings;
   }
   std::vector<Kernel> kernels_of(const PairKind &kind) const
@@ -283,16 +309,20 @@ std::vector<std::string> bench_pair_names()
   return names;
 }
 
-std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs, const std::vector<std::string> &only, bool allow_inexact)
+std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs,
+                                        const std::vector<std::string> &only, bool allow_inexact)
 {
   std::vector<PairTime> times;
   std::vector<PairKind> list = kinds();
-  if (!only.empty()) std::erase_if(list, [&](const PairKind &kind) { return std::find(only.begin(), only.end(), kind.name) == only.end(); });
+  if (!only.empty())
+    std::erase_if(list,
+                  [&](const PairKind &kind) { return std::find(only.begin(), only.end(), kind.name) == only.end(); });
   Progress progress("colliding", list.size());
   for (const PairKind &kind : list) {
     Scene scene = scene_of(kind, pairs);
     bring_near(scene, !kind.b);
-    for (const std::string &method : kind.methods) times.push_back(Bench(scene, method, backend, allow_inexact).run(kind, method));
+    for (const std::string &method : kind.methods)
+      times.push_back(Bench(scene, method, backend, allow_inexact).run(kind, method));
     progress.update(uint64_t(&kind - list.data()) + 1);
   }
   progress.clear();
@@ -303,8 +333,9 @@ std::string narrowphase_text(const std::vector<PairTime> &times)
 {
   Table table({"pair", "method", "pairs", "manifolds", "points", "ms", "least", "most", "million a second"});
   for (const PairTime &t : times)
-    table.add({t.pair, t.method.empty() ? "own" : t.method, fmt::format("{}", t.pairs), fmt::format("{}", t.manifolds), fmt::format("{}", t.points),
-               fmt::format("{:.3f}", t.milliseconds.median), fmt::format("{:.3f}", t.milliseconds.minimum), fmt::format("{:.3f}", t.milliseconds.maximum),
+    table.add({t.pair, t.method.empty() ? "own" : t.method, fmt::format("{}", t.pairs), fmt::format("{}", t.manifolds),
+               fmt::format("{}", t.points), fmt::format("{:.3f}", t.milliseconds.median),
+               fmt::format("{:.3f}", t.milliseconds.minimum), fmt::format("{:.3f}", t.milliseconds.maximum),
                fmt::format("{:.4g}", a_second(t) * 1e-6)});
   return table.text("  ");
 }
@@ -313,14 +344,15 @@ Json narrowphase_json(const std::vector<PairTime> &times)
 {
   Json json = Json::array();
   for (const PairTime &t : times)
-    json.push_back({{"pair", t.pair},
-                    {"kernel", t.kernel},
-                    {"method", t.method.empty() ? Json(nullptr) : Json(t.method)},
-                    {"n", t.pairs},
-                    {"manifolds", t.manifolds},
-                    {"points", t.points},
-                    {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
-                    {"manifolds_per_second", a_second(t)}});
+    json.push_back(
+        {{"pair", t.pair},
+         {"kernel", t.kernel},
+         {"method", t.method.empty() ? Json(nullptr) : Json(t.method)},
+         {"n", t.pairs},
+         {"manifolds", t.manifolds},
+         {"points", t.points},
+         {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},
+         {"manifolds_per_second", a_second(t)}});
   return json;
 }
 

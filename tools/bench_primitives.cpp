@@ -1,5 +1,4 @@
 /* bench_primitives.cpp - see bench_primitives.h. */
-#include "host/runtime/make_backend.h"
 #include "tools/bench_primitives.h"
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/pipeline/primitives.h"
+#include "host/runtime/make_backend.h"
 #include "host/runtime/recorder.h"
 
 namespace tandem {
@@ -96,7 +96,8 @@ std::vector<double> bench_sort(const std::string &backend, uint32_t count, bool 
     bench.fill(Buffer::primitive_b, values);
   };
   const std::vector<double> times = bench.time(make_inputs, {Buffer::primitive_a, Buffer::primitive_b});
-  const std::vector<uint32_t> sorted = bench.contents(Buffer::primitive_a, count), order = bench.contents(Buffer::primitive_b, count);
+  const std::vector<uint32_t> sorted = bench.contents(Buffer::primitive_a, count),
+                              order = bench.contents(Buffer::primitive_b, count);
   for (uint32_t i = 0; i < count; ++i)
     if (order[i] >= count || keys[order[i]] != sorted[i] || (i && sorted[i - 1] > sorted[i]))
       throw std::runtime_error("bench sort: the result is wrong on " + backend);
@@ -113,7 +114,9 @@ std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool 
   bench.reserve(Buffer::scan_sums, scan_sum_words(count));
   const std::vector<double> times = bench.time([&] { bench.fill(Buffer::primitive_a, values); }, {Buffer::primitive_a});
   values.push_back(0);
-  const auto saturated = [](uint32_t a, uint32_t b) { return uint32_t(std::min<uint64_t>(uint64_t{a} + b, UINT32_MAX)); };
+  const auto saturated = [](uint32_t a, uint32_t b) {
+    return uint32_t(std::min<uint64_t>(uint64_t{a} + b, UINT32_MAX));
+  };
   std::exclusive_scan(values.begin(), values.end(), values.begin(), 0u, saturated); /* shared/parallel/scan.h */
   if (bench.contents(Buffer::primitive_b, size_t{count} + 1) != values)
     throw std::runtime_error("bench scan: the result is wrong on " + backend);

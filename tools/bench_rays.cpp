@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <tandem/world.h>
+
 #include "host/base/random.h"
 #include "host/runtime/interface/kernel_list.h"
-#include <tandem/world.h>
 
 namespace tandem {
 namespace {
@@ -42,7 +43,8 @@ std::vector<Ray> rays_through_a_cube(uint32_t count, double side)
   for (Ray &ray : rays) {
     ray.origin = place();
     const Point to = place();
-    for (size_t axis = 0; axis < 3; ++axis) ray.direction[axis] = static_cast<float>(to[axis] - ray.origin[axis] + 1e-3);
+    for (size_t axis = 0; axis < 3; ++axis)
+      ray.direction[axis] = static_cast<float>(to[axis] - ray.origin[axis] + 1e-3);
   }
   return rays;
 }
@@ -76,7 +78,8 @@ std::vector<RayTime> time_rays(World &world, const std::string &structure, const
     const auto [own, others] = spent(world, Kernel::cast_rays);
     near.push_back(own);
     make.push_back(others);
-    nearest.hits = static_cast<uint64_t>(std::count_if(hits.begin(), hits.end(), [](const RayHit &hit) { return hit.body != no_body; }));
+    nearest.hits = static_cast<uint64_t>(
+        std::count_if(hits.begin(), hits.end(), [](const RayHit &hit) { return hit.body != no_body; }));
     const std::vector<bool> found = world.find_blocked_rays(asked);
     block.push_back(spent(world, Kernel::find_blocked_rays).first);
     blocked.hits = static_cast<uint64_t>(std::count(found.begin(), found.end(), true));
@@ -109,8 +112,10 @@ std::string rays_text(const std::vector<RayTime> &times, uint32_t rays)
   Table table({"structure", "what", "ms", "least", "most", "million rays/s", "hits"});
   for (const RayTime &time : times) {
     const bool query = time.what != "making";
-    table.add({time.structure, time.what, fmt::format("{:.3f}", time.milliseconds.median), fmt::format("{:.3f}", time.milliseconds.minimum), fmt::format("{:.3f}", time.milliseconds.maximum),
-               query ? fmt::format("{:.4g}", rays / time.milliseconds.median * 1e-3) : "", query ? fmt::format("{}", time.hits) : ""});
+    table.add({time.structure, time.what, fmt::format("{:.3f}", time.milliseconds.median),
+               fmt::format("{:.3f}", time.milliseconds.minimum), fmt::format("{:.3f}", time.milliseconds.maximum),
+               query ? fmt::format("{:.4g}", rays / time.milliseconds.median * 1e-3) : "",
+               query ? fmt::format("{}", time.hits) : ""});
   }
   return table.text("  ");
 }
@@ -123,7 +128,10 @@ Json rays_json(const std::vector<RayTime> &times, uint32_t rays)
                     {"what", time.what},
                     {"rays", time.what == "making" ? 0 : rays},
                     {"hits", time.hits},
-                    {"ms", {{"median", time.milliseconds.median}, {"min", time.milliseconds.minimum}, {"max", time.milliseconds.maximum}}}});
+                    {"ms",
+                     {{"median", time.milliseconds.median},
+                      {"min", time.milliseconds.minimum},
+                      {"max", time.milliseconds.maximum}}}});
   return list;
 }
 

@@ -1,4 +1,5 @@
-/* bench_rays.h - `tandem bench rays`: rays against 100,000 boxes, and the structures that they walk: the hierarchy and the grid. */
+/* bench_rays.h - `tandem bench rays`: rays against 100,000 boxes, and the structures that they walk: the hierarchy and
+ * the grid. */
 #pragma once
 
 #include <string>
@@ -13,7 +14,7 @@ struct RayTime {
   std::string structure; /* hierarchy, grid */
   std::string what;      /* nearest, blocked, or making */
   Spread milliseconds{}; /* of the kernels alone: rays and hits stay where they are */
-  uint64_t hits = 0;   /* of all rays */
+  uint64_t hits = 0;     /* of all rays */
 };
 
 /* Boxes in a cube, a tenth of it filled; rays between random points around it. */

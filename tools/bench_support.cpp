@@ -7,10 +7,11 @@
 
 #include <fmt/format.h>
 
+#include <tandem/world.h>
+
 #include "host/catalog/builders.h"
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/memory.h"
-#include <tandem/world.h>
 #include "shared/narrowphase/hull_support.h"
 
 namespace tandem {
@@ -24,8 +25,10 @@ Shape ellipsoid(uint32_t vertices)
   Random random(vertices);
   std::vector<Vec3> points;
   while (points.size() < vertices) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
-    if (length > 0.1 && length < 1) points.push_back({float(x / length), float(0.75 * y / length), float(0.5 * z / length)});
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1),
+                 length = std::sqrt(x * x + y * y + z * z);
+    if (length > 0.1 && length < 1)
+      points.push_back({float(x / length), float(0.75 * y / length), float(0.5 * z / length)});
   }
   return hull_shape(points, "ellipsoid");
 }
@@ -33,10 +36,13 @@ Shape ellipsoid(uint32_t vertices)
 /* Its tables as a world holds them. */
 class Tables {
 public:
-  Tables(const Shape &shape, uint32_t cells) : world_(scene_of(shape), settings_of(cells), Placement{"serial", {}, false}) {}
+  Tables(const Shape &shape, uint32_t cells)
+      : world_(scene_of(shape), settings_of(cells), Placement{"serial", {}, false})
+  {}
   hull_tables of(uint32_t support) const
   {
-    return {headers_.data(), vertices_.data(), planes_.data(), starts_.data(), corners_.data(), edges_.data(), strips_.data(), links_.data(), nullptr, nullptr, support};
+    return {headers_.data(), vertices_.data(), planes_.data(), starts_.data(), corners_.data(), edges_.data(),
+            strips_.data(),  links_.data(),    nullptr,        nullptr,        support};
   }
 
 private:
@@ -54,12 +60,17 @@ private:
     settings.support_cells = cells;
     return settings;
   }
-  template <class T> std::vector<T> all(Buffer buffer) { return world_.memory().read<T>(buffer, world_.memory().bytes(buffer) / sizeof(T)); }
+  template <class T> std::vector<T> all(Buffer buffer)
+  {
+    return world_.memory().read<T>(buffer, world_.memory().bytes(buffer) / sizeof(T));
+  }
 
   World world_;
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane), strips_ = all<row>(Buffer::hull_strip);
+  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane),
+                   strips_ = all<row>(Buffer::hull_strip);
   std::vector<uint32_t> headers_ = all<uint32_t>(Buffer::hull_header), starts_ = all<uint32_t>(Buffer::hull_face_start);
-  std::vector<uint32_t> corners_ = all<uint32_t>(Buffer::hull_corner), edges_ = all<uint32_t>(Buffer::hull_edge), links_ = all<uint32_t>(Buffer::hull_link);
+  std::vector<uint32_t> corners_ = all<uint32_t>(Buffer::hull_corner), edges_ = all<uint32_t>(Buffer::hull_edge),
+                        links_ = all<uint32_t>(Buffer::hull_link);
 };
 
 std::vector<vec3> directions_of(uint64_t many)
@@ -84,7 +95,8 @@ Answers answers_of(const hull_tables &tables, const std::vector<vec3> &direction
   answers.nanoseconds = 1e300;
   for (int k = 0; k < repetitions; ++k) {
     const auto start = std::chrono::steady_clock::now();
-    for (size_t d = 0; d < directions.size(); ++d) answers.vertices[d] = hull_support(&tables, &ranges, directions[d], make_vec3(1, 0.75f, 0.5f));
+    for (size_t d = 0; d < directions.size(); ++d)
+      answers.vertices[d] = hull_support(&tables, &ranges, directions[d], make_vec3(1, 0.75f, 0.5f));
     const double whole = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
     answers.nanoseconds = std::min(answers.nanoseconds, whole / double(directions.size()));
   }
@@ -96,10 +108,13 @@ SupportTime time_of(const Shape &shape, uint32_t cells, const std::vector<vec3> 
   const Tables tables(shape, cells);
   const hull_tables plain = tables.of(SUPPORT_BRUTE_FORCE);
   const hull_ranges ranges = ranges_of_hull(&plain, 0);
-  const Answers brute = answers_of(plain, directions), climbed = answers_of(tables.of(SUPPORT_HILL_CLIMBING), directions),
+  const Answers brute = answers_of(plain, directions),
+                climbed = answers_of(tables.of(SUPPORT_HILL_CLIMBING), directions),
                 mapped = answers_of(tables.of(SUPPORT_CUBE_MAP), directions);
   std::vector<double> errors;
-  SupportTime time{ranges.vertices, cells, 24 * cells * cells, directions.size(), 0, 0, 0, brute.nanoseconds, climbed.nanoseconds, mapped.nanoseconds, 0};
+  SupportTime time{
+      ranges.vertices,    cells, 24 * cells * cells, directions.size(), 0, 0, 0, brute.nanoseconds, climbed.nanoseconds,
+      mapped.nanoseconds, 0};
   for (size_t k = 0; k < directions.size(); ++k) {
     const auto height = [&](uint32_t vertex, vec3 d) { return double(height_of_vertex(&plain, &ranges, vertex, d)); };
     const vec3 d = directions[k], back = negate(d);
@@ -127,11 +142,14 @@ std::vector<SupportTime> bench_support(uint64_t many)
 
 std::string support_text(const std::vector<SupportTime> &times)
 {
-  Table table({"vertices", "cells", "map KiB", "largest error", "99.9%", "another vertex", "ns brute-force", "hill-climbing", "cube-map", "differences"});
+  Table table({"vertices", "cells", "map KiB", "largest error", "99.9%", "another vertex", "ns brute-force",
+               "hill-climbing", "cube-map", "differences"});
   for (const SupportTime &t : times)
-    table.add({fmt::format("{}", t.vertices), fmt::format("{}", t.cells), fmt::format("{:.1f}", t.bytes / 1024.0), fmt::format("{:.2e}", t.largest_error),
-               fmt::format("{:.2e}", t.error_999), fmt::format("{:.1f} %", 100 * t.share_wrong), fmt::format("{:.1f}", t.brute_force),
-               fmt::format("{:.1f}", t.hill_climbing), fmt::format("{:.1f}", t.cube_map), fmt::format("{}", t.differences)});
+    table.add({fmt::format("{}", t.vertices), fmt::format("{}", t.cells), fmt::format("{:.1f}", t.bytes / 1024.0),
+               fmt::format("{:.2e}", t.largest_error), fmt::format("{:.2e}", t.error_999),
+               fmt::format("{:.1f} %", 100 * t.share_wrong), fmt::format("{:.1f}", t.brute_force),
+               fmt::format("{:.1f}", t.hill_climbing), fmt::format("{:.1f}", t.cube_map),
+               fmt::format("{}", t.differences)});
   return table.text("  ");
 }
 
@@ -139,13 +157,15 @@ Json support_json(const std::vector<SupportTime> &times)
 {
   Json json = Json::array();
   for (const SupportTime &t : times)
-    json.push_back({{"vertices", t.vertices},
-                    {"cells", t.cells},
-                    {"map_bytes", t.bytes},
-                    {"directions", t.directions},
-                    {"error", {{"largest", t.largest_error}, {"percentile_99_9", t.error_999}, {"share_other_vertex", t.share_wrong}}},
-                    {"ns", {{"brute-force", t.brute_force}, {"hill-climbing", t.hill_climbing}, {"cube-map", t.cube_map}}},
-                    {"differences", t.differences}});
+    json.push_back(
+        {{"vertices", t.vertices},
+         {"cells", t.cells},
+         {"map_bytes", t.bytes},
+         {"directions", t.directions},
+         {"error",
+          {{"largest", t.largest_error}, {"percentile_99_9", t.error_999}, {"share_other_vertex", t.share_wrong}}},
+         {"ns", {{"brute-force", t.brute_force}, {"hill-climbing", t.hill_climbing}, {"cube-map", t.cube_map}}},
+         {"differences", t.differences}});
   return json;
 }
 

@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/body_buffers.h"
 #include "host/pipeline/layout.h"
-#include "host/scene/parameters.h"
-#include "host/runtime/recorder.h"
 #include "host/pipeline/scene_counts.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/runtime/recorder.h"
+#include "host/scene/body_buffers.h"
+#include "host/scene/parameters.h"
 
 namespace tandem {
 namespace {
@@ -27,7 +27,8 @@ void prepare(StepLaunches &step)
 
 } // namespace
 
-BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend, uint32_t pairs)
+BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend,
+                                   uint32_t pairs)
     : bodies_(bodies), broadphase_(broadphase), backend_(backend)
 {
   const minicl::ExactFloatingPoint environment;
@@ -56,7 +57,13 @@ void BroadphaseFrames::record_kernels()
 /* What a broadphase keeps from frame to frame is lost, as in a world. */
 void BroadphaseFrames::allocate()
 {
-  const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan_.capacity_pairs, .cells = plan_.capacity_cells, .features = plan_.features};
+  const Sizes sizes{.bodies = plan_.bodies,
+                    .materials = 1,
+                    .hulls = {},
+                    .trees = {},
+                    .pairs = plan_.capacity_pairs,
+                    .cells = plan_.capacity_cells,
+                    .features = plan_.features};
   for (size_t k = 0; k < buffer_count; ++k)
     if (touched_[k]) memory_.resize(buffer_at(k), bytes_of(buffer_at(k), sizes));
 }
@@ -68,7 +75,8 @@ void BroadphaseFrames::upload()
   const Parameters parameters = parameters_of(bodies_.scene, settings_, plan_.features);
   memory_.upload(Buffer::parameters, &parameters, sizeof parameters);
   std::vector<uint32_t> counts(COUNT_TOTAL);
-  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large})) counts[entry] = value;
+  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large}))
+    counts[entry] = value;
   counts[CAPACITY_PAIRS] = plan_.capacity_pairs;
   counts[CAPACITY_CELLS] = plan_.capacity_cells;
   memory_.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
@@ -78,7 +86,8 @@ void BroadphaseFrames::upload()
 void BroadphaseFrames::guess_counts()
 {
   plan_.known.fill(plan_.capacity_pairs);
-  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large})) plan_.known[entry] = value;
+  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large}))
+    plan_.known[entry] = value;
   plan_.known[COUNT_CELLS_PLUS_ONE] = plan_.capacity_cells + 1;
 }
 
@@ -91,7 +100,8 @@ double BroadphaseFrames::run(uint32_t frame)
     if (needed <= plan_.capacity_pairs) return milliseconds;
     grow(needed);
   }
-  throw std::runtime_error(fmt::format("{}: frame {} found more pairs each time that it ran again", broadphase_.name, frame));
+  throw std::runtime_error(
+      fmt::format("{}: frame {} found more pairs each time that it ran again", broadphase_.name, frame));
 }
 
 void BroadphaseFrames::move_bodies(uint32_t frame)

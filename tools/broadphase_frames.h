@@ -3,7 +3,8 @@
  *    bodies move, begin_step, compute_bounds | broadphase, and its commit where it has one | counts to the host
  *                                             <------------- the time of a frame ----------->
  *
- * Buffers and kernels of a broadphase alone, so that there is room for millions of bodies where a whole step would not fit.
+ * Buffers and kernels of a broadphase alone, so that there is room for millions of bodies where a whole step would not
+ * fit.
  */
 #pragma once
 
@@ -21,8 +22,8 @@ public:
   BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend, uint32_t pairs = 0);
   ~BroadphaseFrames() { backend_.finish(); }
 
-  /* Milliseconds, the clock read with the backend finished. A frame that finds more pairs than there is room for runs again with room,
-   * and the time is that of the last run. Frames follow each other: 0, 1, 2... */
+  /* Milliseconds, the clock read with the backend finished. A frame that finds more pairs than there is room for runs
+   * again with room, and the time is that of the last run. Frames follow each other: 0, 1, 2... */
   double run(uint32_t frame);
 
   /* Of the last frame. */

@@ -1,7 +1,7 @@
 /* broadphase_inputs.cpp - see broadphase_inputs.h.
  *
- * Bodies are spread evenly over a cube whose edge grows with the root of a whole number, so that no library's cube root decides where
- * they stand. How dense: two cubes of sides s and t overlap in n^2 / 2 (s + t)^3 / volume pairs.
+ * Bodies are spread evenly over a cube whose edge grows with the root of a whole number, so that no library's cube root
+ * decides where they stand. How dense: two cubes of sides s and t overlap in n^2 / 2 (s + t)^3 / volume pairs.
  */
 #include "tools/broadphase_inputs.h"
 
@@ -10,9 +10,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/scene/body_buffers.h"
-#include "host/catalog/builders.h"
 #include <tandem/settings.h>
+
+#include "host/catalog/builders.h"
+#include "host/scene/body_buffers.h"
 
 namespace tandem {
 namespace {
@@ -39,7 +40,8 @@ Region region_of(uint32_t bodies, double cell) { return {cell * double(cube_side
 /* In m/s: a body moves by a sixtieth of it a step. */
 void set_moving(Body &body, Random &random, double across = 1, double up = 1)
 {
-  body.linear_velocity = {float(random.uniform(-across, across)), float(random.uniform(-up, up)), float(random.uniform(-across, across))};
+  body.linear_velocity = {float(random.uniform(-across, across)), float(random.uniform(-up, up)),
+                          float(random.uniform(-across, across))};
 }
 
 Scene without_gravity()
@@ -60,7 +62,8 @@ Scene spheres(uint32_t bodies)
   return scene;
 }
 
-/* The boxes of box-grid as they stand on its ground, which is one of the bodies; jittered by less than would part layers or join columns. */
+/* The boxes of box-grid as they stand on its ground, which is one of the bodies; jittered by less than would part
+ * layers or join columns. */
 Scene pile(uint32_t bodies)
 {
   Random random(2);
@@ -71,7 +74,8 @@ Scene pile(uint32_t bodies)
   for (uint32_t i = 0; i + 1 < bodies; ++i) {
     const uint32_t layer = i / (side * side), x = i % side, z = i / side % side;
     const double shift = layer % 2 == 0 ? 1 : 0;
-    Body &body = add_body(scene, box, {shift + 2.2 * (double(x) - side / 2), 1 + 2.0 * layer, shift + 2.2 * (double(z) - side / 2)});
+    Body &body = add_body(
+        scene, box, {shift + 2.2 * (double(x) - side / 2), 1 + 2.0 * layer, shift + 2.2 * (double(z) - side / 2)});
     for (int axis : {0, 1, 2}) body.position[axis] += (axis == 1 ? 0.1 : 1) * random.uniform(-0.05, 0.05);
     set_moving(body, random, 0.1, 0.02);
   }
@@ -92,8 +96,8 @@ Scene one_large(uint32_t bodies)
   return scene;
 }
 
-/* Half extents of 1 cm to 10 m, each ratio as frequent as any other. The largest make most pairs: 8 E((h + h')^3) is 1,280 m^3, a sixth
- * of which for every body makes three pairs each. */
+/* Half extents of 1 cm to 10 m, each ratio as frequent as any other. The largest make most pairs: 8 E((h + h')^3) is
+ * 1,280 m^3, a sixth of which for every body makes three pairs each. */
 Scene sizes(uint32_t bodies)
 {
   constexpr uint32_t steps = 256;
@@ -101,7 +105,8 @@ Scene sizes(uint32_t bodies)
   Random random(4);
   Scene scene = without_gravity();
   double half = 0.01;
-  for (uint32_t k = 0; k < steps; ++k, half *= ratio) add_shape(scene, box_shape(float(half), float(half), float(half)));
+  for (uint32_t k = 0; k < steps; ++k, half *= ratio)
+    add_shape(scene, box_shape(float(half), float(half), float(half)));
   const Region region = region_of(bodies, 6);
   for (uint32_t i = 0; i < bodies; ++i) {
     const uint32_t shape = random.below(steps);
@@ -159,7 +164,9 @@ const BroadphaseInput &broadphase_input_named(const std::string &name)
   throw InputError(fmt::format("scene '{}' is unknown; use {}", name, fmt::join(broadphase_input_names(), ", ")));
 }
 
-MovingBodies::MovingBodies(const BroadphaseInput &input, uint32_t bodies) : scene(input.scene(bodies)), special(specialise(scene, Settings{})) {}
+MovingBodies::MovingBodies(const BroadphaseInput &input, uint32_t bodies)
+    : scene(input.scene(bodies)), special(specialise(scene, Settings{}))
+{}
 
 std::vector<row> MovingBodies::places_at(uint32_t frame) const
 {

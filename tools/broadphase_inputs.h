@@ -1,4 +1,5 @@
-/* broadphase_inputs.h - bodies in motion for `tandem bench broadphase`: each input is one case that tells broadphases apart.
+/* broadphase_inputs.h - bodies in motion for `tandem bench broadphase`: each input is one case that tells broadphases
+ * apart.
  *
  *    spheres        pile         one-large        sizes          static
  *     o  o o      [_][_][_]     +---------+      +-----+ o      # # # # #
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include <tandem/scene.h>
+
 #include "host/scene/specialise.h"
 #include "shared/platform.h"
 

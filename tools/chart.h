@@ -54,13 +54,14 @@ struct Chart {
   double width = 760, height = 420; /* px, without the legend, which goes below */
 };
 
-/* Values that a logarithmic axis cannot show (0 and less) lie on its lower end, hollow, with their true values in the note; points
- * that are not finite are left out and counted under the chart. */
+/* Values that a logarithmic axis cannot show (0 and less) lie on its lower end, hollow, with their true values in the
+ * note; points that are not finite are left out and counted under the chart. */
 std::string svg_of(const Chart &chart);
 /* One picture of several charts, each below the one before. */
 std::string svg_of(const std::vector<Chart> &charts);
 
-/* Where an axis over [low, high] is ticked: multiples of 1, 2 or 5 times a power of ten, or decades. low < high; at most about ten. */
+/* Where an axis over [low, high] is ticked: multiples of 1, 2 or 5 times a power of ten, or decades. low < high; at
+ * most about ten. */
 std::vector<double> ticks_of(double low, double high, AxisScale scale);
 
 /* The colour of the k-th series, "#rrggbb"; they repeat after seven, with other markers. */

@@ -1,7 +1,8 @@
 /* command.h - the subcommands of `tandem`, one file each.
  *
  * A function adds its options to the parser and returns what to run once they are parsed. Exit status:
- * 0 fine, 1 the check failed (or a device did, or memory or the room of --max-pairs did not suffice), 2 bad use or input, or an output that cannot be written, thrown as InputError.
+ * 0 fine, 1 the check failed (or a device did, or memory or the room of --max-pairs did not suffice), 2 bad use or
+ * input, or an output that cannot be written, thrown as InputError.
  */
 #pragma once
 

@@ -1,4 +1,5 @@
-/* contact_problem.cpp - `tandem contact-problem`: one frictional contact problem, one solver, its residual sweep by sweep. */
+/* contact_problem.cpp - `tandem contact-problem`: one frictional contact problem, one solver, its residual sweep by
+ * sweep. */
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,9 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <tandem/scene.h>
+
 #include "host/runtime/make_backend.h"
 #include "host/verify/contact_solver.h"
-#include <tandem/scene.h>
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"
@@ -31,7 +33,8 @@ ContactSolverSettings settings_from(const ContactProblemOptions &options)
   if (std::find(names.begin(), names.end(), options.solver) == names.end())
     throw InputError(fmt::format("--solver '{}' is unknown; use {}", options.solver, fmt::join(names, ", ")));
   settings.tolerance = real_number("--tolerance", options.tolerance);
-  if (!(settings.tolerance > 0)) throw InputError(fmt::format("--tolerance {}: must be above 0, as 1e-3", options.tolerance));
+  if (!(settings.tolerance > 0))
+    throw InputError(fmt::format("--tolerance {}: must be above 0, as 1e-3", options.tolerance));
   settings.iterations = static_cast<uint32_t>(whole_number("--iterations", options.iterations, 1, 1'000'000));
   return settings;
 }
@@ -41,7 +44,8 @@ std::string backend_from(const ContactProblemOptions &options)
 {
   const bool reference = options.on.rfind("reference", 0) == 0;
   if (options.solver == "nsgs" && !options.on.empty() && !reference)
-    throw InputError(fmt::format("--solver nsgs is double precision, which '{}' is not; leave --on out, or use --on reference", options.on));
+    throw InputError(fmt::format(
+        "--solver nsgs is double precision, which '{}' is not; leave --on out, or use --on reference", options.on));
   if (!options.on.empty()) return options.on;
   return options.solver == "nsgs" ? "reference" : "tbb";
 }
@@ -60,9 +64,11 @@ void print_history(const std::vector<double> &history)
 void print_solution(const ContactProblemOptions &options, const std::string &backend, const ContactProblem &problem,
                     const ContactSolution &solution)
 {
-  fmt::print("{}: {} contacts, {} blocks; {} on {}\n", options.file, problem.contacts, problem.blocks.size(), options.solver, backend);
+  fmt::print("{}: {} contacts, {} blocks; {} on {}\n", options.file, problem.contacts, problem.blocks.size(),
+             options.solver, backend);
   print_history(solution.history);
-  fmt::print("{} {} sweeps, {:.3f} ms; relative residuals: natural map {:.3e}, Fischer-Burmeister {:.3e}; cone violation {:.3e} N s\n",
+  fmt::print("{} {} sweeps, {:.3f} ms; relative residuals: natural map {:.3e}, Fischer-Burmeister {:.3e}; cone "
+             "violation {:.3e} N s\n",
              solution.converged ? "converged in" : "NOT converged after", solution.sweeps, solution.milliseconds,
              solution.residuals.natural, solution.residuals.fischer_burmeister, solution.residuals.cone_violation);
 }
@@ -123,15 +129,21 @@ int execute(const ContactProblemOptions &options)
 
 Command contact_problem_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("contact-problem", "solve a frictional contact problem in Siconos's text format");
+  CLI::App *command =
+      parser.add_subcommand("contact-problem", "solve a frictional contact problem in Siconos's text format");
   auto options = std::make_shared<ContactProblemOptions>();
   command->add_option("FILE", options->file, "the problem: dim, nc, storage, W, q, mu")->required()->type_name("");
-  command->add_option("--solver", options->solver, "pgs, nncg, jacobi, or nsgs: pgs in double")->type_name("NAME")->capture_default_str();
-  command->add_option("--tolerance", options->tolerance, "relative natural-map residual to reach")->type_name("T")->capture_default_str();
+  command->add_option("--solver", options->solver, "pgs, nncg, jacobi, or nsgs: pgs in double")
+      ->type_name("NAME")
+      ->capture_default_str();
+  command->add_option("--tolerance", options->tolerance, "relative natural-map residual to reach")
+      ->type_name("T")
+      ->capture_default_str();
   command->add_option("--on", options->on, "backend: tbb, or reference for nsgs, unless given")->type_name("B");
   command->add_option("--iterations", options->iterations, "sweeps at most")->type_name("N")->capture_default_str();
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
-  command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")->type_name("FILE");
+  command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")
+      ->type_name("FILE");
   return {command, [options] { return execute(*options); }};
 }
 

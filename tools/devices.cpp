@@ -22,7 +22,10 @@ std::vector<uint32_t> lane_widths()
   return widths;
 }
 
-std::string short_name(const opencl::DeviceInfo &device) { return fmt::format("cl:{}.{}", device.platform, device.device); }
+std::string short_name(const opencl::DeviceInfo &device)
+{
+  return fmt::format("cl:{}.{}", device.platform, device.device);
+}
 
 std::string verdict(const opencl::DeviceInfo &device)
 {
@@ -62,9 +65,16 @@ Json devices_json(const Offer &offer)
 {
   Json list = Json::array();
   list.push_back({{"name", "serial"}, {"kind", "cpu"}, {"threads", 1}, {"lanes", {1}}, {"exact", true}});
-  list.push_back({{"name", "tbb"}, {"kind", "cpu"}, {"threads", tbb::info::default_concurrency()}, {"lanes", lane_widths()},
+  list.push_back({{"name", "tbb"},
+                  {"kind", "cpu"},
+                  {"threads", tbb::info::default_concurrency()},
+                  {"lanes", lane_widths()},
                   {"exact", true}});
-  list.push_back({{"name", "reference"}, {"kind", "cpu"}, {"threads", tbb::info::default_concurrency()}, {"lanes", {1}}, {"exact", false},
+  list.push_back({{"name", "reference"},
+                  {"kind", "cpu"},
+                  {"threads", tbb::info::default_concurrency()},
+                  {"lanes", {1}},
+                  {"exact", false},
                   {"note", "double precision"}});
   for (const opencl::DeviceInfo &device : offer.devices) list.push_back(device_json(device));
   return {{"backends", list}, {"opencl_fault", offer.fault.empty() ? Json(nullptr) : Json(offer.fault)}};
@@ -81,14 +91,16 @@ void print_devices(const Offer &offer)
     fmt::print("         {}\n", verdict(device));
   }
   if (!offer.fault.empty()) fmt::print("No OpenCL device: {}\n", offer.fault);
-  else if (offer.devices.empty()) fmt::print("No OpenCL device: no platform is installed, or none has one. serial and tbb need none.\n");
+  else if (offer.devices.empty())
+    fmt::print("No OpenCL device: no platform is installed, or none has one. serial and tbb need none.\n");
 }
 
 } // namespace
 
 Command devices_command(CLI::App &parser)
 {
-  CLI::App *command = parser.add_subcommand("devices", "list backends, with the exactness self-test of each OpenCL device");
+  CLI::App *command =
+      parser.add_subcommand("devices", "list backends, with the exactness self-test of each OpenCL device");
   auto json = std::make_shared<JsonOutput>();
   command->add_option("--json", json->path, "write the list as JSON; - for standard output")->type_name("FILE");
   return {command, [json] {

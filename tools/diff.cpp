@@ -26,15 +26,18 @@ void add_options(CLI::App &parser, DiffOptions &options)
   parser.add_option("--between", options.between, "two or more backends; the first is the reference")
       ->type_name("B,B,...")
       ->capture_default_str();
-  parser.add_option("--plant", options.plant,
-                    "try the comparison out: on the last backend, change one number of what a kernel wrote by the least "
-                    "possible (NUMBER counts floats or integers from the buffer's start; default step 0)")
+  parser
+      .add_option("--plant", options.plant,
+                  "try the comparison out: on the last backend, change one number of what a kernel wrote by the least "
+                  "possible (NUMBER counts floats or integers from the buffer's start; default step 0)")
       ->type_name("KERNEL:BUFFER:NUMBER[:STEP]");
   options.scene.add_events_flag(parser);
   parser.add_option("--json", options.json.path, "write the verdict as JSON; - for standard output")->type_name("FILE");
   parser.footer("After every kernel of every step each buffer that it wrote is compared as a whole.\n"
-                "Exit status: 0 equal, also where bodies stopped being finite alike (which is said); 1 different, or a batch is wrong, or memory or the room that\n"
-                "--max-pairs allows did not suffice; 2 bad use or input, a --plant that plants nothing, or an output that cannot be written.");
+                "Exit status: 0 equal, also where bodies stopped being finite alike (which is said); 1 different, or a "
+                "batch is wrong, or memory or the room that\n"
+                "--max-pairs allows did not suffice; 2 bad use or input, a --plant that plants nothing, or an output "
+                "that cannot be written.");
 }
 
 std::vector<std::string> split(const std::string &text, char separator)
@@ -66,7 +69,8 @@ Tamper planted(const std::string &text, size_t world, std::string &missing)
 {
   if (text.empty()) return {};
   const std::vector<std::string> parts = split(text, ':');
-  if (parts.size() < 3 || parts.size() > 4) throw InputError(fmt::format("--plant '{}': use KERNEL:BUFFER:NUMBER[:STEP]", text));
+  if (parts.size() < 3 || parts.size() > 4)
+    throw InputError(fmt::format("--plant '{}': use KERNEL:BUFFER:NUMBER[:STEP]", text));
   PlantedError error;
   error.world = world;
   error.kernel = kernel_named(parts[0]);
@@ -92,7 +96,10 @@ std::string gdb_line(const Difference &difference, const SceneOptions &options, 
                      quoted(options.scene_text()), difference.step + 1, options.typed_again(broadphase));
 }
 
-std::string kernel_name(const Difference &difference) { return difference.kernel ? row_of(*difference.kernel).name : ""; }
+std::string kernel_name(const Difference &difference)
+{
+  return difference.kernel ? row_of(*difference.kernel).name : "";
+}
 
 Json bodies_json(const Difference &difference, const Scene &scene)
 {
@@ -101,10 +108,12 @@ Json bodies_json(const Difference &difference, const Scene &scene)
   return bodies;
 }
 
-Json difference_json(const Difference &difference, const Scene &scene, const SceneOptions &options, const std::string &broadphase)
+Json difference_json(const Difference &difference, const Scene &scene, const SceneOptions &options,
+                     const std::string &broadphase)
 {
   const auto text_or_null = [](const std::string &text) { return text.empty() ? Json(nullptr) : Json(text); };
-  Json json = {{"step", difference.step}, {"kernel", text_or_null(kernel_name(difference))}, {"launch", difference.launch}};
+  Json json = {
+      {"step", difference.step}, {"kernel", text_or_null(kernel_name(difference))}, {"launch", difference.launch}};
   json["buffer"] = difference.buffer ? Json(row_of(*difference.buffer).name) : Json(nullptr);
   json["element"] = difference.place.element;
   json["item"] = difference.place.item;
@@ -134,7 +143,8 @@ Json comparison_json(const Comparison &comparison, const ComparisonRequest &requ
           {"kernels_compared", comparison.kernels_compared},
           {"bytes_compared", comparison.bytes_compared},
           {"quarantined", comparison.quarantined.size()},
-          {"first_difference", difference ? difference_json(*difference, scene, options, comparison.broadphase.name) : Json(nullptr)}};
+          {"first_difference",
+           difference ? difference_json(*difference, scene, options, comparison.broadphase.name) : Json(nullptr)}};
 }
 
 std::string bodies_text(const Difference &difference, const Scene &scene)
@@ -153,15 +163,19 @@ void print_place(const Difference &difference, const Scene &scene)
   Table table({"buffer", row_of(*difference.buffer).name}, false);
   table.add({"element", fmt::format("{} (item {})", place.element, place.item)});
   table.add({"field", place.field});
-  if (!difference.bodies.empty()) table.add({difference.bodies.size() == 1 ? "body" : "bodies", bodies_text(difference, scene)});
+  if (!difference.bodies.empty())
+    table.add({difference.bodies.size() == 1 ? "body" : "bodies", bodies_text(difference, scene)});
   for (int side = 0; side < 2; ++side)
-    table.add({difference.backends[side], fmt::format("{} ({})", difference.values[side].decimal, difference.values[side].bits)});
-  table.add({"apart", difference.ulps ? fmt::format("{} ulp", *difference.ulps) : "not floating point, or not a number"});
+    table.add({difference.backends[side],
+               fmt::format("{} ({})", difference.values[side].decimal, difference.values[side].bits)});
+  table.add(
+      {"apart", difference.ulps ? fmt::format("{} ulp", *difference.ulps) : "not floating point, or not a number"});
   table.add({"in all", fmt::format("{} numbers of this buffer differ", difference.differing)});
   fmt::print("{}", table.text("  "));
 }
 
-void print_difference(const Difference &difference, const Scene &scene, const SceneOptions &options, const std::string &broadphase)
+void print_difference(const Difference &difference, const Scene &scene, const SceneOptions &options,
+                      const std::string &broadphase)
 {
   fmt::print("DIFFERENT: {} and {} in step {}", difference.backends[0], difference.backends[1], difference.step);
   if (difference.kernel) fmt::print(", kernel {} (launch {} of the step)", kernel_name(difference), difference.launch);
@@ -176,8 +190,9 @@ void print_difference(const Difference &difference, const Scene &scene, const Sc
 std::string quarantine_text(const std::vector<Quarantine> &lost, const std::string &backend, const Scene &scene)
 {
   const Quarantine &first = lost.front();
-  return fmt::format("{} of {} bodies stopped being finite on {} and were taken out, first body {} '{}' in step {} ({})", lost.size(), scene.bodies.size(), backend,
-                     first.body, first.name, first.step, first.stage);
+  return fmt::format(
+      "{} of {} bodies stopped being finite on {} and were taken out, first body {} '{}' in step {} ({})", lost.size(),
+      scene.bodies.size(), backend, first.body, first.name, first.step, first.stage);
 }
 
 int execute(const DiffOptions &options)
@@ -186,7 +201,8 @@ int execute(const DiffOptions &options)
   request.settings = options.scene.settings();
   request.placement = options.scene.placement();
   request.backends = split_backends(options.between);
-  if (request.backends.size() < 2) throw InputError(fmt::format("--between {}: name at least two backends", options.between));
+  if (request.backends.size() < 2)
+    throw InputError(fmt::format("--between {}: name at least two backends", options.between));
   request.steps = options.scene.steps();
   std::string not_planted;
   request.tamper = planted(options.plant, request.backends.size() - 1, not_planted);
@@ -198,9 +214,11 @@ int execute(const DiffOptions &options)
   const Comparison comparison = compare_backends(scene, request);
   progress.clear();
   if (comparison.equal && !not_planted.empty())
-    throw InputError(fmt::format("--plant {}: nothing was planted in {} steps: {}", options.plant, comparison.steps, not_planted));
+    throw InputError(
+        fmt::format("--plant {}: nothing was planted in {} steps: {}", options.plant, comparison.steps, not_planted));
   if (!options.json.takes_standard_output()) {
-    if (request.settings.broadphase == "auto") fmt::print("Broadphase on all of them: {} ({})\n", comparison.broadphase.name, comparison.broadphase.why);
+    if (request.settings.broadphase == "auto")
+      fmt::print("Broadphase on all of them: {} ({})\n", comparison.broadphase.name, comparison.broadphase.why);
     if (comparison.equal) fmt::print("EQUAL");
     else print_difference(*comparison.first_difference, scene, options.scene, comparison.broadphase.name);
     fmt::print("{}{}: {} steps, {} kernels and {} compared bit for bit\n", comparison.equal ? ": " : "\n",
@@ -208,7 +226,8 @@ int execute(const DiffOptions &options)
                bytes_text(comparison.bytes_compared));
   }
   options.json.write(comparison_json(comparison, request, scene, options.scene));
-  if (!comparison.quarantined.empty()) fmt::print(stderr, "tandem: {}\n", quarantine_text(comparison.quarantined, request.backends.front(), scene));
+  if (!comparison.quarantined.empty())
+    fmt::print(stderr, "tandem: {}\n", quarantine_text(comparison.quarantined, request.backends.front(), scene));
   if (comparison.batch_fault) fmt::print(stderr, "tandem: {}\n", describe(*comparison.batch_fault));
   return comparison.equal && !comparison.batch_fault ? 0 : 1;
 }

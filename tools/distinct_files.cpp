@@ -3,8 +3,9 @@
 
 #include <fmt/format.h>
 
-#include "host/io/output_file.h"
 #include <tandem/scene.h>
+
+#include "host/io/output_file.h"
 #include "tools/output.h"
 
 namespace tandem {
@@ -29,7 +30,8 @@ void DistinctFiles::writes(const std::string &option, const std::string &path)
       throw InputError(fmt::format("{} {}: {} reads this file; write to another one", option, path, use.name));
   for (const Use &use : written_)
     if (is_same_file(path, use.path))
-      throw InputError(fmt::format("{} {}: {} writes this file too; each output needs one of its own", option, path, use.name));
+      throw InputError(
+          fmt::format("{} {}: {} writes this file too; each output needs one of its own", option, path, use.name));
   check_writable(option, path);
   written_.push_back({option, path});
 }

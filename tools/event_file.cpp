@@ -12,17 +12,19 @@ template <class Vector> std::string text(const Vector &v) { return fmt::format("
 
 std::string line_of(uint64_t step, const ContactEvent &event)
 {
-  std::string line = fmt::format(R"({{"step": {}, "kind": "{}", "a": {}, "b": {}, "trigger": {})", step, name_of(event.kind), event.a, event.b, event.trigger);
+  std::string line = fmt::format(R"({{"step": {}, "kind": "{}", "a": {}, "b": {}, "trigger": {})", step,
+                                 name_of(event.kind), event.a, event.b, event.trigger);
   if (event.kind == ContactEvent::Kind::end) return line + "}";
-  return line + fmt::format(R"(, "points": {}, "impulse": {}, "separation": {}, "point": {}, "normal": {}}})", event.points, event.impulse,
-                            event.separation, text(event.point), text(event.normal));
+  return line + fmt::format(R"(, "points": {}, "impulse": {}, "separation": {}, "point": {}, "normal": {}}})",
+                            event.points, event.impulse, event.separation, text(event.point), text(event.normal));
 }
 
 std::string quoted(const std::string &text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 } // namespace
 
-/* Names one by one: a list of Json's would allocate in its destructor, and the process end there without memory, beside a file half written. */
+/* Names one by one: a list of Json's would allocate in its destructor, and the process end there without memory, beside
+ * a file half written. */
 EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
     : file_(path, fmt::format("--events {}", path))
 {

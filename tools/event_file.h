@@ -1,11 +1,13 @@
-/* event_file.h - the contact events of a run as JSON, written step by step: a pile has as many in each step as it has contacts. */
+/* event_file.h - the contact events of a run as JSON, written step by step: a pile has as many in each step as it has
+ * contacts. */
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "host/io/output_file.h"
 #include <tandem/world.h>
+
+#include "host/io/output_file.h"
 
 namespace tandem {
 

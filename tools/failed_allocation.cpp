@@ -1,6 +1,8 @@
-/* failed_allocation.cpp - the operators new and delete of the command, which note what they could not give; see failed_allocation.h.
+/* failed_allocation.cpp - the operators new and delete of the command, which note what they could not give; see
+ * failed_allocation.h.
  *
- * Part of the executable alone: a library has no business with its users' allocator. Where a sanitizer has one of its own, that stays. */
+ * Part of the executable alone: a library has no business with its users' allocator. Where a sanitizer has one of its
+ * own, that stays. */
 #include "tools/failed_allocation.h"
 
 #include <atomic>

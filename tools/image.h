@@ -1,11 +1,12 @@
 /* image.h - `--image F.png`: the scene by ray casting, with the kernels that answer World::cast_rays.
  *
- *          eye o--------- a ray a pixel, four on edges ------> first body hit: its colour, by the light and by what stands in it
+ *          eye o--------- a ray a pixel, four on edges ------> first body hit: its colour, by the light and by what
+ * stands in it
  *               \
  *                `------- another from there to the light: in shadow or not
  *
- * So the picture shows what queries see, on the backend that they are placed on, and has the same bytes on every one.
- */
+ * So the picture shows what queries see, on the backend that they are placed on, and has the same bytes on every
+ * one. */
 #pragma once
 
 #include <array>

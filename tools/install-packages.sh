@@ -90,7 +90,8 @@ as_root() {
   fi
 }
 
-apt() { as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 "$@"; }
+apt() { as_root env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 -o Acquire::Retries=3 \
+    "$@"; }
 
 update_lists() {
   echo "Updating the package lists (apt-get update)."
@@ -109,7 +110,8 @@ install_names() {
   apt install --no-install-recommends $1
 }
 
-# Debian holds all architectures in one archive. Where the lists of another cannot be had (Ubuntu keeps them elsewhere), it is forgotten.
+# Debian holds all architectures in one archive. Where the lists of another cannot be had (Ubuntu keeps them elsewhere),
+# it is forgotten.
 add_architecture() {
   ! dpkg --print-foreign-architectures | grep -qx "$1" || return 0
   as_root dpkg --add-architecture "$1"
@@ -138,7 +140,8 @@ if [ "$list" = yes ]; then
 fi
 
 command -v dpkg-query >/dev/null && command -v apt-get >/dev/null ||
-  fail "this machine has no apt; install what '$0 --list$groups' prints by its own means, then build with cmake --preset release"
+  fail "this machine has no apt; install what '$0 --list$groups' prints by its own means," \
+    "then build with cmake --preset release"
 
 needed=
 wanted=

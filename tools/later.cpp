@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <tandem/scene.h>
+
 #include "tools/command.h"
 
 namespace tandem {
@@ -13,7 +14,8 @@ std::vector<Command> later_commands(CLI::App &parser)
     CLI::App *command = parser.add_subcommand(name, "comes with a later version");
     command->allow_extras();
     commands.push_back({command, [name]() -> int {
-                          throw InputError(fmt::format("`tandem {}` is not built yet: it comes with a later version", name));
+                          throw InputError(
+                              fmt::format("`tandem {}` is not built yet: it comes with a later version", name));
                         }});
   }
   return commands;

@@ -14,14 +14,14 @@
 #include <vector>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
-#include <fmt/format.h>
+#include <tandem/scene.h>
 
 #include "host/base/out_of_memory.h"
 #include "host/base/printable.h"
 #include "host/io/output_file.h"
-#include <tandem/scene.h>
 #include "minicl/worker_threads.h"
 #include "tools/command.h"
 #include "tools/failed_allocation.h"
@@ -47,23 +47,27 @@ void end_as_asked(int signal)
 /* But for what the process was started to ignore, as by nohup. */
 void clean_up_when_asked_to_end()
 {
-  struct sigaction action {}, before {};
+  struct sigaction action {
+  }, before{};
   action.sa_handler = end_as_asked;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
-    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      ::sigaction(signal, &action, nullptr);
 }
 
 /* A file opened later would else take the number of an output that is closed, and what is printed would land in it. */
 void keep_standard_files_apart()
 {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(file, F_GETFD) == -1) open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that its use fails */
+    if (fcntl(file, F_GETFD) == -1)
+      open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that its use fails */
 }
 
 constexpr int output_lost = -1; /* and said */
 
-/* Where the reader of standard output has gone, as `head` does, the process ends as others do; other pipes are told as files are. */
+/* Where the reader of standard output has gone, as `head` does, the process ends as others do; other pipes are told as
+ * files are. */
 int complain_of_output(int reason)
 {
   if (reason == EPIPE) {
@@ -78,7 +82,8 @@ int complain_of_output(int reason)
 int with_output_written(int status)
 {
   errno = 0;
-  if (status != output_lost && status != 2 && (std::fflush(stdout) != 0 || std::ferror(stdout))) status = complain_of_output(errno);
+  if (status != output_lost && status != 2 && (std::fflush(stdout) != 0 || std::ferror(stdout)))
+    status = complain_of_output(errno);
   return status == output_lost ? 2 : status;
 }
 
@@ -89,8 +94,8 @@ std::string typed(int count, char **arguments)
   return text;
 }
 
-/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in its turn; a library's
- * thread throws where it cannot start another. The words for it are ready beforehand. */
+/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in
+ * its turn; a library's thread throws where it cannot start another. The words for it are ready beforehand. */
 std::string last_words;
 std::terminate_handler usual_end = nullptr;
 
@@ -114,11 +119,12 @@ template <class... Values> [[noreturn]] void end_with_line(const char *format, V
   try {
     if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
   } catch (const std::bad_alloc &) {
-    end_with_line("tandem: out of memory in `%.800s` (the last allocation that failed was of %zu bytes)", last_words.c_str(), failed_allocation_bytes());
+    end_with_line("tandem: out of memory in `%.800s` (the last allocation that failed was of %zu bytes)",
+                  last_words.c_str(), failed_allocation_bytes());
   } catch (const std::runtime_error &error) {
-    end_with_line("tandem: `%.400s` cannot go on, and nothing could be saved: %.400s", last_words.c_str(), error.what());
-  } catch (...) {
-  }
+    end_with_line("tandem: `%.400s` cannot go on, and nothing could be saved: %.400s", last_words.c_str(),
+                  error.what());
+  } catch (...) {}
   usual_end();
   std::abort();
 }
@@ -147,9 +153,9 @@ void refuse_empty_values(const CLI::App &parser)
 
 std::vector<Command> add_commands(CLI::App &parser)
 {
-  std::vector<Command> commands = {devices_command(parser), scenes_command(parser), run_command(parser),
-                                   diff_command(parser),    plan_command(parser),   bench_command(parser),
-                                   report_command(parser), stability_command(parser), contact_problem_command(parser)};
+  std::vector<Command> commands = {devices_command(parser), scenes_command(parser),    run_command(parser),
+                                   diff_command(parser),    plan_command(parser),      bench_command(parser),
+                                   report_command(parser),  stability_command(parser), contact_problem_command(parser)};
   for (Command &command : later_commands(parser)) commands.push_back(std::move(command));
   return commands;
 }
@@ -171,18 +177,20 @@ int parse_and_execute(int count, char **arguments)
                   "tandem");
   parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
-                "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room that --max-pairs allows, a device;\n"
+                "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room "
+                "that --max-pairs allows, a device;\n"
                 "2 bad use or input, or an output that cannot be written.");
   const std::vector<Command> commands = add_commands(parser);
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */
-    std::ostringstream text; /* CLI11 flushes the stream it prints to, and loses why that failed */
+    std::ostringstream text;            /* CLI11 flushes the stream it prints to, and loses why that failed */
     const int status = parser.exit(asked, text);
     fmt::print("{}", text.str());
     return status;
   } catch (const CLI::ExtrasError &error) {
-    if (parser.get_subcommands().empty()) return complain(fmt::format("unknown command '{}'; {}", arguments[1], where_to_look(parser)), 2);
+    if (parser.get_subcommands().empty())
+      return complain(fmt::format("unknown command '{}'; {}", arguments[1], where_to_look(parser)), 2);
     return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);
   } catch (const CLI::ParseError &error) {
     return complain(fmt::format("{}; {}", error.what(), where_to_look(parser)), 2);
@@ -213,7 +221,8 @@ int guarded(int count, char **arguments)
 
 int main(int count, char **arguments)
 {
-  for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN); /* a write that cannot be is an error like others */
+  for (const int signal : {SIGPIPE, SIGXFSZ})
+    std::signal(signal, SIG_IGN); /* a write that cannot be is an error like others */
   tandem::clean_up_when_asked_to_end();
   tandem::prepare_last_words(count, arguments);
   tandem::keep_standard_files_apart();

@@ -34,7 +34,8 @@ public:
   }
   std::vector<StageTime> per_step(uint64_t steps)
   {
-    std::stable_sort(entries_.begin(), entries_.end(), [](const Entry &a, const Entry &b) { return a.stage < b.stage; });
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry &a, const Entry &b) { return a.stage < b.stage; });
     std::vector<StageTime> times;
     for (const Entry &entry : entries_) {
       times.push_back(entry.time);

@@ -57,7 +57,8 @@ std::string Table::text(const std::string &indent) const
   for (const auto &row : rows_) {
     std::string line = indent;
     for (size_t c = 0; c < row.size(); ++c)
-      line += (c ? "  " : "") + (c && right_ ? fmt::format("{:>{}}", row[c], widths[c]) : fmt::format("{:<{}}", row[c], widths[c]));
+      line += (c ? "  " : "") +
+              (c && right_ ? fmt::format("{:>{}}", row[c], widths[c]) : fmt::format("{:<{}}", row[c], widths[c]));
     text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;

@@ -11,12 +11,15 @@ namespace tandem {
 namespace {
 
 constexpr const char *style = R"(
-  :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2530; --faint: #eef1f5; --rule: #c5ccd6; --good: #00694d; --bad: #b34a00; }
+  :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2530; --faint: #eef1f5; --rule: #c5ccd6;
+          --good: #00694d; --bad: #b34a00; }
   @media (prefers-color-scheme: dark) {
     :root { --paper: #14181e; --ink: #dfe5ec; --faint: #1f252d; --rule: #3a4350; --good: #4cc9a1; --bad: #ff9350; }
   }
-  body { background: var(--paper); color: var(--ink); font: 15px/1.45 system-ui, sans-serif; max-width: 1000px; margin: 2rem auto; padding: 0 1rem; }
-  h1 { font-size: 1.7rem; } h2 { font-size: 1.3rem; margin-top: 2.4rem; border-bottom: 1px solid var(--rule); } h3 { font-size: 1.05rem; }
+  body { background: var(--paper); color: var(--ink); font: 15px/1.45 system-ui, sans-serif; max-width: 1000px;
+         margin: 2rem auto; padding: 0 1rem; }
+  h1 { font-size: 1.7rem; } h3 { font-size: 1.05rem; }
+  h2 { font-size: 1.3rem; margin-top: 2.4rem; border-bottom: 1px solid var(--rule); }
   nav { columns: 3; font-size: 14px; margin: 1rem 0; } nav a { display: block; color: inherit; }
   pre { background: var(--faint); padding: .7rem .9rem; overflow-x: auto; font-size: 13px; }
   .pick { font-weight: 600; }
@@ -49,9 +52,11 @@ constexpr const char *script = R"(
     head.onclick = () => sortTable(head);
     head.onkeydown = event => { if (event.key === 'Enter') sortTable(head); };
   }
-  const asked = new URLSearchParams(location.search).getAll('sort'); /* ?sort=TABLE.COLUMN, counted from 0: a link to a sorted page */
+  /* ?sort=TABLE.COLUMN, counted from 0: a link to a sorted page */
+  const asked = new URLSearchParams(location.search).getAll('sort');
   for (const place of asked) {
-    const [table, column] = place.split('.').map(Number), heads = document.querySelectorAll('table')[table]?.querySelectorAll('th');
+    const [table, column] = place.split('.').map(Number);
+    const heads = document.querySelectorAll('table')[table]?.querySelectorAll('th');
     if (heads?.[column]) sortTable(heads[column]);
   }
 )";
@@ -68,7 +73,9 @@ std::string cell_text(const PageCell &cell)
 
 PageCell::PageCell(double number) : text(std::isfinite(number) ? fmt::format("{:.4g}", number) : "-"), value(number) {}
 
-Page::Page(std::string title, std::string introduction) : title_(std::move(title)), introduction_(std::move(introduction)) {}
+Page::Page(std::string title, std::string introduction)
+    : title_(std::move(title)), introduction_(std::move(introduction))
+{}
 
 void Page::section(const std::string &title)
 {
@@ -81,7 +88,8 @@ void Page::subsection(const std::string &title) { body_ += fmt::format("<h3>{}</
 
 void Page::paragraph(const std::string &text, const std::string &style_class)
 {
-  body_ += fmt::format("<p{}>{}</p>\n", style_class.empty() ? "" : fmt::format(" class=\"{}\"", style_class), escaped(text));
+  body_ +=
+      fmt::format("<p{}>{}</p>\n", style_class.empty() ? "" : fmt::format(" class=\"{}\"", style_class), escaped(text));
 }
 
 void Page::chart(const Chart &chart) { body_ += "<figure style=\"margin:1rem 0\">\n" + svg_of(chart) + "</figure>\n"; }
@@ -91,7 +99,8 @@ void Page::table(const PageTable &table)
   body_ += "<div class=\"table\"><table>\n";
   if (!table.caption.empty()) body_ += fmt::format("<caption>{}</caption>\n", escaped(table.caption));
   body_ += "<thead><tr>";
-  for (const std::string &title : table.header) body_ += fmt::format("<th tabindex=\"0\" title=\"sort\">{}</th>", escaped(title));
+  for (const std::string &title : table.header)
+    body_ += fmt::format("<th tabindex=\"0\" title=\"sort\">{}</th>", escaped(title));
   body_ += "</tr></thead>\n<tbody>\n";
   for (const auto &row : table.rows) {
     body_ += "<tr>";
@@ -114,8 +123,9 @@ std::string Page::text() const
 {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(title_) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) + "</h1>\n<p>" +
-         escaped(introduction_) + "</p>\n<nav>\n" + contents_ + "</nav>\n" + body_ + "<script>" + script + "</script>\n</body>\n</html>\n";
+         escaped(title_) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) +
+         "</h1>\n<p>" + escaped(introduction_) + "</p>\n<nav>\n" + contents_ + "</nav>\n" + body_ + "<script>" +
+         script + "</script>\n</body>\n</html>\n";
 }
 
 } // namespace tandem

@@ -1,7 +1,7 @@
 /* page.h - a self-contained HTML page: sections, sortable tables, charts, the commands that made it.
  *
- * One file that opens offline: style, script and pictures are inside, nothing is fetched. Sorting takes a dozen lines of script at the
- * end; without script the tables stand as they were written.
+ * One file that opens offline: style, script and pictures are inside, nothing is fetched. Sorting takes a dozen lines
+ * of script at the end; without script the tables stand as they were written.
  */
 #pragma once
 

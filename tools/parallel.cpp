@@ -46,8 +46,7 @@ void start(std::vector<std::thread> &helpers, size_t count, const std::function<
     helpers.reserve(count);
     while (helpers.size() < count) helpers.emplace_back(std::cref(work));
   } catch (const std::bad_alloc &) {
-  } catch (const std::system_error &) {
-  }
+  } catch (const std::system_error &) {}
 }
 
 } // namespace

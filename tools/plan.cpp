@@ -4,9 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <tandem/world.h>
+
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/broadphases/choice.h"
-#include <tandem/world.h>
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/scene_options.h"
@@ -47,10 +48,14 @@ struct Plan {
   std::string broadphase_text(const std::string &wanted, const std::string &on) const
   {
     const std::string &name = chosen.settings().broadphase;
-    const std::string why = wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why) : "";
+    const std::string why =
+        wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why) : "";
     return fmt::format("{} ({}){}", name, broadphase_named(name).what, why);
   }
-  std::string backend_of(Kernel kernel) const { return built[index_of(kernel)] ? chosen.backend_of(kernel).name() : ""; }
+  std::string backend_of(Kernel kernel) const
+  {
+    return built[index_of(kernel)] ? chosen.backend_of(kernel).name() : "";
+  }
 };
 
 Json features_json(const Plan &plan)
@@ -89,23 +94,25 @@ Json buffers_json(const Plan &plan)
 
 Json plan_json(const Plan &plan, const std::string &scene, const std::string &broadphase, const Placement &placement)
 {
-  return {{"scene", scene},
-          {"backend", placement.on},
-          {"features", features_json(plan)},
-          {"flags", plan.flags()},
-          {"broadphase", plan.chosen.settings().broadphase},
-          {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
-          {"kernels", kernels_json(plan)},
-          {"kernels_built", plan.chosen.kernels().size()},
-          {"buffers", buffers_json(plan)},
-          {"memory_bytes", plan.chosen.memory().total_bytes()},
-          {"build_ms", plan.chosen.build_milliseconds()}};
+  return {
+      {"scene", scene},
+      {"backend", placement.on},
+      {"features", features_json(plan)},
+      {"flags", plan.flags()},
+      {"broadphase", plan.chosen.settings().broadphase},
+      {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
+      {"kernels", kernels_json(plan)},
+      {"kernels_built", plan.chosen.kernels().size()},
+      {"buffers", buffers_json(plan)},
+      {"memory_bytes", plan.chosen.memory().total_bytes()},
+      {"build_ms", plan.chosen.build_milliseconds()}};
 }
 
 void print_features(const Plan &plan)
 {
   Table table({"feature", "", "what brings it in"}, false);
-  for (size_t f = 0; f < FEATURE_COUNT; ++f) table.add({feature_rows[f].name, plan.has(f) ? "in" : "out", feature_rows[f].what});
+  for (size_t f = 0; f < FEATURE_COUNT; ++f)
+    table.add({feature_rows[f].name, plan.has(f) ? "in" : "out", feature_rows[f].what});
   fmt::print("{}\nflags: {}\n\n", table.text("  "), plan.flags());
 }
 
@@ -140,7 +147,8 @@ void print_buffers(const Plan &plan)
 {
   Table kept({"buffer kept", "bytes"}), out({"buffer left out", "bytes saved"});
   for (size_t b = 0; b < buffer_count; ++b) {
-    const uint64_t bytes = plan.chosen.memory().bytes(buffer_at(b)), saved = plan.everything.memory().bytes(buffer_at(b));
+    const uint64_t bytes = plan.chosen.memory().bytes(buffer_at(b)),
+                   saved = plan.everything.memory().bytes(buffer_at(b));
     if (bytes) kept.add({row_of(buffer_at(b)).name, fmt::format("{}", bytes)});
     else if (saved) out.add({row_of(buffer_at(b)).name, fmt::format("{}", saved)});
     else out.add({row_of(buffer_at(b)).name, "-"});

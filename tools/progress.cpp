@@ -2,16 +2,15 @@
 #include "tools/progress.h"
 
 #include <cstdio>
-#include <unistd.h>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace tandem {
 
 Progress::Progress(std::string what, uint64_t total)
     : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO)), start_(Clock::now()), last_(start_)
-{
-}
+{}
 
 void Progress::update(uint64_t done)
 {
@@ -23,8 +22,8 @@ void Progress::update(uint64_t done)
   drawn_ = true;
   const double share = static_cast<double>(done) / static_cast<double>(total_);
   const int filled = static_cast<int>(share * 30);
-  fmt::print(stderr, "\r{} [{:=<{}}{:{}}] {}/{}, {:.0f} s left \033[K", what_, "", filled, "", 30 - filled, done, total_,
-             elapsed / share - elapsed);
+  fmt::print(stderr, "\r{} [{:=<{}}{:{}}] {}/{}, {:.0f} s left \033[K", what_, "", filled, "", 30 - filled, done,
+             total_, elapsed / share - elapsed);
   std::fflush(stderr);
 }
 

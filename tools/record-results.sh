@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # Records what this machine's backends compute and how fast: parity first, then times.
 #
-#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [parity|shapes|broadphase|narrowphase|times|widths|solvers|batchers|report|stability|all]
+#   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [WHAT]
+#
+# WHAT: parity, shapes, broadphase, narrowphase, times, widths, solvers, batchers, report, stability or all.
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
 # run and commands.txt, which says how each was made. Used for docs/results/.
@@ -14,7 +16,8 @@ record() { # NAME ARGUMENTS...: runs tandem with --json, keeps the file and says
   local name=$1; shift
   local start=$SECONDS
   echo "tandem $* --json $name.json" >> "$out/commands.txt"
-  if timeout "${LIMIT:-300}" "$tandem" "$@" --json "$out/$name.json" > "$out/$name.log" 2>&1; then status=ok; else status="exit $?"; fi
+  if timeout "${LIMIT:-300}" "$tandem" "$@" --json "$out/$name.json" > "$out/$name.log" 2>&1; then status=ok; else \
+      status="exit $?"; fi
   echo "$name: $status ($((SECONDS - start)) s)" | tee -a "$out/summary.txt"
   [ "$status" = ok ] || tail -n 3 "$out/$name.log"
 }
@@ -33,7 +36,8 @@ if [ "$what" = shapes ] || [ "$what" = all ]; then
     done
   done
   for support in hill-climbing cube-map; do
-    record "parity-convex-hulls-support-$support" diff convex-hulls:n=150 --support "$support" --between "$between" --steps 60
+    record "parity-convex-hulls-support-$support" diff convex-hulls:n=150 --support "$support" --between "$between" \
+        --steps 60
   done
   for scene in rolling mesh-slide hulls-on-mesh:n=150 compounds:n=100; do
     record "parity-${scene%%:*}" diff "$scene" --between "$between" --steps 120
@@ -54,7 +58,8 @@ fi
 if [ "$what" = broadphase ] || [ "$what" = all ]; then
   for backend in "$gpu" tbb; do
     for scene in spheres pile one-large sizes static; do
-      LIMIT=600 record "broadphase-$scene-${backend%%:*}" bench broadphase --on "$backend" --scene "$scene" --chart "$out/broadphase-$scene-${backend%%:*}.svg"
+      LIMIT=600 record "broadphase-$scene-${backend%%:*}" bench broadphase --on "$backend" --scene "$scene" --chart \
+          "$out/broadphase-$scene-${backend%%:*}.svg"
     done
   done
 fi
@@ -79,7 +84,8 @@ if [ "$what" = times ] || [ "$what" = all ]; then
   record scan-gpu bench scan --on "$gpu" --n 16777216
 fi
 if [ "$what" = widths ] || [ "$what" = all ]; then
-  backends="serial,serial:order=backward,serial:order=shuffled,tbb:threads=1,lanes=1,tbb:threads=2,lanes=4,tbb:threads=7,lanes=8"
+  backends="serial,serial:order=backward,serial:order=shuffled"
+  backends="$backends,tbb:threads=1,lanes=1,tbb:threads=2,lanes=4,tbb:threads=7,lanes=8"
   for scene in box-grid:nx=20,ny=20,nz=20 falling-boxes box-stack pyramid spheres mixed; do
     record "widths-${scene%%:*}" diff "$scene" --between "$backends,tbb:lanes=16,cl:pocl,$gpu" --steps 120
   done
@@ -90,28 +96,34 @@ if [ "$what" = solvers ] || [ "$what" = all ]; then
   for solver in $solvers; do
     record "solver-$solver-parity" diff mixed:n=400 --solver "$solver" --between "serial,tbb,$gpu" --steps 60
     for backend in "$gpu" tbb; do
-      record "solver-$solver-${backend%%:*}" run box-grid:nx=20,ny=20,nz=20 --solver "$solver" --on "$backend" --steps 60
+      record "solver-$solver-${backend%%:*}" run box-grid:nx=20,ny=20,nz=20 --solver "$solver" --on "$backend" \
+          --steps 60
     done
   done
 fi
 if [ "$what" = batchers ] || [ "$what" = all ]; then
   for batching in coloring sequential single-group iterative two-stage; do
-    record "batching-$batching-parity" diff mixed:n=400 --batching "$batching" --check --between "serial,tbb,$gpu" --steps 60
+    record "batching-$batching-parity" diff mixed:n=400 --batching "$batching" --check --between "serial,tbb,$gpu" \
+        --steps 60
   done
   for backend in "$gpu" tbb; do record "bench-batching-${backend%%:*}" bench batching --on "$backend"; done
 fi
 # Error against time, and stiff cases: in pieces of a few minutes, each with a page of its own.
 LIMIT=${LIMIT:-600}
 if [ "$what" = report ] || [ "$what" = all ]; then
-  record report-small report --on "tbb,$gpu" --scenes free-flight,incline,bounce,pyramid,mass-ratio,mixed --out "$out/report-small"
+  record report-small report --on "tbb,$gpu" --scenes free-flight,incline,bounce,pyramid,mass-ratio,mixed --out \
+      "$out/report-small"
   record report-box-grid report --on "tbb,$gpu" --parts scenes --scenes box-grid --out "$out/report-box-grid"
-  record report-box-grid-large report --on "tbb,$gpu" --parts scenes --scenes box-grid-large --out "$out/report-box-grid-large"
+  record report-box-grid-large report --on "tbb,$gpu" --parts scenes --scenes box-grid-large --out \
+      "$out/report-box-grid-large"
 fi
 # The long pyramids on the device, except for direct, which works on the CPU: the bits are the same.
 if [ "$what" = stability ] || [ "$what" = all ]; then
   pyramids=pyramid-80,pyramid-100
   record stability-small stability --except $pyramids --out "$out/stability-small"
-  record stability-pyramids stability --only $pyramids --solvers soft-step,pgs,xpbd,avbd,jacobi --on "$gpu" --out "$out/stability-pyramids"
-  record stability-pyramids-nncg stability --only $pyramids --solvers nncg --on "$gpu" --out "$out/stability-pyramids-nncg"
+  record stability-pyramids stability --only $pyramids --solvers soft-step,pgs,xpbd,avbd,jacobi --on "$gpu" --out \
+      "$out/stability-pyramids"
+  record stability-pyramids-nncg stability --only $pyramids --solvers nncg --on "$gpu" --out \
+      "$out/stability-pyramids-nncg"
   record stability-pyramids-direct stability --only $pyramids --solvers direct --out "$out/stability-pyramids-direct"
 fi

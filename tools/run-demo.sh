@@ -1,5 +1,6 @@
 #!/bin/sh
-# run-demo.sh - from a bare machine to falling boxes: installs what is missing, builds, and shows one scene on every backend.
+# run-demo.sh - from a bare machine to falling boxes: installs what is missing, builds, and shows one scene on every
+# backend.
 set -eu
 
 usage() {

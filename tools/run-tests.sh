@@ -1,15 +1,17 @@
 #!/bin/sh
 # run-tests.sh - every check of the project on a bare machine; CTest's own summary is the last thing printed.
 #
-# The sanitizer trees take the objects of tools and of most tests from the release tree, and instrument the library; their tests, and
-# those of the trees of other compilers, are entries of the one CTest run in the release tree at the end. With CI=true a missing OpenCL device fails,
-# and so does a missing tree that was not left out; else they are skipped.
+# The sanitizer trees take the objects of tools and of most tests from the release tree, and instrument the library;
+# their tests, and those of the trees of other compilers, are entries of the one CTest run in the release tree at the
+# end. With CI=true a missing OpenCL device fails, and so does a missing tree that was not left out; else they are
+# skipped.
 set -eu
 
 usage() {
   cat <<'END'
 Usage: tools/run-tests.sh [--no-install] [--without-sanitizers] [--without-compilers] [-- CTEST-OPTION...]
-Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and runs CTest.
+Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and \
+    runs CTest.
   --no-install           install nothing; if a package is missing, say which and exit with status 2
   --without-sanitizers   leave out the sanitizer builds and their tests
   --without-compilers    leave out the trees that compare hashes between compilers, their options and processors
@@ -65,7 +67,8 @@ for preset in $compilers; do
 done
 
 printf '\n== release\n'
-cmake --preset release -DTANDEM_BUILD_TESTS=ON -DTANDEM_WARNINGS_AS_ERRORS=ON "-DTANDEM_SANITIZER_TREES=$(echo "$sanitizers" | tr ' ' ';')"
+cmake --preset release -DTANDEM_BUILD_TESTS=ON -DTANDEM_WARNINGS_AS_ERRORS=ON \
+    "-DTANDEM_SANITIZER_TREES=$(echo "$sanitizers" | tr ' ' ';')"
 cmake --build --preset release -j "$jobs"
 
 for preset in $sanitizers; do

@@ -4,11 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "host/io/animation.h"
+#include <tandem/world.h>
+
 #include "host/base/printable.h"
 #include "host/geometry/geometry.h"
+#include "host/io/animation.h"
 #include "host/runtime/memory.h"
-#include <tandem/world.h>
 #include "tools/command.h"
 #include "tools/event_file.h"
 #include "tools/image.h"
@@ -32,21 +33,37 @@ struct RunOptions {
 void add_options(CLI::App &parser, RunOptions &options)
 {
   parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
-  CLI::Option *image = parser.add_option("--image", options.image, "draw the scene as it is in the end, by ray casting where the stage queries is placed")->type_name("F.png");
-  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")->type_name("WxH")->capture_default_str()->needs(image);
-  parser.add_option("--camera", options.camera, "from where to where the picture is seen; at all bodies but the largest if not given")
+  CLI::Option *image =
+      parser
+          .add_option("--image", options.image,
+                      "draw the scene as it is in the end, by ray casting where the stage queries is placed")
+          ->type_name("F.png");
+  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")
+      ->type_name("WxH")
+      ->capture_default_str()
+      ->needs(image);
+  parser
+      .add_option("--camera", options.camera,
+                  "from where to where the picture is seen; at all bodies but the largest if not given")
       ->type_name("EX,EY,EZ,TX,TY,TZ")
       ->needs(image);
-  parser.add_option("--trace", options.trace,
-                    "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
+  parser
+      .add_option("--trace", options.trace,
+                  "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
       ->type_name("F.json");
-  parser.add_option("--events", options.events, "write which bodies begin, go on and cease to touch in each step, and how hard")->type_name("F.json");
+  parser
+      .add_option("--events", options.events,
+                  "write which bodies begin, go on and cease to touch in each step, and how hard")
+      ->type_name("F.json");
   parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
-  parser.add_flag("--allow-quarantine", options.allow_quarantine, "exit status 0 also where bodies stopped being finite and were taken out");
-  parser.footer("Exit status: 0 fine, 1 a body stopped being finite, a batch is wrong, or memory or the room that --max-pairs allows did not suffice, 2 bad use or input, or an output that cannot be written.\n"
-                "Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
-                "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
-                "stages alone.");
+  parser.add_flag("--allow-quarantine", options.allow_quarantine,
+                  "exit status 0 also where bodies stopped being finite and were taken out");
+  parser.footer(
+      "Exit status: 0 fine, 1 a body stopped being finite, a batch is wrong, or memory or the room that --max-pairs "
+      "allows did not suffice, 2 bad use or input, or an output that cannot be written.\n"
+      "Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
+      "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
+      "stages alone.");
 }
 
 void check_files(const RunOptions &options, DistinctFiles &files)
@@ -78,7 +95,8 @@ public:
       positions.push_back(rounded(body.position));
       orientations.push_back(body.orientation);
     }
-    writer_->add_frame(static_cast<double>(step) * static_cast<double>(world_.settings().step), positions, orientations);
+    writer_->add_frame(static_cast<double>(step) * static_cast<double>(world_.settings().step), positions,
+                       orientations);
   }
   void finish()
   {
@@ -124,7 +142,10 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
           {"max_penetration", statistics.max_penetration},
           {"mean_penetration", statistics.mean_penetration},
           {"kinetic_energy", statistics.kinetic_energy},
-          {"direct", {{"islands", statistics.direct_islands}, {"left", statistics.direct_left}, {"stalled", statistics.direct_stalled}}},
+          {"direct",
+           {{"islands", statistics.direct_islands},
+            {"left", statistics.direct_left},
+            {"stalled", statistics.direct_stalled}}},
           {"nonfinite", statistics.nonfinite},
           {"overflow", statistics.overflow},
           {"memory_bytes", world.memory().total_bytes()},
@@ -145,8 +166,8 @@ std::string stage_table(const Measurement &measurement)
   table.add({"kernels, sum", fmt::format("{:.3f}", sum), ""});
   const Spread &step = measurement.step_milliseconds;
   table.add({"whole step", fmt::format("{:.3f}", step.median), ""});
-  return table.text("  ") + fmt::format("  whole step: median of {} steps, {:.3f} to {:.3f} ms\n", measurement.timed_steps,
-                                        step.minimum, step.maximum);
+  return table.text("  ") + fmt::format("  whole step: median of {} steps, {:.3f} to {:.3f} ms\n",
+                                        measurement.timed_steps, step.minimum, step.maximum);
 }
 
 std::string facts_table(const Outcome &outcome, World &world)
@@ -156,8 +177,8 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"colours", fmt::format("{}", statistics.colors)});
   if (world.settings().solver == "direct")
-    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones", statistics.direct_islands,
-                                      statistics.direct_stalled, statistics.direct_left)});
+    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones",
+                                      statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
                                         statistics.mean_penetration * 1e3)});
   table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
@@ -165,7 +186,8 @@ std::string facts_table(const Outcome &outcome, World &world)
   table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
   table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
   if (world.settings().check)
-    table.add({"batches", world.batch_fault() ? "WRONG" : fmt::format("free of conflict in all {} steps", outcome.steps)});
+    table.add(
+        {"batches", world.batch_fault() ? "WRONG" : fmt::format("free of conflict in all {} steps", outcome.steps)});
   return table.text("  ");
 }
 
@@ -183,8 +205,10 @@ void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
     fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
                printable(quarantine.name), quarantine.step, quarantine.stage);
   if (!world.quarantined().empty() && !allow_quarantine)
-    fmt::print(stderr, "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n", world.quarantined().size(),
-               world.scene().bodies.size());
+    fmt::print(
+        stderr,
+        "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n",
+        world.quarantined().size(), world.scene().bodies.size());
   if (outcome.statistics.overflow)
     fmt::print(stderr, "tandem: {} steps ran again with larger buffers\n", outcome.statistics.overflow);
 }
@@ -219,7 +243,8 @@ void save_image(const RunOptions &options, World &world)
 {
   if (options.image.empty()) return;
   const auto [width, height] = size_of_image(options.image_size);
-  const Camera camera = options.camera.empty() ? camera_for(world, width, height) : camera_from(options.camera, width, height);
+  const Camera camera =
+      options.camera.empty() ? camera_for(world, width, height) : camera_from(options.camera, width, height);
   write_png(options.image, draw(world, camera), width, height);
 }
 

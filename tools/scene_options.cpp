@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/io/input_file.h"
 #include "host/base/out_of_memory.h"
 #include "host/catalog/catalog.h"
+#include "host/io/input_file.h"
 
 namespace tandem {
 namespace {
@@ -67,17 +67,23 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
   option("--solver", solver_, one_of("solver", solver_names()), "NAME");
-  option("--broadphase", broadphase_, one_of("broadphase", broadphase_names()) + "; auto: as the scene suggests (`tandem plan` says why)", "NAME");
+  option("--broadphase", broadphase_,
+         one_of("broadphase", broadphase_names()) + "; auto: as the scene suggests (`tandem plan` says why)", "NAME");
   option("--bounds", bounds_, one_of("bounds", bounds_names()), "NAME");
   option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
   option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
   option("--support", support_, one_of("support of hulls", support_names()), "NAME");
   option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
   option("--batching", batching_, one_of("batching", batching_names()), "NAME");
-  option("--max-pairs", max_pairs_, "room for pairs never grows past so many: a step that needs more ends the run", "N");
-  parser.add_flag("--check", check_, "prove in every step that no batch touches a moving body twice and that every contact is in one; exit status 1 if not");
-  parser.add_flag("--no-specialise", no_specialise_, "build and run every feature, needed or not: the same bits, slower");
-  parser.add_flag("--allow-outside-files", outside_files_, "let a scene file name files (buffers, OBJ files) outside its own folder");
+  option("--max-pairs", max_pairs_, "room for pairs never grows past so many: a step that needs more ends the run",
+         "N");
+  parser.add_flag("--check", check_,
+                  "prove in every step that no batch touches a moving body twice and that every contact is in one; "
+                  "exit status 1 if not");
+  parser.add_flag("--no-specialise", no_specialise_,
+                  "build and run every feature, needed or not: the same bits, slower");
+  parser.add_flag("--allow-outside-files", outside_files_,
+                  "let a scene file name files (buffers, OBJ files) outside its own folder");
   parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
 }
 
@@ -92,7 +98,8 @@ Settings SceneOptions::settings() const
   if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
   else settings.step = static_cast<float>(real_number("--dt", step_));
   if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
-  if (!iterations_.empty()) settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
+  if (!iterations_.empty())
+    settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
   settings.broadphase = broadphase_;
   settings.bounds = bounds_;
   settings.midphase = midphase_;
@@ -128,7 +135,8 @@ Scene SceneOptions::scene(DistinctFiles &files) const
     for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
     return scene;
   };
-  return naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); }, load);
+  return naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); },
+                            load);
 }
 
 std::string SceneOptions::typed_again(const std::string &broadphase) const

@@ -8,6 +8,7 @@
 
 #include <tandem/scene.h>
 #include <tandem/settings.h>
+
 #include "tools/distinct_files.h"
 
 namespace tandem {
@@ -33,7 +34,8 @@ public:
   Scene scene(DistinctFiles &files) const;
   const std::string &scene_text() const { return scene_; }
 
-  /* The options that differ from their defaults, as they would be typed again; `broadphase` is the one that was used, which auto does not say. */
+  /* The options that differ from their defaults, as they would be typed again; `broadphase` is the one that was used,
+   * which auto does not say. */
   std::string typed_again(const std::string &broadphase) const;
 
 private:

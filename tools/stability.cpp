@@ -7,9 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/runtime/backend_list.h"
-#include "host/io/input_file.h"
 #include <tandem/world.h>
+
+#include "host/io/input_file.h"
+#include "host/runtime/backend_list.h"
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/parallel.h"
@@ -55,8 +56,11 @@ std::vector<std::string> case_names_in(const char *option, const std::string &te
 
 std::vector<const Case *> chosen_cases(const StabilityOptions &options)
 {
-  const std::vector<std::string> wanted = case_names_in("--only", options.only), unwanted = case_names_in("--except", options.except);
-  const auto named = [](const std::vector<std::string> &names, const Case &each) { return std::find(names.begin(), names.end(), each.name) != names.end(); };
+  const std::vector<std::string> wanted = case_names_in("--only", options.only),
+                                 unwanted = case_names_in("--except", options.except);
+  const auto named = [](const std::vector<std::string> &names, const Case &each) {
+    return std::find(names.begin(), names.end(), each.name) != names.end();
+  };
   std::vector<const Case *> chosen;
   for (const Case &each : stability::all_cases())
     if ((options.only.empty() || named(wanted, each)) && !named(unwanted, each)) chosen.push_back(&each);
@@ -80,7 +84,8 @@ void prepare_folder(const std::string &folder, DistinctFiles &files)
 {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error.message()));
+  if (error || !std::filesystem::is_directory(folder))
+    throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error.message()));
   for (const char *name : {"stability.json", "figures.csv", "index.html"}) files.writes("--out", folder + "/" + name);
 }
 
@@ -100,7 +105,8 @@ void check_backend(const Placement &placement)
   World(scene, {}, placement).step();
 }
 
-stability::Outcome run_with_progress(const Case &which, const std::string &solver, const Placement &placement, Length length)
+stability::Outcome run_with_progress(const Case &which, const std::string &solver, const Placement &placement,
+                                     Length length)
 {
   Progress progress(fmt::format("{} {}", which.name, solver), which.build(length).steps);
   return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
@@ -138,10 +144,11 @@ int conclude(const stability::Results &results)
 {
   std::vector<std::string> failed;
   for (const stability::Result &result : results.results)
-    if (!result.outcome.passed && result.outcome.solver == results.solvers.front()) failed.push_back(result.outcome.name);
+    if (!result.outcome.passed && result.outcome.solver == results.solvers.front())
+      failed.push_back(result.outcome.name);
   if (failed.empty()) return 0;
-  fmt::print(stderr, "tandem: {} fails {} of {} cases: {}\n", results.solvers.front(), failed.size(), results.results.size() / results.solvers.size(),
-             fmt::join(failed, ", "));
+  fmt::print(stderr, "tandem: {} fails {} of {} cases: {}\n", results.solvers.front(), failed.size(),
+             results.results.size() / results.solvers.size(), fmt::join(failed, ", "));
   return 1;
 }
 
@@ -149,18 +156,23 @@ int conclude(const stability::Results &results)
 size_t runs_at_once(const StabilityOptions &options)
 {
   const bool device = options.on.starts_with("cl");
-  if (device && options.at_once > 1) throw InputError(fmt::format("--cases-in-parallel {}: on {} cases run one at a time", options.at_once, options.on));
+  if (device && options.at_once > 1)
+    throw InputError(fmt::format("--cases-in-parallel {}: on {} cases run one at a time", options.at_once, options.on));
   if (options.at_once > 0) return options.at_once;
   return device ? 1 : processor_count();
 }
 
 /* Again after each case, so that a run that is cut off leaves what it has found. */
-void save(const StabilityOptions &options, const Json &json) { write_file("--out", options.out + "/stability.json", json.dump(1) + "\n"); }
+void save(const StabilityOptions &options, const Json &json)
+{
+  write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
+}
 
 /* In their fixed order: what ends before an earlier one waits for it. `told` is how many were. */
 void tell(const stability::Results &so_far, size_t &told)
 {
-  for (; told < so_far.results.size() && so_far.results[told].place == told; ++told) fmt::print("{}\n", verdict(so_far.results[told].outcome));
+  for (; told < so_far.results.size() && so_far.results[told].place == told; ++told)
+    fmt::print("{}\n", verdict(so_far.results[told].outcome));
   std::fflush(stdout);
 }
 
@@ -187,7 +199,8 @@ int run_cases(const StabilityOptions &options)
   const std::vector<std::string> solvers = chosen_solvers(options);
   const Placement placement{options.on, {}, options.inexact};
   const Length length = options.quick ? Length::quick : Length::full;
-  if (options.out.empty()) throw InputError("--out DIR is needed: the folder for the page, stability.json and figures.csv");
+  if (options.out.empty())
+    throw InputError("--out DIR is needed: the folder for the page, stability.json and figures.csv");
   DistinctFiles files;
   check_backend(placement);
   prepare_folder(options.out, files);
@@ -195,10 +208,12 @@ int run_cases(const StabilityOptions &options)
   if (!options.into.empty()) page_for_table(options.into);
   files.writes("--table-in", options.into);
   size_t told = 0;
-  const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)}, [&](const stability::Results &so_far) {
-    save(options, stability::results_json(so_far));
-    if (!options.json.takes_standard_output()) tell(so_far, told);
-  });
+  const stability::Results results = stability::run_batch({cases, solvers, placement, length, runs_at_once(options)},
+                                                          [&](const stability::Results &so_far) {
+                                                            save(options, stability::results_json(so_far));
+                                                            if (!options.json.takes_standard_output())
+                                                              tell(so_far, told);
+                                                          });
   const Json json = stability::results_json(results);
   write_file("--out", options.out + "/figures.csv", stability::series_csv(results));
   write_file("--out", options.out + "/index.html", stability::results_page(results, command_text(options)));
@@ -229,19 +244,23 @@ int compare_backends(const StabilityOptions &options)
       bool equal = true;
       std::string first;
       for (const std::string &backend : backends) {
-        const stability::Outcome outcome = run_with_progress(*each, solver, {backend, {}, options.inexact}, Length::brief);
+        const stability::Outcome outcome =
+            run_with_progress(*each, solver, {backend, {}, options.inexact}, Length::brief);
         const std::string hash = outcome.end.empty() ? outcome.note : hash_text(outcome.body_hash);
         if (first.empty()) first = hash;
         equal = equal && hash == first && !outcome.end.empty();
         hashes[backend] = hash;
       }
       unequal += !equal;
-      if (!options.json.takes_standard_output()) fmt::print("{:28} {:10} {} {}\n", each->name, solver, equal ? "equal" : "UNEQUAL", equal ? first : hashes.dump());
+      if (!options.json.takes_standard_output())
+        fmt::print("{:28} {:10} {} {}\n", each->name, solver, equal ? "equal" : "UNEQUAL",
+                   equal ? first : hashes.dump());
       std::fflush(stdout);
       list.push_back({{"name", each->name}, {"solver", solver}, {"equal", equal}, {"body_hash", hashes}});
     }
   options.json.write({{"backends", backends}, {"equal", unequal == 0}, {"cases", list}});
-  if (unequal) fmt::print(stderr, "tandem: {} of {} runs differ between {}\n", unequal, list.size(), fmt::join(backends, ", "));
+  if (unequal)
+    fmt::print(stderr, "tandem: {} of {} runs differ between {}\n", unequal, list.size(), fmt::join(backends, ", "));
   return unequal ? 1 : 0;
 }
 
@@ -272,9 +291,15 @@ Command stability_command(CLI::App &parser)
   command->add_option("--solvers", options->solvers, "these solvers alone")->type_name("NAME,...");
   command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
   command->add_option("--out", options->out, "write the results into this folder")->type_name("DIR");
-  command->add_option("--json", options->json.path, "write the results as JSON; - for standard output")->type_name("FILE");
-  command->add_option("--between", options->between, "no figures: every case, shortened, on each of these backends must end in the same bits")->type_name("B,B,...");
-  command->add_option("--cases-in-parallel", options->at_once, "runs side by side (default: one for each processor; on devices one)")
+  command->add_option("--json", options->json.path, "write the results as JSON; - for standard output")
+      ->type_name("FILE");
+  command
+      ->add_option("--between", options->between,
+                   "no figures: every case, shortened, on each of these backends must end in the same bits")
+      ->type_name("B,B,...");
+  command
+      ->add_option("--cases-in-parallel", options->at_once,
+                   "runs side by side (default: one for each processor; on devices one)")
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command->add_option("--table-in", options->into, "write the table of the run between the marks of this Markdown page")
@@ -283,7 +308,8 @@ Command stability_command(CLI::App &parser)
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
   command->add_flag("--list", options->list, "name the cases");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
-  command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not or if memory did not suffice, 2 for bad use or an output that cannot be written.");
+  command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not or if "
+                  "memory did not suffice, 2 for bad use or an output that cannot be written.");
   command->add_flag("--quick", options->quick, "shorter versions of the long cases, named as such");
   return {command, [options] { return execute(*options); }};
 }

@@ -1,9 +1,8 @@
 /* trace.cpp - see trace.h. */
 #include "tools/trace.h"
 
-#include "tools/output.h"
-
 #include "host/runtime/interface/backend.h"
+#include "tools/output.h"
 
 namespace tandem {
 namespace {
@@ -47,7 +46,8 @@ void Trace::record(const Launch &launch)
   backend.finish();
   const double end = now();
   const KernelRow &row = row_of(launch.kernel);
-  events_.push_back({row.name, name_of(row.stage), track_of(backend.name()), launch_start_, end - launch_start_, step_});
+  events_.push_back(
+      {row.name, name_of(row.stage), track_of(backend.name()), launch_start_, end - launch_start_, step_});
   if (stage_event_ != SIZE_MAX && events_[stage_event_].name == name_of(row.stage))
     events_[stage_event_].duration = end - events_[stage_event_].start;
   else {
@@ -69,8 +69,14 @@ std::string Trace::json() const
   Json list = Json::array({track_name(step_track, "steps"), track_name(stage_track, "stages")});
   for (const auto &[backend, track] : tracks_) list.push_back(track_name(track, "kernels on " + backend));
   for (const Event &event : events_)
-    list.push_back({{"name", event.name}, {"cat", event.category}, {"ph", "X"}, {"pid", 1}, {"tid", event.track},
-                    {"ts", event.start}, {"dur", event.duration}, {"args", {{"step", event.step}}}});
+    list.push_back({{"name", event.name},
+                    {"cat", event.category},
+                    {"ph", "X"},
+                    {"pid", 1},
+                    {"tid", event.track},
+                    {"ts", event.start},
+                    {"dur", event.duration},
+                    {"args", {{"step", event.step}}}});
   return Json{{"displayTimeUnit", "ms"}, {"traceEvents", list}}.dump() + "\n";
 }
 

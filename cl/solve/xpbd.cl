@@ -7,8 +7,7 @@ __kernel void xpbd_prepare(__global const uint *constraint_pair, __global const 
                            __global const row *constraint_normal, __global row *constraint_slip, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  xpbd_prepare_item(constraint_pair, pair_cached, cached_color, cached_slip, constraint_normal, constraint_slip,
-                    i);
+  xpbd_prepare_item(constraint_pair, pair_cached, cached_color, cached_slip, constraint_normal, constraint_slip, i);
 }
 
 __kernel void xpbd_positions(__global const Parameters *parameters, __global const uint *constraint_a,
@@ -17,14 +16,13 @@ __kernel void xpbd_positions(__global const Parameters *parameters, __global con
                              __global const row *constraint_slip, __global const row *solver_inertia,
                              __global const row *solver_delta, __global const uint *counts,
                              __global row *constraint_normal_impulse, __global row *constraint_friction_impulse,
-                             __global row *constraint_bounce, __global row *solver_velocity,
-                             uint first_iteration, RANGE)
+                             __global row *constraint_bounce, __global row *solver_velocity, uint first_iteration,
+                             RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  xpbd_positions_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
-                      constraint_center, constraint_slip, solver_inertia, solver_delta, counts,
-                      constraint_normal_impulse, constraint_friction_impulse, constraint_bounce,
-                      solver_velocity, first_iteration, i);
+  xpbd_positions_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                      constraint_slip, solver_inertia, solver_delta, counts, constraint_normal_impulse,
+                      constraint_friction_impulse, constraint_bounce, solver_velocity, first_iteration, i);
 }
 
 __kernel void xpbd_positions_tail(__global const Parameters *parameters, __global const uint *constraint_a,
@@ -32,15 +30,15 @@ __kernel void xpbd_positions_tail(__global const Parameters *parameters, __globa
                                   __global const row *constraint_points, __global const row *constraint_center,
                                   __global const row *constraint_slip, __global const row *solver_inertia,
                                   __global const row *solver_delta, __global const uint *counts,
-                                  __global row *constraint_normal_impulse,
-                                  __global row *constraint_friction_impulse, __global row *constraint_bounce,
-                                  __global row *solver_velocity, uint first_iteration, RANGE)
+                                  __global row *constraint_normal_impulse, __global row *constraint_friction_impulse,
+                                  __global row *constraint_bounce, __global row *solver_velocity, uint first_iteration,
+                                  RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   xpbd_positions_tail_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
                            constraint_center, constraint_slip, solver_inertia, solver_delta, counts,
-                           constraint_normal_impulse, constraint_friction_impulse, constraint_bounce,
-                           solver_velocity, first_iteration, i);
+                           constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity,
+                           first_iteration, i);
 }
 
 __kernel void xpbd_velocities(__global const Parameters *parameters, __global const uint *constraint_a,
@@ -51,9 +49,9 @@ __kernel void xpbd_velocities(__global const Parameters *parameters, __global co
                               __global row *constraint_friction_impulse, __global row *solver_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  xpbd_velocities_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
-                       constraint_center, solver_inertia, solver_delta, counts, constraint_normal_impulse,
-                       constraint_friction_impulse, solver_velocity, i);
+  xpbd_velocities_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                       solver_inertia, solver_delta, counts, constraint_normal_impulse, constraint_friction_impulse,
+                       solver_velocity, i);
 }
 
 __kernel void xpbd_velocities_tail(__global const Parameters *parameters, __global const uint *constraint_a,
@@ -61,8 +59,7 @@ __kernel void xpbd_velocities_tail(__global const Parameters *parameters, __glob
                                    __global const row *constraint_points, __global const row *constraint_center,
                                    __global const row *solver_inertia, __global const row *solver_delta,
                                    __global const uint *counts, __global row *constraint_normal_impulse,
-                                   __global row *constraint_friction_impulse, __global row *solver_velocity,
-                                   RANGE)
+                                   __global row *constraint_friction_impulse, __global row *solver_velocity, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   xpbd_velocities_tail_item(parameters, constraint_a, constraint_b, constraint_normal, constraint_points,
@@ -73,13 +70,13 @@ __kernel void xpbd_velocities_tail(__global const Parameters *parameters, __glob
 __kernel void xpbd_cache(__global const uint *constraint_pair, __global const uint *constraint_a,
                          __global const uint *constraint_b, __global const row *constraint_normal,
                          __global const row *constraint_center, __global const row *constraint_slip,
-                         __global const row *constraint_normal_impulse,
-                         __global const row *constraint_friction_impulse, __global const row *solver_velocity,
-                         __global const row *solver_inertia, __global const row *solver_delta,
-                         __global const uint *counts, __global row *cached_slip, RANGE)
+                         __global const row *constraint_normal_impulse, __global const row *constraint_friction_impulse,
+                         __global const row *solver_velocity, __global const row *solver_inertia,
+                         __global const row *solver_delta, __global const uint *counts, __global row *cached_slip,
+                         RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  xpbd_cache_item(constraint_pair, constraint_a, constraint_b, constraint_normal, constraint_center,
-                  constraint_slip, constraint_normal_impulse, constraint_friction_impulse, solver_velocity,
-                  solver_inertia, solver_delta, counts, cached_slip, i);
+  xpbd_cache_item(constraint_pair, constraint_a, constraint_b, constraint_normal, constraint_center, constraint_slip,
+                  constraint_normal_impulse, constraint_friction_impulse, solver_velocity, solver_inertia, solver_delta,
+                  counts, cached_slip, i);
 }

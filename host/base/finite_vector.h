@@ -17,6 +17,9 @@ template <class Vector> bool is_finite_vector(const Vector &v)
   return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
 }
 
-template <class Vector> std::string vector_text(const Vector &v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+template <class Vector> std::string vector_text(const Vector &v)
+{
+  return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
 
 } // namespace tandem

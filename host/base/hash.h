@@ -30,8 +30,10 @@ inline uint64_t hash_bytes(const void *data, size_t bytes, uint64_t seed = 0)
   };
   size_t offset = 0;
   for (; offset + 32 <= bytes; offset += 32)
-    for (int lane = 0; lane < 4; ++lane) lanes[lane] = std::rotl((lanes[lane] ^ word(offset + 8 * lane, 8)) * 0x9e3779b97f4a7c15u, 29);
-  for (; offset < bytes; offset += 8) lanes[0] = std::rotl((lanes[0] ^ word(offset, std::min<size_t>(8, bytes - offset))) * 0x9e3779b97f4a7c15u, 29);
+    for (int lane = 0; lane < 4; ++lane)
+      lanes[lane] = std::rotl((lanes[lane] ^ word(offset + 8 * lane, 8)) * 0x9e3779b97f4a7c15u, 29);
+  for (; offset < bytes; offset += 8)
+    lanes[0] = std::rotl((lanes[0] ^ word(offset, std::min<size_t>(8, bytes - offset))) * 0x9e3779b97f4a7c15u, 29);
   uint64_t result = mix_bits(bytes + seed);
   for (uint64_t lane : lanes) result = mix_bits(result ^ lane);
   return result;

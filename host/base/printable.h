@@ -1,12 +1,15 @@
-/* printable.h - a text of a file as part of one line: names of bodies may hold ends of lines, zeros, or what moves a terminal's cursor. */
+/* printable.h - a text of a file as part of one line: names of bodies may hold ends of lines, zeros, or what moves a
+ * terminal's cursor. */
 #pragma once
 
-#include <fmt/format.h>
 #include <string>
+
+#include <fmt/format.h>
 
 namespace tandem {
 
-/* Control characters (Unicode's below a blank, delete, those from 80 to 9f, and the ends of lines and paragraphs) become \n, \x00, \u2028. */
+/* Control characters (Unicode's below a blank, delete, those from 80 to 9f, and the ends of lines and paragraphs)
+ * become \n, \x00, \u2028. */
 inline std::string printable(const std::string &text)
 {
   std::string result;

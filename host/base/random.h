@@ -33,7 +33,8 @@ public:
   /* In 0 .. count-1; the bias is below count / 2^32. */
   uint32_t below(uint32_t count) { return uint32_t(((next() >> 32) * count) >> 32); }
 
-  /* Evenly distributed rotation x y z w: a point of the unit ball in four dimensions, normalised; rejection needs no sine. */
+  /* Evenly distributed rotation x y z w: a point of the unit ball in four dimensions, normalised; rejection needs no
+   * sine. */
   std::array<float, 4> orientation()
   {
     for (;;) {
@@ -44,7 +45,8 @@ public:
       }
       if (length_squared > 1 || length_squared < 0.01) continue;
       double scale = 1 / std::sqrt(length_squared);
-      return {round_to_float(q[0] * scale), round_to_float(q[1] * scale), round_to_float(q[2] * scale), round_to_float(q[3] * scale)};
+      return {round_to_float(q[0] * scale), round_to_float(q[1] * scale), round_to_float(q[2] * scale),
+              round_to_float(q[3] * scale)};
     }
   }
 

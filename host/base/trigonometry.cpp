@@ -6,7 +6,8 @@
 namespace tandem {
 namespace {
 
-/* Half of pi in three parts, the first two of 33 bits: their products with a number of quarter turns are exact (Cody and Waite). */
+/* Half of pi in three parts, the first two of 33 bits: their products with a number of quarter turns are exact (Cody
+ * and Waite). */
 constexpr double quarter_high = 0x1.921fb544p+0, quarter_middle = 0x1.0b4611a6p-34, quarter_low = 0x1.3198a2e037073p-69;
 
 /* Taylor's series, the innermost term first; what is left out is below 1e-19 up to pi / 4. */

@@ -1,7 +1,7 @@
 /* trigonometry.h - sine and cosine in double with the same bits everywhere, for what builds scenes.
  *
- * Those of the C library differ in the last bit between versions, processors and even between the processors that one build
- * chooses for when it starts. Kernels have their own in float: shared/trigonometry.h.
+ * Those of the C library differ in the last bit between versions, processors and even between the processors that one
+ * build chooses for when it starts. Kernels have their own in float: shared/trigonometry.h.
  */
 #pragma once
 

@@ -1,10 +1,12 @@
-/* scene_builders.h - what the builders of scene_catalog.h share: typed parameters, and bodies put into a scene one by one. */
+/* builders.h - what the builders of catalog.h share: typed parameters, and bodies put into a scene one by
+ * one. */
 #pragma once
 
 #include <cmath>
 
-#include "host/base/random.h"
 #include <tandem/round_to_float.h>
+
+#include "host/base/random.h"
 #include "host/catalog/catalog.h"
 
 namespace tandem::scene_builders {
@@ -88,15 +90,18 @@ inline void add_walls(Scene &scene, double inner)
 inline Vec3 direction(Random &random)
 {
   for (;;) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1), length = std::sqrt(x * x + y * y + z * z);
-    if (length > 0.1 && length < 1) return {round_to_float(x / length), round_to_float(y / length), round_to_float(z / length)};
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1),
+                 length = std::sqrt(x * x + y * y + z * z);
+    if (length > 0.1 && length < 1)
+      return {round_to_float(x / length), round_to_float(y / length), round_to_float(z / length)};
   }
 }
 
 /* A stone: points of an ellipsoid of half a metre and less. */
 inline Shape stone(int64_t points, Random &random)
 {
-  const Vec3 size{round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5))};
+  const Vec3 size{round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5)),
+                  round_to_float(random.uniform(0.25, 0.5))};
   std::vector<Vec3> cloud;
   for (int64_t i = 0; i < points; ++i) {
     const Vec3 at = direction(random);
@@ -106,6 +111,9 @@ inline Shape stone(int64_t points, Random &random)
 }
 
 inline SceneParameter seed_parameter() { return {"seed", integer, 1, 0, 4294967295.0, "start of the random numbers"}; }
-inline SceneParameter half_extent_parameter() { return {"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"}; }
+inline SceneParameter half_extent_parameter()
+{
+  return {"half_extent", real, 0.5, 0.001, 1000, "half the edge of a box, m"};
+}
 
 } // namespace tandem::scene_builders

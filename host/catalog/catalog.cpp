@@ -1,21 +1,23 @@
-/* scene_catalog.cpp - the rows of the catalogue, and the parser of `name:key=value,…`. */
+/* catalog.cpp - the rows of the catalogue, and the parser of `name:key=value,…`. */
 #include "host/catalog/catalog.h"
 
-#include "host/base/random.h"
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include <tandem/round_to_float.h>
+
+#include "host/base/random.h"
 #include "host/catalog/builders.h"
 #include "host/catalog/closed_forms.h"
 #include "host/catalog/meshes.h"
 #include "host/catalog/shapes.h"
 #include "host/catalog/structures.h"
+#include "host/catalog/talks.h"
 #include "host/io/gltf/scene.h"
 #include "host/io/json/scene.h"
-#include "host/catalog/talks.h"
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fmt/format.h>
 
 namespace tandem {
 
@@ -91,7 +93,8 @@ Scene box_stack(const SceneValues &v)
     int64_t column = i / height, level = i % height;
     double x = (double(column % side) - 0.5 * double(side - 1)) * pitch;
     double z = (double(column / side) - 0.5 * double(side - 1)) * pitch;
-    add_body(scene, 0, {round_to_float(x), round_to_float(half * double(1 + 2 * level)), round_to_float(z)}, round_to_float(number(v, "mass")));
+    add_body(scene, 0, {round_to_float(x), round_to_float(half * double(1 + 2 * level)), round_to_float(z)},
+             round_to_float(number(v, "mass")));
   }
   return scene;
 }
@@ -181,7 +184,8 @@ Scene mixed(const SceneValues &v)
   for (int64_t i = 0; i < n; ++i) {
     uint32_t shape = random.below(movable), material = random.below(uint32_t(scene.materials.size()));
     double density = random.uniform(200, 2000);
-    Body &body = add_body(scene, shape, grid.place(i, jitter, random), round_to_float(density * volume(scene.shapes[shape])));
+    Body &body =
+        add_body(scene, shape, grid.place(i, jitter, random), round_to_float(density * volume(scene.shapes[shape])));
     body.material = material;
     body.orientation = random.orientation();
   }

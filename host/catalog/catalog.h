@@ -1,4 +1,4 @@
-/* scene_catalog.h - the scenes that need no file: `box-grid:nx=20,ny=20,nz=20`.
+/* catalog.h - the scenes that need no file: `box-grid:nx=20,ny=20,nz=20`.
  *
  * One row per scene: name, description, typed parameters with default and range, and the function
  * that builds it. The command's listing, the parser's error messages and the tests read the same rows.
@@ -7,12 +7,13 @@
  */
 #pragma once
 
-#include "host/io/input_file.h"
-#include <tandem/scene.h>
-
 #include <map>
 #include <span>
 #include <string>
+
+#include <tandem/scene.h>
+
+#include "host/io/input_file.h"
 
 namespace tandem {
 

@@ -1,4 +1,4 @@
-/* scene_catalog_closed_forms.cpp - see scene_catalog_closed_forms.h.
+/* closed_forms.cpp - see closed_forms.h.
  *
  *   free-flight   boxes thrown apart, spinning about no principal axis: parabolas
  *   incline       a box on a slope, tan(slope) above its friction: x = (g/2) (sin - mu cos) t^2
@@ -9,8 +9,9 @@
 
 #include <cmath>
 
-#include "host/base/random.h"
 #include <tandem/round_to_float.h>
+
+#include "host/base/random.h"
 #include "host/catalog/builders.h"
 
 namespace tandem {
@@ -33,8 +34,10 @@ Scene free_flight(const SceneValues &v)
   const uint32_t box = add_shape(scene, box_shape(0.2f, 0.3f, 0.5f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     Body &body = add_body(scene, box, {double(4 * (i % 100)), 0, double(4 * (i / 100))});
-    body.linear_velocity = {round_to_float(random.uniform(-0.5, 0.5)), round_to_float(random.uniform(3, 8)), round_to_float(random.uniform(-0.5, 0.5))};
-    body.angular_velocity = {round_to_float(spin * random.uniform(-1, 1)), round_to_float(spin * random.uniform(-1, 1)), round_to_float(spin * random.uniform(-1, 1))};
+    body.linear_velocity = {round_to_float(random.uniform(-0.5, 0.5)), round_to_float(random.uniform(3, 8)),
+                            round_to_float(random.uniform(-0.5, 0.5))};
+    body.angular_velocity = {round_to_float(spin * random.uniform(-1, 1)), round_to_float(spin * random.uniform(-1, 1)),
+                             round_to_float(spin * random.uniform(-1, 1))};
     body.orientation = random.orientation();
   }
   return scene;
@@ -63,7 +66,8 @@ Scene incline(const SceneValues &v)
   Scene scene;
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = round_to_float(number(v, "friction"));
   add_ground(scene).orientation = slope_turn(slope);
-  Body &box = add_body(scene, add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half))));
+  Body &box =
+      add_body(scene, add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half))));
   const Vec3 normal = uphill_normal(slope);
   for (int k = 0; k < 3; ++k) box.position[k] = round_to_float(half * normal[k]);
   box.orientation = slope_turn(slope);
@@ -83,7 +87,9 @@ Scene bounce(const SceneValues &v)
   for (int64_t i = 0; i < n; ++i) {
     /* Not all alike: impacts fall everywhere within a time step. */
     const double own = height * (1 + 0.5 * double(i) / double(n));
-    add_body(scene, ball, {round_to_float(4 * radius * double(i % 1000)), round_to_float(radius + own), round_to_float(4 * radius * double(i / 1000))});
+    add_body(scene, ball,
+             {round_to_float(4 * radius * double(i % 1000)), round_to_float(radius + own),
+              round_to_float(4 * radius * double(i / 1000))});
   }
   return scene;
 }
@@ -97,7 +103,8 @@ Scene mass_ratio(const SceneValues &v)
   add_ground(scene);
   double mass = 1;
   const uint32_t box = add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half)));
-  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio) add_body(scene, box, {0, round_to_float(half * double(2 * i + 1)), 0}, round_to_float(mass));
+  for (int64_t i = 0; i < whole(v, "n"); ++i, mass *= ratio)
+    add_body(scene, box, {0, round_to_float(half * double(2 * i + 1)), 0}, round_to_float(mass));
   return scene;
 }
 
@@ -131,7 +138,8 @@ void slide(PreciseBodyState &state, const Scene &scene, double time)
   const Quat &q = scene.bodies[0].orientation;
   const double z = q[2], w = q[3], length = z * z + w * w;
   const double across = -2 * z * w / length, up = (w * w - z * z) / length; /* the turned y axis */
-  const double gravity = -double{scene.gravity[1]}, pull = gravity * (across - double{scene.materials[0].dynamic_friction} * up);
+  const double gravity = -double{scene.gravity[1]},
+               pull = gravity * (across - double{scene.materials[0].dynamic_friction} * up);
   if (pull > 0) accelerate(state, {pull * up, -pull * across, 0}, time);
 }
 
@@ -162,29 +170,34 @@ bool is_named(const Scene &scene, const char *name)
 std::vector<BuiltInScene> closed_form_scenes()
 {
   const SceneParameter seed = seed_parameter(), half_extent = half_extent_parameter();
-  return {{"free-flight",
-           "boxes thrown apart, each spinning about no axis of its own; they meet nothing",
-           {{"n", integer, 16, 1, 100000, "boxes"}, {"spin", real, 5, 0, 1000, "largest angular speed about each axis, rad/s"}, seed},
-           only_n,
-           free_flight},
-          {"incline",
-           "a box on a slope: slides with (sin - friction cos) g if the slope's tangent is above the friction",
-           {{"slope", real, 0.75, 0, 10, "tangent of the slope's angle"}, {"friction", real, 0.3, 0, 10, "coefficient"}, half_extent},
-           two_bodies,
-           incline},
-          {"bounce",
-           "balls dropped on a ground, from height to 1.5 times height; each returns to restitution^2 of its height",
-           {{"n", integer, 16, 1, 100000, "balls"},
-            {"restitution", real, 0.8, 0, 1, "of balls and ground"},
-            {"height", real, 2, 0.01, 10000, "free height under the lowest ball, m"},
-            {"radius", real, 0.25, 0.001, 1000, "m"}},
-           ground_and_n,
-           bounce},
-          {"mass-ratio",
-           "a column of cubes, each `ratio` times as heavy as the one below",
-           {{"n", integer, 5, 1, 100, "cubes"}, {"ratio", real, 4, 0.1, 1000, "mass against the cube below"}, half_extent},
-           ground_and_n,
-           mass_ratio}};
+  return {
+      {"free-flight",
+       "boxes thrown apart, each spinning about no axis of its own; they meet nothing",
+       {{"n", integer, 16, 1, 100000, "boxes"},
+        {"spin", real, 5, 0, 1000, "largest angular speed about each axis, rad/s"},
+        seed},
+       only_n,
+       free_flight},
+      {"incline",
+       "a box on a slope: slides with (sin - friction cos) g if the slope's tangent is above the friction",
+       {{"slope", real, 0.75, 0, 10, "tangent of the slope's angle"},
+        {"friction", real, 0.3, 0, 10, "coefficient"},
+        half_extent},
+       two_bodies,
+       incline},
+      {"bounce",
+       "balls dropped on a ground, from height to 1.5 times height; each returns to restitution^2 of its height",
+       {{"n", integer, 16, 1, 100000, "balls"},
+        {"restitution", real, 0.8, 0, 1, "of balls and ground"},
+        {"height", real, 2, 0.01, 10000, "free height under the lowest ball, m"},
+        {"radius", real, 0.25, 0.001, 1000, "m"}},
+       ground_and_n,
+       bounce},
+      {"mass-ratio",
+       "a column of cubes, each `ratio` times as heavy as the one below",
+       {{"n", integer, 5, 1, 100, "cubes"}, {"ratio", real, 4, 0.1, 1000, "mass against the cube below"}, half_extent},
+       ground_and_n,
+       mass_ratio}};
 }
 
 std::optional<std::vector<PreciseBodyState>> closed_form_state(const Scene &scene, double time)
@@ -197,7 +210,8 @@ std::optional<std::vector<PreciseBodyState>> closed_form_state(const Scene &scen
   else if (is_named(scene, "incline")) slide(states[1], scene, time);
   else if (is_named(scene, "bounce"))
     for (size_t i = 1; i < states.size(); ++i)
-      fall_and_bounce(states[i], scene.shapes[scene.bodies[i].shape].size[0], scene.materials[0].restitution, -gravity[1], time);
+      fall_and_bounce(states[i], scene.shapes[scene.bodies[i].shape].size[0], scene.materials[0].restitution,
+                      -gravity[1], time);
   else return std::nullopt;
   return states;
 }

@@ -1,13 +1,14 @@
-/* scene_catalog_meshes.cpp - see scene_catalog_meshes.h. */
+/* meshes.cpp - see meshes.h. */
 #include "host/catalog/meshes.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host/geometry/shape_mass.h"
 #include <tandem/round_to_float.h>
-#include "host/catalog/builders.h"
+
 #include "host/base/trigonometry.h"
+#include "host/catalog/builders.h"
+#include "host/geometry/shape_mass.h"
 
 namespace tandem {
 
@@ -32,7 +33,8 @@ Shape bowl(double half_side, uint32_t columns)
   for (uint32_t i = 0; i < columns * columns; ++i) {
     const double x = (i % columns) * spacing - half_side, z = (i / columns) * spacing - half_side;
     const double rim = std::max(0.0, std::max(std::abs(x), std::abs(z)) / half_side - 0.875) * 8;
-    heights.push_back(round_to_float(0.4 * sine_cosine(1.1 * x).sine * sine_cosine(0.9 * z).cosine + 0.5 * half_side * rim * rim));
+    heights.push_back(
+        round_to_float(0.4 * sine_cosine(1.1 * x).sine * sine_cosine(0.9 * z).cosine + 0.5 * half_side * rim * rim));
   }
   return height_field_shape(heights, columns, round_to_float(spacing), round_to_float(spacing), "bowl");
 }
@@ -48,7 +50,8 @@ Scene hulls_on_mesh(const SceneValues &v)
   ground.name = "bowl";
   ground.motion = Motion::fixed;
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
-    const uint32_t shape = random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+    const uint32_t shape =
+        random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
     Body &body = add_body(scene, shape, grid.place(i, 0.05, random));
     body.orientation = random.orientation();
     finish_body(scene, body, 1000);
@@ -81,7 +84,12 @@ Shape dumbbell()
   return compound_shape({bar, part(sphere_shape(0.2f), {-0.35f, 0, 0}), part(sphere_shape(0.2f), {0.35f, 0, 0})});
 }
 
-Shape corner() { return compound_shape({part(box_shape(0.4f, 0.1f, 0.1f), {0, 0, 0}), part(box_shape(0.1f, 0.3f, 0.1f), {0.3f, 0.4f, 0}), part(box_shape(0.1f, 0.1f, 0.3f), {-0.3f, 0, 0.4f})}); }
+Shape corner()
+{
+  return compound_shape({part(box_shape(0.4f, 0.1f, 0.1f), {0, 0, 0}),
+                         part(box_shape(0.1f, 0.3f, 0.1f), {0.3f, 0.4f, 0}),
+                         part(box_shape(0.1f, 0.1f, 0.3f), {-0.3f, 0, 0.4f})});
+}
 
 /* A ring of capsules. */
 Shape ring()
@@ -90,9 +98,11 @@ Shape ring()
   for (int k = 0; k < 8; ++k) {
     const double angle = k * 3.14159265358979 / 4;
     const SineCosine whole = sine_cosine(angle), half = sine_cosine(0.5 * angle);
-    Child child = part(capsule_shape(0.08f, 0.16f), {round_to_float(0.38 * whole.cosine), 0, round_to_float(0.38 * whole.sine)});
+    Child child =
+        part(capsule_shape(0.08f, 0.16f), {round_to_float(0.38 * whole.cosine), 0, round_to_float(0.38 * whole.sine)});
     const double s = half.sine, c = half.cosine, root = std::sqrt(0.5); /* about y by -angle, after y onto z */
-    child.orientation = {round_to_float(root * c), round_to_float(-root * s), round_to_float(root * s), round_to_float(root * c)};
+    child.orientation = {round_to_float(root * c), round_to_float(-root * s), round_to_float(root * s),
+                         round_to_float(root * c)};
     children.push_back(child);
   }
   return compound_shape(std::move(children));
@@ -114,7 +124,7 @@ Scene compounds(const SceneValues &v)
   return scene;
 }
 
-/* --- mesh-slide: over the seams of a flat mesh ----------------------------------------------------------------------- */
+/* --- mesh-slide: over the seams of a flat mesh --- */
 
 /* A floor in y = 0 of unequal triangles: the inner corners of a grid, each moved in the plane at random. */
 Shape flat_mesh(double length, double width, double spacing, Random &random)
@@ -126,8 +136,10 @@ Shape flat_mesh(double length, double width, double spacing, Random &random)
     const uint32_t column = i % columns, row = i / columns;
     const bool inside = column > 0 && row > 0 && column + 1 < columns && row + 1 < rows;
     const double jitter = inside ? 0.2 * spacing : 0; /* no triangle turns over */
-    vertices.push_back({round_to_float(column * spacing + random.uniform(-jitter, jitter)), 0, round_to_float((row - 0.5 * (rows - 1)) * spacing + random.uniform(-jitter, jitter))});
-    if (column + 1 < columns && row + 1 < rows) indices.insert(indices.end(), {i, i + columns, i + 1, i + 1, i + columns, i + columns + 1});
+    vertices.push_back({round_to_float(column * spacing + random.uniform(-jitter, jitter)), 0,
+                        round_to_float((row - 0.5 * (rows - 1)) * spacing + random.uniform(-jitter, jitter))});
+    if (column + 1 < columns && row + 1 < rows)
+      indices.insert(indices.end(), {i, i + columns, i + 1, i + 1, i + columns, i + columns + 1});
   }
   return mesh_shape(vertices, indices, "floor");
 }
@@ -141,11 +153,23 @@ Scene mesh_slide(const SceneValues &v)
   Body &floor = add_body(scene, add_shape(scene, flat_mesh(5 + 5 * speed, 10, 0.4, random)), {-2, 0, 0});
   floor.name = "floor";
   floor.motion = Motion::fixed;
-  const Shape sliders[] = {sphere_shape(0.3f), box_shape(0.3f, 0.3f, 0.3f), box_shape(0.5f, 0.05f, 0.4f), capsule_shape(0.2f, 0.3f), cylinder_shape(0.3f, 0.2f),
-                           stone(24, random), corner(), table()};
+  const Shape sliders[] = {sphere_shape(0.3f),
+                           box_shape(0.3f, 0.3f, 0.3f),
+                           box_shape(0.5f, 0.05f, 0.4f),
+                           capsule_shape(0.2f, 0.3f),
+                           cylinder_shape(0.3f, 0.2f),
+                           stone(24, random),
+                           corner(),
+                           table()};
   for (size_t k = 0; k < std::size(sliders); ++k) {
     const uint32_t shape = add_shape(scene, sliders[k]);
-    Body &body = add_body(scene, shape, {0, sliders[k].type == ShapeType::compound ? 0.3 : sliders[k].type == ShapeType::hull ? 0.5 : double(sliders[k].size[1]), 1.2 * (double(k) - 3.5)}, 10);
+    Body &body = add_body(scene, shape,
+                          {0,
+                           sliders[k].type == ShapeType::compound ? 0.3
+                           : sliders[k].type == ShapeType::hull   ? 0.5
+                                                                  : double(sliders[k].size[1]),
+                           1.2 * (double(k) - 3.5)},
+                          10);
     if (sliders[k].type == ShapeType::sphere) body.position[1] = 0.3;
     if (sliders[k].type == ShapeType::capsule) body.orientation = {0.70710678f, 0, 0, 0.70710678f};
     if (sliders[k].type == ShapeType::capsule) body.position[1] = 0.2;
@@ -161,13 +185,24 @@ std::vector<BuiltInScene> mesh_scenes()
 {
   const double most = double(most_bodies - 5);
   return {
-      {"hulls-on-mesh", "random convex hulls that fall into a hilly bowl, a triangle mesh",
-       {{"n", integer, 1000, 1, most, "hulls"}, {"points", integer, 32, 4, 1000, "vertices of a hull"}, {"spacing", real, 0.4, 0.05, 10, "edge of the mesh's cells, m"}, seed_parameter()},
-       ground_and_n, hulls_on_mesh},
-      {"compounds", "tables, dumbbells, corners and rings that fall into a yard", {{"n", integer, 500, 1, most, "compounds"}, seed_parameter()},
-       [](const SceneValues &v) { return 5 + uint64_t(whole(v, "n")); }, compounds},
-      {"mesh-slide", "eight shapes slide over the seams of a flat mesh", {{"speed", real, 5, 0, 100, "m/s"}, {"friction", real, 0, 0, 10, "of all surfaces"}, seed_parameter()},
-       [](const SceneValues &) { return uint64_t{9}; }, mesh_slide},
+      {"hulls-on-mesh",
+       "random convex hulls that fall into a hilly bowl, a triangle mesh",
+       {{"n", integer, 1000, 1, most, "hulls"},
+        {"points", integer, 32, 4, 1000, "vertices of a hull"},
+        {"spacing", real, 0.4, 0.05, 10, "edge of the mesh's cells, m"},
+        seed_parameter()},
+       ground_and_n,
+       hulls_on_mesh},
+      {"compounds",
+       "tables, dumbbells, corners and rings that fall into a yard",
+       {{"n", integer, 500, 1, most, "compounds"}, seed_parameter()},
+       [](const SceneValues &v) { return 5 + uint64_t(whole(v, "n")); },
+       compounds},
+      {"mesh-slide",
+       "eight shapes slide over the seams of a flat mesh",
+       {{"speed", real, 5, 0, 100, "m/s"}, {"friction", real, 0, 0, 10, "of all surfaces"}, seed_parameter()},
+       [](const SceneValues &) { return uint64_t{9}; },
+       mesh_slide},
   };
 }
 

@@ -1,4 +1,4 @@
-/* scene_catalog_meshes.h - built-in scenes of meshes and compounds. */
+/* meshes.h - built-in scenes of meshes and compounds. */
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-/* scene_catalog_shapes.h - built-in scenes of shapes beyond sphere and box: hulls, all of them in one pile, what rolls. */
+/* shapes.h - built-in scenes of shapes beyond sphere and box: hulls, all of them in one pile, what
+ * rolls. */
 #pragma once
 
 #include <vector>

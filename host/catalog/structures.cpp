@@ -1,10 +1,11 @@
-/* scene_catalog_structures.cpp - see scene_catalog_structures.h. */
+/* structures.cpp - see structures.h. */
 #include "host/catalog/structures.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include <tandem/round_to_float.h>
+
 #include "host/catalog/builders.h"
 
 namespace tandem {
@@ -60,14 +61,17 @@ Scene card_house(const SceneValues &v)
   const double reach = L * lean.sine + t * lean.cosine, rise = L * lean.cosine + t * lean.sine, pitch = 4 * reach + gap;
   Scene scene = on_ground(number(v, "friction"));
   const uint32_t card = add_shape(scene, box_shape(round_to_float(t), round_to_float(L), round_to_float(depth)));
-  const uint32_t flat = add_shape(scene, box_shape(round_to_float(pitch / 2 - gap / 4), round_to_float(t), round_to_float(depth)));
+  const uint32_t flat =
+      add_shape(scene, box_shape(round_to_float(pitch / 2 - gap / 4), round_to_float(t), round_to_float(depth)));
   for (int64_t storey = 0; storey < storeys; ++storey) {
     const double floor = double(storey) * 2 * (rise + t);
     const int64_t pairs = storeys - storey;
     for (int64_t i = 0; i < pairs; ++i) {
       const double x = (double(i) - 0.5 * double(pairs - 1)) * pitch;
-      add(scene, card, x - reach, floor + rise, 0).orientation = {0, 0, round_to_float(-lean.half_sine), round_to_float(lean.half_cosine)};
-      add(scene, card, x + reach, floor + rise, 0).orientation = {0, 0, round_to_float(lean.half_sine), round_to_float(lean.half_cosine)};
+      add(scene, card, x - reach, floor + rise, 0).orientation = {0, 0, round_to_float(-lean.half_sine),
+                                                                  round_to_float(lean.half_cosine)};
+      add(scene, card, x + reach, floor + rise, 0).orientation = {0, 0, round_to_float(lean.half_sine),
+                                                                  round_to_float(lean.half_cosine)};
       if (i > 0) add(scene, flat, x - 0.5 * pitch, floor + 2 * rise + t, 0);
     }
   }
@@ -87,7 +91,8 @@ Scene arch(const SceneValues &v)
   const uint32_t block = add_shape(scene, box_shape(round_to_float(length), round_to_float(height), 0.4f));
   const double top = length + 0.3, bottom = top + overhang * double(courses - 1); /* of centres, from the middle */
   for (int64_t k = 0; k < courses; ++k)
-    for (double side : {-1.0, 1.0}) add(scene, block, side * (bottom - overhang * double(k)), height * double(1 + 2 * k), 0);
+    for (double side : {-1.0, 1.0})
+      add(scene, block, side * (bottom - overhang * double(k)), height * double(1 + 2 * k), 0);
   add(scene, block, 0, height * double(1 + 2 * courses), 0);
   return scene;
 }
@@ -100,8 +105,10 @@ Scene tower(const SceneValues &v)
 {
   const double half_width = 0.25, half_height = 0.15, gap = 0.004;
   Scene scene = on_ground(0.6);
-  const uint32_t along_x = add_shape(scene, box_shape(round_to_float(3 * half_width), round_to_float(half_height), round_to_float(half_width - gap)));
-  const uint32_t along_z = add_shape(scene, box_shape(round_to_float(half_width - gap), round_to_float(half_height), round_to_float(3 * half_width)));
+  const uint32_t along_x = add_shape(
+      scene, box_shape(round_to_float(3 * half_width), round_to_float(half_height), round_to_float(half_width - gap)));
+  const uint32_t along_z = add_shape(
+      scene, box_shape(round_to_float(half_width - gap), round_to_float(half_height), round_to_float(3 * half_width)));
   for (int64_t level = 0; level < whole(v, "levels"); ++level)
     for (int side = -1; side <= 1; ++side) {
       const double across = 2 * half_width * side, y = half_height * double(1 + 2 * level);
@@ -117,7 +124,8 @@ Scene dominoes(const SceneValues &v)
 {
   const double half_height = 0.5, half_thickness = 0.06, pitch = number(v, "pitch"), push = number(v, "push");
   Scene scene = on_ground(0.6);
-  const uint32_t domino = add_shape(scene, box_shape(round_to_float(half_thickness), round_to_float(half_height), 0.25f));
+  const uint32_t domino =
+      add_shape(scene, box_shape(round_to_float(half_thickness), round_to_float(half_height), 0.25f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) add(scene, domino, pitch * double(i), half_height, 0);
   /* Turning about its far lower edge. */
   scene.bodies[1].angular_velocity = {0, 0, round_to_float(-push)};
@@ -125,7 +133,7 @@ Scene dominoes(const SceneValues &v)
   return scene;
 }
 
-/* --- wall: bricks in running bond, a ball on its way --------------------------------------------------------------- */
+/* --- wall: bricks in running bond, a ball on its way --- */
 
 uint64_t wall_bodies(const SceneValues &v)
 {
@@ -138,15 +146,18 @@ Scene wall(const SceneValues &v)
   const int64_t rows = whole(v, "rows"), length = whole(v, "length");
   const double half_length = 0.4, half_height = 0.2, half_depth = 0.2, gap = 0.005, radius = 0.4;
   Scene scene = on_ground(0.6);
-  const uint32_t brick = add_shape(scene, box_shape(round_to_float(half_length), round_to_float(half_height), round_to_float(half_depth)));
+  const uint32_t brick =
+      add_shape(scene, box_shape(round_to_float(half_length), round_to_float(half_height), round_to_float(half_depth)));
   const uint32_t ball = add_shape(scene, sphere_shape(round_to_float(radius)));
   for (int64_t row = 0; row < rows; ++row) {
     const int64_t bricks = length - row % 2;
     for (int64_t i = 0; i < bricks; ++i)
-      add(scene, brick, (double(i) - 0.5 * double(bricks - 1)) * (2 * half_length + gap), half_height * double(1 + 2 * row), 0);
+      add(scene, brick, (double(i) - 0.5 * double(bricks - 1)) * (2 * half_length + gap),
+          half_height * double(1 + 2 * row), 0);
   }
   const double middle = std::max(radius, half_height * double(rows));
-  add(scene, ball, 0, middle, -number(v, "distance"), number(v, "ball_mass")).linear_velocity = {0, 0, round_to_float(number(v, "ball_speed"))};
+  add(scene, ball, 0, middle, -number(v, "distance"), number(v, "ball_mass")).linear_velocity = {
+      0, 0, round_to_float(number(v, "ball_speed"))};
   scene.bodies.back().name = "ball";
   return scene;
 }
@@ -166,10 +177,12 @@ Scene tops(const SceneValues &v)
   const double s = upright.half_sine / std::sqrt(2.0), c = upright.half_cosine;
   const double ls = -lean.half_sine, lc = lean.half_cosine;
   /* (0, 0, ls, lc) times (-s, 0, s, c). */
-  const Quat orientation{round_to_float(lc * -s), round_to_float(ls * -s), round_to_float(ls * c + lc * s), round_to_float(lc * c - ls * s)};
+  const Quat orientation{round_to_float(lc * -s), round_to_float(ls * -s), round_to_float(ls * c + lc * s),
+                         round_to_float(lc * c - ls * s)};
   const double axis[3] = {lean.sine, lean.cosine, 0};
   for (int64_t i = 0; i < n; ++i) {
-    Body &body = add(scene, cube, (double(i) - 0.5 * double(n - 1)) * 6 * half + distance * axis[0], distance * axis[1], 0);
+    Body &body =
+        add(scene, cube, (double(i) - 0.5 * double(n - 1)) * 6 * half + distance * axis[0], distance * axis[1], 0);
     body.orientation = orientation;
     const double precession = steady_precession(half, spin, number(v, "lean"), 10);
     const double around = std::isfinite(precession) ? precession : 0, along = spin - around * lean.cosine;
@@ -183,8 +196,10 @@ Scene tops(const SceneValues &v)
 
 double steady_precession(double half_extent, double spin, double lean_tangent, double gravity)
 {
-  const double moment = 2.0 / 3.0 * half_extent * half_extent, squared = 3 * half_extent * half_extent; /* of 1 kg; d^2 */
-  const double a = (moment + squared) / std::sqrt(1 + lean_tangent * lean_tangent), b = moment * spin, c = gravity * std::sqrt(squared);
+  const double moment = 2.0 / 3.0 * half_extent * half_extent,
+               squared = 3 * half_extent * half_extent; /* of 1 kg; d^2 */
+  const double a = (moment + squared) / std::sqrt(1 + lean_tangent * lean_tangent), b = moment * spin,
+               c = gravity * std::sqrt(squared);
   return 2 * c / (b + std::sqrt(b * b - 4 * a * c));
 }
 

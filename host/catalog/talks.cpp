@@ -1,10 +1,10 @@
-/* scene_talks.cpp - the scenes behind the batch tables of the 2009 talk; see scene_talks.h.
+/* talks.cpp - the scenes behind the batch tables of the 2009 talk; see talks.h.
  *
  * The talk prints the sizes of batches, not the scenes. What can be told from it:
  *
  * 2D: 31,602 constraints in 12 batches, the first of 4,931, so more than 9,862 bodies; 31,602 contacts of 10,600 bodies
- * are six neighbours each, the most that equal squares in rows can have. A pyramid whose cubes touch in the row and rest
- * on two below has just that, and it grows flank by flank:
+ * are six neighbours each, the most that equal squares in rows can have. A pyramid whose cubes touch in the row and
+ * rest on two below has just that, and it grows flank by flank:
  *
  *               6                flank 1: cube 1     flank 2: 2, 3     flank 3: 4, 5, 6 ..
  *             3   5
@@ -19,8 +19,9 @@
 
 #include <cmath>
 
-#include "host/base/random.h"
 #include <tandem/round_to_float.h>
+
+#include "host/base/random.h"
 #include "host/catalog/builders.h"
 
 namespace tandem {
@@ -30,7 +31,10 @@ using namespace scene_builders;
 namespace {
 
 /* Of shape 0. */
-void add_box(Scene &scene, double x, double y, double z) { add_body(scene, 0, {round_to_float(x), round_to_float(y), round_to_float(z)}); }
+void add_box(Scene &scene, double x, double y, double z)
+{
+  add_body(scene, 0, {round_to_float(x), round_to_float(y), round_to_float(z)});
+}
 
 uint64_t value_of(const SceneValues &values, const char *name) { return uint64_t(values.find(name)->second); }
 
@@ -55,7 +59,10 @@ Scene pyramid_2d(const SceneValues &values)
   return scene;
 }
 
-uint64_t talk_3d_bodies(const SceneValues &values) { return 1 + value_of(values, "nx") * value_of(values, "ny") * value_of(values, "nz"); }
+uint64_t talk_3d_bodies(const SceneValues &values)
+{
+  return 1 + value_of(values, "nx") * value_of(values, "ny") * value_of(values, "nz");
+}
 
 Scene talk_3d(const SceneValues &values)
 {
@@ -88,7 +95,8 @@ std::vector<BuiltInScene> talk_scenes()
 {
   return {{"pyramid-2d",
            "a wall of touching cubes, each on two others: 31,602 contacts, as in a batch table of the 2009 talk",
-           {{"n", integer, 10631, 1, 3'000'000, "cubes"}, {"half_extent", real, 0.5, 0.001, 1000, "half the edge of a cube, m"}},
+           {{"n", integer, 10631, 1, 3'000'000, "cubes"},
+            {"half_extent", real, 0.5, 0.001, 1000, "half the edge of a cube, m"}},
            ground_and_n,
            pyramid_2d},
           {"talk-3d",

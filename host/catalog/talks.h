@@ -1,4 +1,4 @@
-/* scene_talks.h - the scenes behind the batch tables of the 2009 talk (OpenCL Game Physics). */
+/* talks.h - the scenes behind the batch tables of the 2009 talk (OpenCL Game Physics). */
 #pragma once
 
 #include "host/catalog/catalog.h"

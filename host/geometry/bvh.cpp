@@ -1,12 +1,13 @@
-/* bvh.cpp - see bvh.h. One pass over a stack of ranges: a range of n primitives has 2 n - 1 nodes whatever their shape, so that the skip
- * of a node is known before its children are. */
+/* bvh.cpp - see bvh.h. One pass over a stack of ranges: a range of n primitives has 2 n - 1 nodes whatever their shape,
+ * so that the skip of a node is known before its children are. */
 #include "host/geometry/bvh.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <fmt/format.h>
 #include <numeric>
+
+#include <fmt/format.h>
 
 #include <tandem/round_to_float.h>
 
@@ -26,7 +27,10 @@ void grow(Bounds &bounds, const Bounds &other)
 
 double side(const Bounds &box, size_t axis) { return double(box.upper[axis]) - box.lower[axis]; }
 
-double half_area(const Bounds &box) { return side(box, 0) * side(box, 1) + side(box, 1) * side(box, 2) + side(box, 2) * side(box, 0); }
+double half_area(const Bounds &box)
+{
+  return side(box, 0) * side(box, 1) + side(box, 1) * side(box, 2) + side(box, 2) * side(box, 0);
+}
 
 double doubled_center(const Bounds &box, size_t axis) { return double(box.lower[axis]) + box.upper[axis]; }
 
@@ -50,9 +54,11 @@ Quantisation quantisation_of(const Bounds &whole, const std::string &where)
     result.origin[axis] = whole.lower[axis];
     if (side(whole, axis) == 0) continue;
     result.step[axis] = std::max(round_to_float(side(whole, axis) / most_q), std::numeric_limits<float>::min());
-    while (result.coordinate(axis, most_q) < whole.upper[axis]) result.step[axis] = std::nextafter(result.step[axis], INFINITY);
+    while (result.coordinate(axis, most_q) < whole.upper[axis])
+      result.step[axis] = std::nextafter(result.step[axis], INFINITY);
     if (!std::isfinite(result.coordinate(axis, most_q)))
-      throw InputError(fmt::format("{}: boxes from {} to {} are wider than floats can tell", where, whole.lower[axis], whole.upper[axis]));
+      throw InputError(fmt::format("{}: boxes from {} to {} are wider than floats can tell", where, whole.lower[axis],
+                                   whole.upper[axis]));
   }
   return result;
 }
@@ -60,13 +66,15 @@ Quantisation quantisation_of(const Bounds &whole, const std::string &where)
 void check(std::span<const Bounds> boxes, const std::string &where)
 {
   if (boxes.empty()) throw InputError(fmt::format("{}: a hierarchy needs at least one box", where));
-  if (boxes.size() >= size_t{1} << 30) throw InputError(fmt::format("{}: {} boxes are more than a hierarchy can number (2^30)", where, boxes.size()));
+  if (boxes.size() >= size_t{1} << 30)
+    throw InputError(fmt::format("{}: {} boxes are more than a hierarchy can number (2^30)", where, boxes.size()));
   for (size_t i = 0; i < boxes.size(); ++i)
     for (size_t axis = 0; axis < 3; ++axis) {
       const float lower = boxes[i].lower[axis], upper = boxes[i].upper[axis];
       if (!(lower <= upper) || !std::isfinite(lower) || !std::isfinite(upper))
-        throw InputError(fmt::format("{}: box {} runs from {} to {} along {}; finite numbers in ascending order are needed", where, i, lower, upper,
-                                     "xyz"[axis]));
+        throw InputError(
+            fmt::format("{}: box {} runs from {} to {} along {}; finite numbers in ascending order are needed", where,
+                        i, lower, upper, "xyz"[axis]));
     }
 }
 
@@ -126,7 +134,10 @@ private:
     size_t axis;
     double lower, scale;
 
-    size_t bin(const Bounds &box) const { return std::min(bins - 1, size_t((doubled_center(box, axis) - lower) * scale)); }
+    size_t bin(const Bounds &box) const
+    {
+      return std::min(bins - 1, size_t((doubled_center(box, axis) - lower) * scale));
+    }
   };
 
   Bounds bounds(const Range &range) const
@@ -155,11 +166,13 @@ private:
     return best;
   }
 
-  /* The first bin of the right side for which the sum of areas times counts is least; 0: none is, since all are in one bin or have no area. */
+  /* The first bin of the right side for which the sum of areas times counts is least; 0: none is, since all are in one
+   * bin or have no area. */
   size_t best_bin(const Range &range, const Binning &binning) const
   {
     std::array<Bin, bins> content;
-    for (size_t i = range.begin; i < range.end; ++i) content[binning.bin(boxes_[order_[i]])].add({boxes_[order_[i]], 1});
+    for (size_t i = range.begin; i < range.end; ++i)
+      content[binning.bin(boxes_[order_[i]])].add({boxes_[order_[i]], 1});
     std::array<double, bins> cost_from{};
     Bin sum;
     for (size_t i = bins; i-- > 1;) {
@@ -184,7 +197,8 @@ private:
     const auto begin = order_.begin() + ptrdiff_t(range.begin), end = order_.begin() + ptrdiff_t(range.end);
     if (range.count() > 2 && along.scale > 0 && range.depth < depth_bound(boxes_.size()) / 2)
       if (const size_t best = best_bin(range, along))
-        return size_t(std::stable_partition(begin, end, [&](uint32_t i) { return along.bin(boxes_[i]) < best; }) - order_.begin());
+        return size_t(std::stable_partition(begin, end, [&](uint32_t i) { return along.bin(boxes_[i]) < best; }) -
+                      order_.begin());
     const auto middle = begin + ptrdiff_t(range.count() / 2);
     std::nth_element(begin, middle, end, [&](uint32_t i, uint32_t j) {
       const double a = doubled_center(boxes_[i], along.axis), b = doubled_center(boxes_[j], along.axis);
@@ -226,7 +240,8 @@ QuantisedBounds quantised(const Quantisation &quantisation, const Bounds &box)
   for (size_t axis = 0; axis < 3; ++axis) {
     const uint32_t above = first_q([&](uint16_t q) { return quantisation.coordinate(axis, q) > box.lower[axis]; });
     result.lower[axis] = uint16_t(above == 0 ? 0 : above - 1);
-    result.upper[axis] = uint16_t(std::min(most_q, first_q([&](uint16_t q) { return quantisation.coordinate(axis, q) >= box.upper[axis]; })));
+    result.upper[axis] = uint16_t(
+        std::min(most_q, first_q([&](uint16_t q) { return quantisation.coordinate(axis, q) >= box.upper[axis]; })));
   }
   return result;
 }

@@ -1,8 +1,9 @@
-/* bvh.h - a hierarchy of boxes in 16 bytes a node: over the triangles of a mesh, the children of a compound, the cells of a field.
+/* bvh.h - a hierarchy of boxes in 16 bytes a node: over the triangles of a mesh, the children of a compound, the cells
+ * of a field.
  *
- * After Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2004, ch. 6): coordinates are 16 bits within the bounds of
- * the whole, nodes stand in depth-first order, and an inner node tells how many nodes to skip where its box is missed. So a walk
- * needs no stack and reads memory forwards:
+ * After Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2004, ch. 6): coordinates are 16 bits
+ * within the bounds of the whole, nodes stand in depth-first order, and an inner node tells how many nodes to skip
+ * where its box is missed. So a walk needs no stack and reads memory forwards:
  *
  *         0             node:   0   1   2   3   4   5   6        for (i = 0; i < count;)
  *       /   \           skip:   7   3   .   .   3   .   .            if box i overlaps: leaf ? report : nothing; ++i
@@ -10,8 +11,8 @@
  *     / \   / \
  *    2   3 5   6        Subtrees of at most 128 nodes fill 2 KiB of local memory each: shared/midphase/subtree_pairs.h.
  *
- * Built top down by the surface area heuristic over bins (Wald: On fast construction of SAH-based bounding volume hierarchies,
- * 2007); by halves where that does not pay, or would grow too deep.
+ * Built top down by the surface area heuristic over bins (Wald: On fast construction of SAH-based bounding volume
+ * hierarchies, 2007); by halves where that does not pay, or would grow too deep.
  */
 #pragma once
 
@@ -19,8 +20,8 @@
 
 namespace tandem {
 
-/* x = origin + q * step, in float, product and sum each rounded: what kernels compute, to the bit. It does not decrease with q, and the
- * bounds lie within q = 0 .. 65535. */
+/* x = origin + q * step, in float, product and sum each rounded: what kernels compute, to the bit. It does not decrease
+ * with q, and the bounds lie within q = 0 .. 65535. */
 struct Quantisation {
   Vec3 origin{}, step{1, 1, 1}; /* step > 0 */
 
@@ -38,13 +39,17 @@ struct QuantisedBounds {
 
 struct BvhNode {
   QuantisedBounds bounds;
-  int32_t value; /* leaf: number of the primitive, >= 0. Inner node: minus the number of nodes of its subtree, itself included */
+  int32_t value; /* leaf: number of the primitive, >= 0. Inner node: minus the number of nodes of its subtree, itself
+                    included */
   bool operator==(const BvhNode &) const = default;
 };
 static_assert(sizeof(BvhNode) == 16);
 
 inline bool is_leaf(const BvhNode &node) { return node.value >= 0; }
-inline uint32_t nodes_below(const BvhNode &node) { return is_leaf(node) ? 1 : uint32_t(-node.value); } /* itself included */
+inline uint32_t nodes_below(const BvhNode &node)
+{
+  return is_leaf(node) ? 1 : uint32_t(-node.value);
+} /* itself included */
 
 constexpr uint32_t most_subtree_nodes = 128; /* 2 KiB */
 
@@ -64,7 +69,8 @@ struct Bvh {
 /* 2 ceil(log2 n) + 8: the heuristic may use the first half of it, the rest is halved. */
 uint32_t depth_bound(size_t primitives);
 
-/* Throws InputError for no boxes, boxes whose lower bound is not at most the upper (NaN), infinite ones, and 2^30 boxes or more. */
+/* Throws InputError for no boxes, boxes whose lower bound is not at most the upper (NaN), infinite ones, and 2^30 boxes
+ * or more. */
 Bvh build_bvh(std::span<const Bounds> boxes, const std::string &where);
 
 /* The least box of 16 bits that contains `box` when computed back; `box` lies within the quantised bounds. */
@@ -74,7 +80,8 @@ Bounds dequantised(const Quantisation &quantisation, const QuantisedBounds &boun
 inline bool overlap(const Bounds &a, const Bounds &b)
 {
   bool result = true;
-  for (size_t axis = 0; axis < 3; ++axis) result = result && a.lower[axis] <= b.upper[axis] && a.upper[axis] >= b.lower[axis];
+  for (size_t axis = 0; axis < 3; ++axis)
+    result = result && a.lower[axis] <= b.upper[axis] && a.upper[axis] >= b.lower[axis];
   return result;
 }
 

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numeric>
 #include <unordered_map>
+
+#include <fmt/format.h>
+
+#include <tandem/round_to_float.h>
 
 #include "host/geometry/face_merger.h"
 #include "host/geometry/mass_properties.h"
 #include "host/geometry/quickhull.h"
-#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {
@@ -22,8 +24,8 @@ double longest_side(const Bounds &bounds)
   return longest;
 }
 
-/* About the centre of their bounds, of a size from 1/2 to 1, and on the grid on which hulls are decided. A power of two scales
- * without rounding. */
+/* About the centre of their bounds, of a size from 1/2 to 1, and on the grid on which hulls are decided. A power of two
+ * scales without rounding. */
 struct Normalised {
   std::vector<Vector> points;
   double scale;
@@ -104,7 +106,8 @@ std::vector<HullEdge> edges_of(const std::vector<std::vector<uint32_t>> &faces)
 {
   std::vector<std::array<uint32_t, 3>> sides; /* from, to, face */
   for (uint32_t face = 0; face < faces.size(); ++face)
-    for (size_t i = 0; i < faces[face].size(); ++i) sides.push_back({faces[face][i], faces[face][(i + 1) % faces[face].size()], face});
+    for (size_t i = 0; i < faces[face].size(); ++i)
+      sides.push_back({faces[face][i], faces[face][(i + 1) % faces[face].size()], face});
   std::sort(sides.begin(), sides.end());
   std::vector<HullEdge> edges;
   for (const auto &[from, to, face] : sides)
@@ -115,11 +118,12 @@ std::vector<HullEdge> edges_of(const std::vector<std::vector<uint32_t>> &faces)
   return edges;
 }
 
-/* The greatest normal . x of a surface that is convex within `slack`, from a vertex near the top: all that lie higher than the
- * slack below the top hang together. */
+/* The greatest normal . x of a surface that is convex within `slack`, from a vertex near the top: all that lie higher
+ * than the slack below the top hang together. */
 class Top {
 public:
-  Top(const std::vector<Vector> &points, const std::vector<HullEdge> &edges) : points_(points), neighbours_(points.size()), seen_(points.size())
+  Top(const std::vector<Vector> &points, const std::vector<HullEdge> &edges)
+      : points_(points), neighbours_(points.size()), seen_(points.size())
   {
     for (const HullEdge &edge : edges) {
       neighbours_[edge.v0].push_back(edge.v1);
@@ -153,9 +157,9 @@ private:
   size_t visit_ = 0;
 };
 
-/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull passes over points that roundings put a little outside
- * of flat regions; then the exact hull of the rest is merged, until no point is left out. Empty where too little remains: the hull is
- * hardly thicker than the tolerance. */
+/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull passes over points that roundings put
+ * a little outside of flat regions; then the exact hull of the rest is merged, until no point is left out. Empty where
+ * too little remains: the hull is hardly thicker than the tolerance. */
 std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<uint32_t> kept, double tolerance)
 {
   kept = named_by(faces_of(points, kept, tolerance));
@@ -171,7 +175,8 @@ std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<u
 }
 
 /* How far points of the exact hull lie outside the planes of these faces at most. */
-double farthest_outside(const std::vector<Vector> &points, const std::vector<Polygon> &exact, const std::vector<Polygon> &faces)
+double farthest_outside(const std::vector<Vector> &points, const std::vector<Polygon> &exact,
+                        const std::vector<Polygon> &faces)
 {
   Top top(points, edges_of(exact));
   double farthest = 0;
@@ -195,7 +200,8 @@ std::vector<Polygon> find_faces(const std::vector<Vector> &points, double tolera
       std::vector<Polygon> faces = simplified(points, named_by(exact), within);
       if (!faces.empty() && farthest_outside(points, exact, faces) <= hull_outside * tolerance) return faces;
     }
-  throw InputError(fmt::format("{}: no convex hull of these {} points: roundings leave its surface open", where, points.size()));
+  throw InputError(
+      fmt::format("{}: no convex hull of these {} points: roundings leave its surface open", where, points.size()));
 }
 
 void fit_planes(ConvexHull &hull)
@@ -226,7 +232,8 @@ double hull_tolerance_of(std::span<const Vec3> points)
 {
   const Bounds bounds = bounds_of(points);
   double largest = 0;
-  for (size_t axis = 0; axis < 3; ++axis) largest = std::max({largest, std::abs(double(bounds.lower[axis])), std::abs(double(bounds.upper[axis]))});
+  for (size_t axis = 0; axis < 3; ++axis)
+    largest = std::max({largest, std::abs(double(bounds.lower[axis])), std::abs(double(bounds.upper[axis]))});
   return std::max(hull_tolerance * longest_side(bounds), hull_rounding * largest);
 }
 
@@ -234,11 +241,13 @@ ConvexHull convex_hull(std::span<const Vec3> given, const std::string &where)
 {
   require_finite(given, "point", where);
   const std::vector<Vec3> points = distinct(given).points;
-  if (points.size() < 4) throw InputError(fmt::format("{}: a hull needs four different points, not {}", where, points.size()));
+  if (points.size() < 4)
+    throw InputError(fmt::format("{}: a hull needs four different points, not {}", where, points.size()));
   ConvexHull hull;
   hull.tolerance = hull_tolerance_of(points);
   const Normalised unit = normalised(points);
-  if (const std::string how = flatness(unit.points, hull.tolerance * unit.scale); !how.empty()) refuse_flat(where, points.size(), how);
+  if (const std::string how = flatness(unit.points, hull.tolerance * unit.scale); !how.empty())
+    refuse_flat(where, points.size(), how);
 
   std::vector<Polygon> faces = find_faces(unit.points, hull.tolerance * unit.scale, where);
   const std::vector<uint32_t> kept = named_by(faces);

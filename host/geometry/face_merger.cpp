@@ -27,7 +27,8 @@ bool is_convex(const std::vector<Vector> &points, const Polygon &polygon, const 
 {
   const size_t count = polygon.size();
   for (size_t i = 0; i < count; ++i) {
-    const Vector &before = points[polygon[(i + count - 1) % count]], &at = points[polygon[i]], &after = points[polygon[(i + 1) % count]];
+    const Vector &before = points[polygon[(i + count - 1) % count]], &at = points[polygon[i]],
+                 &after = points[polygon[(i + 1) % count]];
     if ((at - before).cross(after - at).dot(normal) < -tolerance * (after - before).norm()) return false;
   }
   return true;
@@ -53,7 +54,8 @@ public:
   {
     std::vector<Candidate> candidates = flattest_first();
     for (bool changed = true; changed;) {
-      const auto kept = std::remove_if(candidates.begin(), candidates.end(), [this](const Candidate &c) { return join(c.v0, c.v1); });
+      const auto kept =
+          std::remove_if(candidates.begin(), candidates.end(), [this](const Candidate &c) { return join(c.v0, c.v1); });
       changed = kept != candidates.end();
       candidates.erase(kept, candidates.end());
     }
@@ -71,7 +73,8 @@ private:
   void claim(uint32_t face)
   {
     const Polygon &polygon = faces_[face];
-    for (size_t i = 0; i < polygon.size(); ++i) face_left_of_[directed(polygon[i], polygon[(i + 1) % polygon.size()])] = face;
+    for (size_t i = 0; i < polygon.size(); ++i)
+      face_left_of_[directed(polygon[i], polygon[(i + 1) % polygon.size()])] = face;
   }
 
   std::vector<Candidate> flattest_first() const
@@ -105,7 +108,8 @@ private:
   bool acceptable(const Polygon &polygon) const
   {
     const Vector normal = newell_normal(points_, polygon).normalized();
-    if (!is_flat(points_, polygon, normal, tolerance_) || !is_convex(points_, polygon, normal, tolerance_)) return false;
+    if (!is_flat(points_, polygon, normal, tolerance_) || !is_convex(points_, polygon, normal, tolerance_))
+      return false;
     return std::unordered_set<uint32_t>(polygon.begin(), polygon.end()).size() == polygon.size();
   }
 
@@ -125,7 +129,10 @@ Vector newell_normal(const std::vector<Vector> &points, const Polygon &polygon)
   return sum;
 }
 
-void start_at_smallest(Polygon &polygon) { std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end()); }
+void start_at_smallest(Polygon &polygon)
+{
+  std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+}
 
 bool is_closed_surface(const std::vector<Polygon> &faces)
 {

@@ -6,7 +6,8 @@
  *      |/  |/  |        - stays convex: no corner lies deeper than the tolerance behind its neighbours,
  *      d---e---f        - still goes round once.
  *
- * So each polygon is right after every step, in whatever order edges come; only how few faces remain depends on the order.
+ * So each polygon is right after every step, in whatever order edges come; only how few faces remain depends on the
+ * order.
  */
 #pragma once
 

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <unordered_map>
+
+#include <fmt/format.h>
 
 namespace tandem {
 namespace {
@@ -35,8 +36,8 @@ std::vector<Vec3> scaled(std::span<const Vec3> points, const Vec3 &scale, const 
 {
   for (float factor : scale)
     if (!std::isfinite(factor) || factor == 0)
-      throw InputError(fmt::format("{}: scale is [{}, {}, {}]; three finite numbers other than zero are needed", where, scale[0], scale[1],
-                                   scale[2]));
+      throw InputError(fmt::format("{}: scale is [{}, {}, {}]; three finite numbers other than zero are needed", where,
+                                   scale[0], scale[1], scale[2]));
   std::vector<Vec3> result(points.begin(), points.end());
   for (Vec3 &p : result)
     for (size_t axis = 0; axis < 3; ++axis) p[axis] *= scale[axis];
@@ -61,8 +62,8 @@ void require_finite(std::span<const Vec3> points, const char *what, const std::s
   for (size_t i = 0; i < points.size(); ++i)
     for (float x : points[i])
       if (!std::isfinite(x))
-        throw InputError(fmt::format("{}: {} {} is [{}, {}, {}]; three finite numbers are needed", where, what, i, points[i][0], points[i][1],
-                                     points[i][2]));
+        throw InputError(fmt::format("{}: {} {} is [{}, {}, {}]; three finite numbers are needed", where, what, i,
+                                     points[i][0], points[i][1], points[i][2]));
 }
 
 void require_within_reach(std::span<const Vec3> points, const char *what, const std::string &where)

@@ -1,7 +1,8 @@
 /* geometry.h - what the preparation of shapes shares: a point in double, a box, and how bad input is refused.
  *
- * host/geometry turns what a user gives (points, triangles, sizes) into what the tables of shapes need, once, before the
- * simulation: hulls, masses, adjacency, hierarchies. Points come and go as the floats that kernels read; everything between is double.
+ * host/geometry turns what a user gives (points, triangles, sizes) into what the tables of shapes need, once, before
+ * the simulation: hulls, masses, adjacency, hierarchies. Points come and go as the floats that kernels read; everything
+ * between is double.
  *
  *   points ----> convex_hull ----+
  *                                +--> mass_properties --> mass, centre, principal axes
@@ -12,14 +13,13 @@
 
 #include <span>
 
-#include <tandem/scene.h>
-
 #include <tandem/round_to_float.h>
+#include <tandem/scene.h>
 
 namespace tandem {
 
 using Double3 = std::array<double, 3>;
-using Rotation = std::array<double, 4>;  /* x y z w, unit length */
+using Rotation = std::array<double, 4>;   /* x y z w, unit length */
 using Triangle = std::array<uint32_t, 3>; /* indices of vertices, counter-clockwise seen from outside */
 
 /* Axis-aligned: all x with lower <= x <= upper. */
@@ -31,8 +31,8 @@ struct Bounds {
 /* Of at least one point. */
 Bounds bounds_of(std::span<const Vec3> points);
 
-/* The points with their coordinates multiplied axis by axis. A negative factor mirrors: a hull of the points takes no notice,
- * triangles are inside out afterwards. Throws InputError where a factor is zero or not finite. */
+/* The points with their coordinates multiplied axis by axis. A negative factor mirrors: a hull of the points takes no
+ * notice, triangles are inside out afterwards. Throws InputError where a factor is zero or not finite. */
 std::vector<Vec3> scaled(std::span<const Vec3> points, const Vec3 &scale, const std::string &where);
 
 /* The points without repetitions, in the order of their first appearance. Negative zeros become zeros. */

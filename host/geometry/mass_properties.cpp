@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <numbers>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "host/geometry/rotation.h"
 
@@ -14,7 +15,10 @@ namespace {
 
 Matrix matrix_of(const SymmetricMatrix &m) { return {{{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}}}; }
 
-SymmetricMatrix symmetric(const Matrix &m) { return {m.at[0][0], m.at[1][1], m.at[2][2], m.at[0][1], m.at[0][2], m.at[1][2]}; }
+SymmetricMatrix symmetric(const Matrix &m)
+{
+  return {m.at[0][0], m.at[1][1], m.at[2][2], m.at[0][1], m.at[0][2], m.at[1][2]};
+}
 
 /* The inertia tensor of a point mass, and of a covariance (the integral of x x^T dm). */
 Matrix inertia_of_covariance(const Matrix &covariance)
@@ -24,10 +28,13 @@ Matrix inertia_of_covariance(const Matrix &covariance)
 }
 Matrix inertia_of_point(const Vector &at) { return inertia_of_covariance(Matrix::outer(at, at)); }
 
-/* A slice of a solid of revolution: y from `from` to `to` seen from `origin`; squared_radius is a polynomial of second degree. */
-template <class SquaredRadius> MassProperties slice(double origin, double from, double to, const SquaredRadius &squared_radius)
+/* A slice of a solid of revolution: y from `from` to `to` seen from `origin`; squared_radius is a polynomial of second
+ * degree. */
+template <class SquaredRadius>
+MassProperties slice(double origin, double from, double to, const SquaredRadius &squared_radius)
 {
-  /* Gauss-Legendre's three points are exact up to the fifth degree, the integrands are of the fourth, and none cancels. */
+  /* Gauss-Legendre's three points are exact up to the fifth degree, the integrands are of the fourth, and none
+   * cancels. */
   const double node = std::sqrt(0.6), middle = (from + to) / 2, half = (to - from) / 2;
   double mass = 0, first = 0, second = 0, across = 0;
   for (const auto &[place, weight] : {std::pair{-node, 5.0 / 9}, {0.0, 8.0 / 9}, {node, 5.0 / 9}}) {
@@ -103,7 +110,8 @@ Eigensystem eigensystem_of(Matrix m)
   std::array<int, 3> order{0, 1, 2};
   std::stable_sort(order.begin(), order.end(), [&](int i, int j) { return m.at[i][i] < m.at[j][j]; });
   const auto &[low, middle, high] = order;
-  return {{m.at[low][low], m.at[middle][middle], m.at[high][high]}, {axes.column(low), axes.column(middle), axes.column(high)}};
+  return {{m.at[low][low], m.at[middle][middle], m.at[high][high]},
+          {axes.column(low), axes.column(middle), axes.column(high)}};
 }
 
 /* Axes of the principal frame, of unit length. The best of the 24 ways to name them x y z, right-handed. */
@@ -128,7 +136,8 @@ Matrix turned_onto(const Vector &axis)
 {
   const double size[3] = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
   const int nearest = size[1] > size[0] ? (size[2] > size[1] ? 2 : 1) : (size[2] > size[0] ? 2 : 0);
-  const Vector from(nearest == 0, nearest == 1, nearest == 2), to = axis.dot(from) < 0 ? -axis : axis, about = from.cross(to);
+  const Vector from(nearest == 0, nearest == 1, nearest == 2), to = axis.dot(from) < 0 ? -axis : axis,
+                                                               about = from.cross(to);
   return rotation_matrix(unit(Rotation{about.x, about.y, about.z, 1 + from.dot(to)}));
 }
 
@@ -186,16 +195,19 @@ MassProperties polyhedron_mass(std::span<const Vec3> vertices, std::span<const T
   Vector first;
   Matrix second;
   for (const Triangle &t : triangles) {
-    const Vector a = vector_of(vertices[t[0]]) - origin, b = vector_of(vertices[t[1]]) - origin, c = vector_of(vertices[t[2]]) - origin;
+    const Vector a = vector_of(vertices[t[0]]) - origin, b = vector_of(vertices[t[1]]) - origin,
+                 c = vector_of(vertices[t[2]]) - origin;
     const Vector sum = a + b + c;
     const double part = a.dot(b.cross(c)) / 6;
     volume += part;
     first += part / 4 * sum;
-    second = second + part / 20 * (Matrix::outer(a, a) + Matrix::outer(b, b) + Matrix::outer(c, c) + Matrix::outer(sum, sum));
+    second = second +
+             part / 20 * (Matrix::outer(a, a) + Matrix::outer(b, b) + Matrix::outer(c, c) + Matrix::outer(sum, sum));
   }
   if (volume == 0) return {};
   const Vector center = first / volume;
-  return {volume, array_of(origin + center), symmetric(inertia_of_covariance(second) - volume * inertia_of_point(center))};
+  return {volume, array_of(origin + center),
+          symmetric(inertia_of_covariance(second) - volume * inertia_of_point(center))};
 }
 
 MassProperties hull_mass(const ConvexHull &hull)
@@ -209,12 +221,14 @@ MassProperties hull_mass(const ConvexHull &hull)
 MassProperties mesh_mass(const TriangleMesh &mesh, const std::string &where)
 {
   if (mesh.flat)
-    throw InputError(fmt::format("{}: a flat mesh of {} triangles has no volume; give the body mass and inertia, or make it fixed", where,
-                                 mesh.triangles.size()));
+    throw InputError(
+        fmt::format("{}: a flat mesh of {} triangles has no volume; give the body mass and inertia, or make it fixed",
+                    where, mesh.triangles.size()));
   const MassProperties result = polyhedron_mass(mesh.vertices, mesh.triangles);
   if (!(result.mass > 0))
-    throw InputError(fmt::format("{}: the volume of the mesh is {}, its triangles are inside out; turn them counter-clockwise seen from outside",
-                                 where, result.mass));
+    throw InputError(fmt::format(
+        "{}: the volume of the mesh is {}, its triangles are inside out; turn them counter-clockwise seen from outside",
+        where, result.mass));
   return result;
 }
 
@@ -226,7 +240,8 @@ MassProperties with_mass(const MassProperties &shape, double mass)
 MassProperties placed(const MassProperties &shape, const std::array<double, 4> &rotation, const Double3 &position)
 {
   const Matrix turn = rotation_matrix(rotation);
-  return {shape.mass, array_of(turn * vector_of(shape.center) + vector_of(position)), symmetric(turn * matrix_of(shape.inertia) * turn.transposed())};
+  return {shape.mass, array_of(turn * vector_of(shape.center) + vector_of(position)),
+          symmetric(turn * matrix_of(shape.inertia) * turn.transposed())};
 }
 
 MassProperties compound_mass(std::span<const MassProperties> parts)
@@ -246,7 +261,8 @@ MassProperties compound_mass(std::span<const MassProperties> parts)
 
 PrincipalAxes principal_axes(const SymmetricMatrix &inertia)
 {
-  const Matrix tensor = matrix_of(inertia), frame = least_turned_frame(tensor), diagonal = frame.transposed() * tensor * frame;
+  const Matrix tensor = matrix_of(inertia), frame = least_turned_frame(tensor),
+               diagonal = frame.transposed() * tensor * frame;
   return {{diagonal.at[0][0], diagonal.at[1][1], diagonal.at[2][2]}, rotation_of(frame)};
 }
 

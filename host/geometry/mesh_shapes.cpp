@@ -1,9 +1,12 @@
-/* mesh_shapes.cpp - shapes made of many parts: meshes, fields of heights as meshes, compounds. Declared in host/include/tandem/scene.h. */
+/* mesh_shapes.cpp - shapes made of many parts: meshes, fields of heights as meshes, compounds. Declared in
+ * host/include/tandem/scene.h. */
 #include <cmath>
+
 #include <fmt/format.h>
 
-#include "host/geometry/triangle_mesh.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/triangle_mesh.h"
 
 namespace tandem {
 namespace {
@@ -19,16 +22,23 @@ void add_cell(std::vector<uint32_t> &indices, uint32_t corner, uint32_t columns)
 
 Shape mesh_shape(std::span<const Vec3> vertices, std::span<const uint32_t> indices, const std::string &where)
 {
-  return {ShapeType::mesh, {0, 0, 0}, nullptr, std::make_shared<const TriangleMesh>(triangle_mesh(vertices, indices, where))};
+  return {ShapeType::mesh,
+          {0, 0, 0},
+          nullptr,
+          std::make_shared<const TriangleMesh>(triangle_mesh(vertices, indices, where))};
 }
 
-Shape height_field_shape(std::span<const float> heights, uint32_t columns, float spacing_x, float spacing_z, const std::string &where)
+Shape height_field_shape(std::span<const float> heights, uint32_t columns, float spacing_x, float spacing_z,
+                         const std::string &where)
 {
   const size_t rows = columns > 0 ? heights.size() / columns : 0;
   if (columns < 2 || rows < 2 || rows * columns != heights.size())
-    throw InputError(fmt::format("{}: {} heights in {} columns; at least 2 rows of at least 2 columns, all full, are needed", where, heights.size(), columns));
+    throw InputError(
+        fmt::format("{}: {} heights in {} columns; at least 2 rows of at least 2 columns, all full, are needed", where,
+                    heights.size(), columns));
   for (float spacing : {spacing_x, spacing_z})
-    if (!(spacing > 0) || !std::isfinite(spacing)) throw InputError(fmt::format("{}: the spacing is {}; a finite number above 0 is needed", where, spacing));
+    if (!(spacing > 0) || !std::isfinite(spacing))
+      throw InputError(fmt::format("{}: the spacing is {}; a finite number above 0 is needed", where, spacing));
   std::vector<Vec3> vertices;
   std::vector<uint32_t> indices;
   for (size_t i = 0; i < heights.size(); ++i) {
@@ -41,7 +51,11 @@ Shape height_field_shape(std::span<const float> heights, uint32_t columns, float
 
 Shape compound_shape(std::vector<Child> children)
 {
-  return {ShapeType::compound, {0, 0, 0}, nullptr, nullptr, std::make_shared<const Compound>(Compound{std::move(children)})};
+  return {ShapeType::compound,
+          {0, 0, 0},
+          nullptr,
+          nullptr,
+          std::make_shared<const Compound>(Compound{std::move(children)})};
 }
 
 } // namespace tandem

@@ -21,8 +21,8 @@ Vector normal_of_farthest(std::span<const Vec3> corners)
   return across;
 }
 
-/* Twice the area with its direction (Newell), which also serves corners that are not quite in one plane. The two halves of a polygon that
- * crosses itself may cancel. */
+/* Twice the area with its direction (Newell), which also serves corners that are not quite in one plane. The two halves
+ * of a polygon that crosses itself may cancel. */
 Vector normal_of(std::span<const Vec3> corners)
 {
   constexpr double cancelled = 1e-3; /* of the triangle of the farthest corners */

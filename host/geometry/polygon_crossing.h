@@ -1,8 +1,8 @@
-/* polygon_crossing.h - does a polygon in space cross itself? Such a one has no inside, and whatever cuts it into triangles makes
- * a surface of them that nobody meant.
+/* polygon_crossing.h - does a polygon in space cross itself? Such a one has no inside, and whatever cuts it into
+ * triangles makes a surface of them that nobody meant.
  *
- * It is judged in its own plane, as seen along the axis nearest to the normal: dropping a coordinate rounds nothing. Sides that
- * only touch (a hole that a bridge joins to the outline) do not cross.
+ * It is judged in its own plane, as seen along the axis nearest to the normal: dropping a coordinate rounds nothing.
+ * Sides that only touch (a hole that a bridge joins to the outline) do not cross.
  */
 #pragma once
 

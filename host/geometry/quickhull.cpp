@@ -1,4 +1,5 @@
-/* quickhull.cpp - see quickhull.h. Orders are fixed: of equally far points the one that was given first, faces as they were made. */
+/* quickhull.cpp - see quickhull.h. Orders are fixed: of equally far points the one that was given first, faces as they
+ * were made. */
 #include "host/geometry/quickhull.h"
 
 #include <algorithm>
@@ -32,8 +33,14 @@ struct Plane {
   }
 
   /* Times the normal's length. */
-  Wide height(const Place &p) const { return normal[0] * (p[0] - base[0]) + normal[1] * (p[1] - base[1]) + normal[2] * (p[2] - base[2]); }
-  Vector vector() const { return {static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])}; }
+  Wide height(const Place &p) const
+  {
+    return normal[0] * (p[0] - base[0]) + normal[1] * (p[1] - base[1]) + normal[2] * (p[2] - base[2]);
+  }
+  Vector vector() const
+  {
+    return {static_cast<double>(normal[0]), static_cast<double>(normal[1]), static_cast<double>(normal[2])};
+  }
 };
 
 struct Face {
@@ -83,7 +90,8 @@ private:
     if (places_.size() < 4) return false;
     const auto away = [&](uint32_t from, const Place &p) {
       const Place &a = places_[from];
-      return Vector(static_cast<double>(p[0] - a[0]), static_cast<double>(p[1] - a[1]), static_cast<double>(p[2] - a[2]));
+      return Vector(static_cast<double>(p[0] - a[0]), static_cast<double>(p[1] - a[1]),
+                    static_cast<double>(p[2] - a[2]));
     };
     const uint32_t a = largest([](const Place &p) { return p; });
     const uint32_t b = largest([&](const Place &p) { return away(a, p).squared_norm(); });
@@ -117,7 +125,10 @@ private:
   }
 
   /* From the face's plane, in units of the grid: rounded, and positive exactly where the point is above. */
-  double distance(const Face &face, uint32_t point) const { return static_cast<double>(face.plane.height(places_[point])) / face.normal_length; }
+  double distance(const Face &face, uint32_t point) const
+  {
+    return static_cast<double>(face.plane.height(places_[point])) / face.normal_length;
+  }
 
   /* Each goes to the first face since `first` that it is above; what is above none is done with. */
   void share_out(const std::vector<uint32_t> &points, size_t first)
@@ -200,6 +211,9 @@ Vector on_hull_grid(const Vector &point)
   return Vector(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])) * hull_grid;
 }
 
-std::vector<Polygon> hull_triangles(const std::vector<Vector> &points, double within) { return Quickhull(points, within).run(); }
+std::vector<Polygon> hull_triangles(const std::vector<Vector> &points, double within)
+{
+  return Quickhull(points, within).run();
+}
 
 } // namespace tandem

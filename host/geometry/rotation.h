@@ -34,7 +34,8 @@ inline Matrix rotation_matrix(const Rotation &q)
            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 
-/* Of a rotation matrix, with w >= 0; the largest component is computed first, so that nothing is divided by a small number. */
+/* Of a rotation matrix, with w >= 0; the largest component is computed first, so that nothing is divided by a small
+ * number. */
 Rotation rotation_of(const Matrix &m);
 
 } // namespace tandem

@@ -5,13 +5,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "host/geometry/rotation.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/rotation.h"
 
 namespace tandem {
 namespace {
 
-/* Of a shape's size: centres nearer to its origin, and turns smaller than principal_tolerance, are roundings of its floats. */
+/* Of a shape's size: centres nearer to its origin, and turns smaller than principal_tolerance, are roundings of its
+ * floats. */
 constexpr double center_rounding = 0x1p-24;
 /* Of the largest moment: mistakes, not roundings, and quaternions written with four digits. */
 constexpr double axes_tolerance = 1e-3;
@@ -51,7 +53,8 @@ MassProperties mass_of_children(const Compound &compound)
   std::vector<MassProperties> parts;
   for (const Child &child : compound.children) {
     const MassProperties own = mass_properties_of(child.shape);
-    parts.push_back(placed(with_mass(own, own.mass * child.density), widened(child.orientation), widened(child.position)));
+    parts.push_back(
+        placed(with_mass(own, own.mass * child.density), widened(child.orientation), widened(child.position)));
   }
   return compound_mass(parts);
 }
@@ -91,7 +94,9 @@ MassProperties mass_properties_of(const Shape &shape)
 bool has_volume(const Shape &shape)
 {
   if (shape.type == ShapeType::half_space) return false;
-  if (shape.compound) return std::all_of(shape.compound->children.begin(), shape.compound->children.end(), [](const Child &child) { return has_volume(child.shape); });
+  if (shape.compound)
+    return std::all_of(shape.compound->children.begin(), shape.compound->children.end(),
+                       [](const Child &child) { return has_volume(child.shape); });
   return !shape.mesh || (!shape.mesh->flat && polyhedron_mass(shape.mesh->vertices, shape.mesh->triangles).mass > 0);
 }
 
@@ -103,7 +108,8 @@ PrincipalFrame principal_frame_of(const Shape &shape)
   const double rounding = center_rounding * largest_of(shape);
   const auto &[x, y, z] = frame.center;
   if (std::max({std::abs(x), std::abs(y), std::abs(z)}) <= rounding) frame.center = {};
-  if (Vector(axes.rotation[0], axes.rotation[1], axes.rotation[2]).norm() <= principal_tolerance) frame.rotation = {0, 0, 0, 1};
+  if (Vector(axes.rotation[0], axes.rotation[1], axes.rotation[2]).norm() <= principal_tolerance)
+    frame.rotation = {0, 0, 0, 1};
   return frame;
 }
 
@@ -136,7 +142,8 @@ void move_frame(Body &body, const Double3 &position, const Rotation &orientation
   body.orientation = without_residue(unit(orientation));
   const Rotation rotation = widened(body.orientation);
   body.shape_orientation = without_residue(product_of(inverse(rotation), unit(place.orientation)));
-  body.shape_position = without_residue(array_of(turn(inverse(rotation), vector_of(place.position) - vector_of(position))));
+  body.shape_position =
+      without_residue(array_of(turn(inverse(rotation), vector_of(place.position) - vector_of(position))));
   body.position = array_of(vector_of(place.position) - turn(rotation, vector_of(body.shape_position)));
 }
 
@@ -144,7 +151,8 @@ bool has_principal_axes(const Body &body, const Shape &shape)
 {
   const PrincipalFrame frame = principal_frame_of(shape);
   const auto &[x, y, z] = frame.moments;
-  const Matrix axes = rotation_matrix(product(widened(body.shape_orientation), frame.rotation)), expected = Matrix::diagonal(x, y, z);
+  const Matrix axes = rotation_matrix(product(widened(body.shape_orientation), frame.rotation)),
+               expected = Matrix::diagonal(x, y, z);
   const Matrix difference = axes * expected * axes.transposed() - expected;
   double largest = 0;
   for (const auto &row : difference.at)
@@ -161,7 +169,9 @@ Vec3 inertia_of(const Shape &shape, float mass)
     const float moment = round_to_float(0.4 * m * x * x);
     return {moment, moment, moment};
   }
-  case ShapeType::box: return {round_to_float(m / 3 * (y * y + z * z)), round_to_float(m / 3 * (x * x + z * z)), round_to_float(m / 3 * (x * x + y * y))};
+  case ShapeType::box:
+    return {round_to_float(m / 3 * (y * y + z * z)), round_to_float(m / 3 * (x * x + z * z)),
+            round_to_float(m / 3 * (x * x + y * y))};
   default: break;
   }
   const PrincipalFrame frame = principal_frame_of(shape);
@@ -176,7 +186,8 @@ void take_mass_properties(const Scene &scene, Body &body)
   if (shape.type == ShapeType::half_space) return;
   const PrincipalFrame frame = principal_frame_of(shape);
   const Body untouched;
-  const bool own = body.shape_position == untouched.shape_position && body.shape_orientation == untouched.shape_orientation;
+  const bool own =
+      body.shape_position == untouched.shape_position && body.shape_orientation == untouched.shape_orientation;
   if (own && frame.center == Double3{} && frame.rotation == Rotation{0, 0, 0, 1}) return;
   const ShapePlace place = place_of_shape(body);
   const Vector center = vector_of(place.position) + vector_of(turned(place.orientation, frame.center));

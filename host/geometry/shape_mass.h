@@ -1,8 +1,8 @@
 /* shape_mass.h - from a shape of a scene to the mass properties of its body.
  *
- * A body's frame has its origin at the centre of mass and its axes along the principal axes of inertia: then the tensor is three
- * numbers, and the equations of motion need no others. A shape has a frame of its own (the one its sizes or vertices are given
- * in), and the two differ for tapered and for irregular shapes:
+ * A body's frame has its origin at the centre of mass and its axes along the principal axes of inertia: then the tensor
+ * is three numbers, and the equations of motion need no others. A shape has a frame of its own (the one its sizes or
+ * vertices are given in), and the two differ for tapered and for irregular shapes:
  *
  *        y ^        world ---- position, orientation ----> body ---- shape_position, shape_orientation ----> shape
  *         /|\
@@ -18,14 +18,15 @@
 
 namespace tandem {
 
-/* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh without volume. */
+/* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh
+ * without volume. */
 MassProperties mass_properties_of(const Shape &shape);
 
 /* False for half-spaces, and meshes that are flat or inside out. */
 bool has_volume(const Shape &shape);
 
-/* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1. Where it
- * differs from the shape's own by no more than roundings, it is the shape's own. */
+/* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1.
+ * Where it differs from the shape's own by no more than roundings, it is the shape's own. */
 struct PrincipalFrame {
   double mass = 0;
   Double3 center{};
@@ -50,7 +51,8 @@ std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &positi
 /* Moves the body's frame and leaves the shape where it is. */
 void move_frame(Body &body, const Double3 &position, const Rotation &orientation);
 
-/* False where the moments of inertia_of, taken about the body's axes, are not those of the shape as it stands in the body. */
+/* False where the moments of inertia_of, taken about the body's axes, are not those of the shape as it stands in the
+ * body. */
 bool has_principal_axes(const Body &body, const Shape &shape);
 
 /* b first, then a. */

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/vector.h"
@@ -147,7 +148,8 @@ void add_shared_edge(TriangleMesh &mesh, const Side &left, const Side &right)
   const Vector along = (vector_of(mesh.vertices[left.high]) - vector_of(mesh.vertices[left.low])).normalized();
   mesh.neighbours[left.triangle][left.corner] = right.triangle;
   mesh.neighbours[right.triangle][right.corner] = left.triangle;
-  mesh.triangle_edges[left.triangle][left.corner] = mesh.triangle_edges[right.triangle][right.corner] = uint32_t(mesh.edges.size());
+  mesh.triangle_edges[left.triangle][left.corner] = mesh.triangle_edges[right.triangle][right.corner] =
+      uint32_t(mesh.edges.size());
   mesh.edges.push_back({left.low, left.high, left.triangle, right.triangle, kind_of(left_normal, right_normal, along),
                         std::clamp(left_normal.dot(right_normal), -1.0, 1.0)});
 }
@@ -155,8 +157,8 @@ void add_shared_edge(TriangleMesh &mesh, const Side &left, const Side &right)
 void add_boundary(TriangleMesh &mesh, const Side &side)
 {
   mesh.triangle_edges[side.triangle][side.corner] = uint32_t(mesh.edges.size());
-  mesh.edges.push_back({side.low, side.high, side.upward ? side.triangle : no_triangle, side.upward ? no_triangle : side.triangle,
-                        EdgeKind::boundary, 1.0});
+  mesh.edges.push_back({side.low, side.high, side.upward ? side.triangle : no_triangle,
+                        side.upward ? no_triangle : side.triangle, EdgeKind::boundary, 1.0});
 }
 
 void find_adjacency(TriangleMesh &mesh)
@@ -164,7 +166,8 @@ void find_adjacency(TriangleMesh &mesh)
   mesh.neighbours.assign(mesh.triangles.size(), {no_triangle, no_triangle, no_triangle});
   mesh.triangle_edges.assign(mesh.triangles.size(), {});
   for_each_edge(sides_of(mesh.triangles), [&](std::span<const Side> sides) {
-    if (sides.size() == 2 && sides[0].upward != sides[1].upward) add_shared_edge(mesh, sides[1], sides[0]); /* downward sorts first */
+    if (sides.size() == 2 && sides[0].upward != sides[1].upward)
+      add_shared_edge(mesh, sides[1], sides[0]); /* downward sorts first */
     else
       for (const Side &side : sides) add_boundary(mesh, side);
   });
@@ -189,24 +192,28 @@ void check_indices(size_t vertices, std::span<const Triangle> triangles, const s
   for (size_t t = 0; t < triangles.size(); ++t)
     for (uint32_t index : triangles[t])
       if (index >= vertices)
-        throw InputError(fmt::format("{}: triangle {} names vertex {}, but there are {} (0 is the first)", where, t, index, vertices));
+        throw InputError(fmt::format("{}: triangle {} names vertex {}, but there are {} (0 is the first)", where, t,
+                                     index, vertices));
 }
 
 } // namespace
 
-TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles, const std::string &where)
+TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                           const std::string &where)
 {
   require_within_reach(vertices, "vertex", where);
   check_indices(vertices.size(), triangles, where);
   DistinctPoints welded = distinct(vertices);
   TriangleMesh mesh;
-  for (const Triangle &t : triangles) mesh.triangles.push_back({welded.index[t[0]], welded.index[t[1]], welded.index[t[2]]});
+  for (const Triangle &t : triangles)
+    mesh.triangles.push_back({welded.index[t[0]], welded.index[t[1]], welded.index[t[2]]});
   mesh.vertices = std::move(welded.points);
   mesh.findings.welded_vertices = uint32_t(vertices.size() - mesh.vertices.size());
   mesh.triangles = without_duplicates(mesh.triangles);
   mesh.findings.duplicate_triangles = uint32_t(triangles.size() - mesh.triangles.size());
   count_edges(mesh.triangles, mesh.findings);
-  mesh.findings.degenerate_triangles = uint32_t(std::erase_if(mesh.triangles, [&](const Triangle &t) { return is_degenerate(mesh.vertices, t); }));
+  mesh.findings.degenerate_triangles =
+      uint32_t(std::erase_if(mesh.triangles, [&](const Triangle &t) { return is_degenerate(mesh.vertices, t); }));
   if (mesh.triangles.empty())
     throw InputError(
         fmt::format("{}: all {} triangles of the mesh have no area that floats can tell", where, triangles.size()));
@@ -219,7 +226,8 @@ TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Trian
 
 TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const uint32_t> indices, const std::string &where)
 {
-  if (indices.size() % 3 != 0) throw InputError(fmt::format("{}: {} indices are no whole number of triangles", where, indices.size()));
+  if (indices.size() % 3 != 0)
+    throw InputError(fmt::format("{}: {} indices are no whole number of triangles", where, indices.size()));
   std::vector<Triangle> triangles;
   for (size_t i = 0; i < indices.size(); i += 3) triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
   return triangle_mesh(vertices, triangles, where);
@@ -229,11 +237,13 @@ std::string volume_warning(const TriangleMesh &mesh)
 {
   const MeshFindings &found = mesh.findings;
   if (found.boundary_edges > 0)
-    return fmt::format("open mesh: {} boundary edges; its mass is that of the mesh closed by cones to the centre of its vertices",
-                       found.boundary_edges);
+    return fmt::format(
+        "open mesh: {} boundary edges; its mass is that of the mesh closed by cones to the centre of its vertices",
+        found.boundary_edges);
   if (found.misoriented_edges > 0)
-    return fmt::format("badly wound mesh: {} edges whose triangles face opposite ways; its volume counts some parts as hollow",
-                       found.misoriented_edges);
+    return fmt::format(
+        "badly wound mesh: {} edges whose triangles face opposite ways; its volume counts some parts as hollow",
+        found.misoriented_edges);
   if (found.non_manifold_edges > 0)
     return fmt::format("branching mesh: {} edges of more than two triangles; its volume counts where it overlaps twice",
                        found.non_manifold_edges);
@@ -243,9 +253,11 @@ std::string volume_warning(const TriangleMesh &mesh)
 std::string cleaning_note(const TriangleMesh &mesh)
 {
   const MeshFindings &found = mesh.findings;
-  if (found.welded_vertices + found.unused_vertices + found.duplicate_triangles + found.degenerate_triangles == 0) return "";
-  return fmt::format("mesh: {} repeated and {} unused vertices, {} repeated triangles and {} without area left out", found.welded_vertices,
-                     found.unused_vertices, found.duplicate_triangles, found.degenerate_triangles);
+  if (found.welded_vertices + found.unused_vertices + found.duplicate_triangles + found.degenerate_triangles == 0)
+    return "";
+  return fmt::format("mesh: {} repeated and {} unused vertices, {} repeated triangles and {} without area left out",
+                     found.welded_vertices, found.unused_vertices, found.duplicate_triangles,
+                     found.degenerate_triangles);
 }
 
 std::vector<Triangle> turned_round(std::span<const Triangle> triangles)

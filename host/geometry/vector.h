@@ -1,7 +1,8 @@
 /* vector.h - vectors and matrices in double, whose every operation rounds in an order that stands here.
  *
- * A library of linear algebra chooses the order of a sum, and whether products are fused with it, by the processor and the
- * options of whoever compiles its headers; hulls and masses must be the same numbers everywhere. (docs/exactness.md)
+ * A library of linear algebra chooses the order of a sum, and whether products are fused with it, by the processor and
+ * the options of whoever compiles its headers; hulls and masses must be the same numbers everywhere.
+ * (docs/exactness.md)
  */
 #pragma once
 
@@ -47,7 +48,10 @@ struct Matrix {
   double at[3][3] = {};
 
   static Matrix diagonal(double x, double y, double z) { return {{{x, 0, 0}, {0, y, 0}, {0, 0, z}}}; }
-  static Matrix of_columns(const Vector &a, const Vector &b, const Vector &c) { return {{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}}}; }
+  static Matrix of_columns(const Vector &a, const Vector &b, const Vector &c)
+  {
+    return {{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}}};
+  }
   static Matrix outer(const Vector &a, const Vector &b) { return of_columns(a * b.x, a * b.y, a * b.z); }
 
   Vector row(int i) const { return {at[i][0], at[i][1], at[i][2]}; }
@@ -61,9 +65,18 @@ inline Matrix operator+(const Matrix &a, const Matrix &b)
 {
   return Matrix::of_columns(a.column(0) + b.column(0), a.column(1) + b.column(1), a.column(2) + b.column(2));
 }
-inline Matrix operator*(double s, const Matrix &a) { return Matrix::of_columns(s * a.column(0), s * a.column(1), s * a.column(2)); }
+inline Matrix operator*(double s, const Matrix &a)
+{
+  return Matrix::of_columns(s * a.column(0), s * a.column(1), s * a.column(2));
+}
 inline Matrix operator-(const Matrix &a, const Matrix &b) { return a + -1 * b; }
-inline Vector operator*(const Matrix &a, const Vector &v) { return {a.row(0).dot(v), a.row(1).dot(v), a.row(2).dot(v)}; }
-inline Matrix operator*(const Matrix &a, const Matrix &b) { return Matrix::of_columns(a * b.column(0), a * b.column(1), a * b.column(2)); }
+inline Vector operator*(const Matrix &a, const Vector &v)
+{
+  return {a.row(0).dot(v), a.row(1).dot(v), a.row(2).dot(v)};
+}
+inline Matrix operator*(const Matrix &a, const Matrix &b)
+{
+  return Matrix::of_columns(a * b.column(0), a * b.column(1), a * b.column(2));
+}
 
 } // namespace tandem

@@ -5,14 +5,9 @@
  *
  *   | meshes: positions, normals, indices | times | body: translations, rotations | next body … |
  *
- * A body whose shape has a pose of its own in it has two nodes: the one that moves, and below it one that has the mesh.
- */
+ * A body whose shape has a pose of its own in it has two nodes: the one that moves, and below it one that has the
+ * mesh. */
 #include "host/io/animation.h"
-
-#include "host/io/animation_geometry.h"
-#include "host/io/output_file.h"
-#include "host/geometry/geometry.h"
-#include <tandem/round_to_float.h>
 
 #include <algorithm>
 #include <array>
@@ -20,11 +15,18 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <tandem/round_to_float.h>
+
+#include "host/geometry/geometry.h"
+#include "host/io/animation_geometry.h"
+#include "host/io/output_file.h"
 
 namespace tandem {
 struct FramePose {
@@ -74,7 +76,8 @@ namespace {
 
 constexpr uint64_t most_bytes = 0xffffffffu; /* GLB lengths are 32 bits wide */
 constexpr uint64_t block_bytes = 64u << 20;  /* memory for turning frames into bodies */
-constexpr uint32_t float_type = 5126, uint16_type = 5123, uint32_type = 5125, vertex_target = 34962, index_target = 34963;
+constexpr uint32_t float_type = 5126, uint16_type = 5123, uint32_type = 5125, vertex_target = 34962,
+                   index_target = 34963;
 
 bool finite(const Vec3 &p, const Quat &q)
 {
@@ -86,7 +89,8 @@ Quat normalized(const Quat &q)
 {
   double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (!(length > 0)) return {0, 0, 0, 1};
-  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length), round_to_float(q[3] / length)};
+  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length),
+          round_to_float(q[3] / length)};
 }
 
 std::string text(std::span<const float> values) { return fmt::format("[{}]", fmt::join(values, ",")); }
@@ -126,7 +130,8 @@ using MeshKey = std::tuple<ShapeType, Vec3, const ConvexHull *>;
 MeshKey mesh_key(const Shape &shape)
 {
   const bool size_matters = !has_unit_mesh(shape.type) && shape.type != ShapeType::hull;
-  return {shape.type, size_matters ? shape.size : Vec3{0, 0, 0}, shape.type == ShapeType::hull ? shape.hull.get() : nullptr};
+  return {shape.type, size_matters ? shape.size : Vec3{0, 0, 0},
+          shape.type == ShapeType::hull ? shape.hull.get() : nullptr};
 }
 
 /* Vertices that 16 bits can number; most meshes are that small. 0xffff itself is no index in glTF. */
@@ -186,7 +191,10 @@ Vec3 scale_of(const Shape &shape, float reach)
   return has_unit_mesh(shape.type) ? shape.size : Vec3{1, 1, 1};
 }
 
-bool same_pose(const FramePose &a, const FramePose &b) { return a.position == b.position && a.orientation == b.orientation; }
+bool same_pose(const FramePose &a, const FramePose &b)
+{
+  return a.position == b.position && a.orientation == b.orientation;
+}
 
 uint32_t color_of(const Scene &scene, size_t index)
 {
@@ -209,7 +217,10 @@ void collect_bodies(const Scene &scene, Recording &r)
     ColoredMesh mesh{shape, color_of(scene, i)};
     auto [at, added] = known.emplace(std::pair{mesh_key(shape), mesh.color}, uint32_t(r.meshes.size()));
     if (added) r.meshes.push_back(mesh);
-    r.bodies.push_back({body.name, {rounded(body.position), normalized(body.orientation)}, scale_of(shape, reach), at->second,
+    r.bodies.push_back({body.name,
+                        {rounded(body.position), normalized(body.orientation)},
+                        scale_of(shape, reach),
+                        at->second,
                         {body.shape_position, normalized(body.shape_orientation)}});
     if (body.motion == Motion::fixed) continue;
     r.moving.push_back(uint32_t(i));
@@ -268,8 +279,8 @@ void write_nodes(JsonStream &json, const Recording &r)
   }
   for (size_t i : posed) {
     const RecordedBody &body = r.bodies[i];
-    json.item(fmt::format(R"({{"mesh":{},"translation":{},"rotation":{},"scale":{}}})", body.mesh, text(body.shape.position),
-                          text(body.shape.orientation), text(body.scale)));
+    json.item(fmt::format(R"({{"mesh":{},"translation":{},"rotation":{},"scale":{}}})", body.mesh,
+                          text(body.shape.position), text(body.shape.orientation), text(body.scale)));
   }
   json.raw("]");
 }
@@ -313,7 +324,8 @@ void write_accessors(JsonStream &json, const Recording &r, const Layout &layout)
     json.item(vec3_accessor(3 * at, mesh.positions, true));
     json.item(vec3_accessor(3 * at + 1, mesh.normals, false));
     json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR"}})", 3 * at + 2,
-                          mesh.positions.size() > most_short_vertices ? uint32_type : uint16_type, mesh.indices.size()));
+                          mesh.positions.size() > most_short_vertices ? uint32_type : uint16_type,
+                          mesh.indices.size()));
   }
   if (!layout.animated.empty())
     json.item(fmt::format(R"({{"bufferView":{},"componentType":{},"count":{},"type":"SCALAR","min":[{}],"max":[{}]}})",
@@ -395,7 +407,8 @@ void read_row(const Recording &r, size_t frame, size_t low, std::vector<FramePos
 void write_poses(Recording &r, const Layout &layout)
 {
   const std::vector<uint32_t> &animated = layout.animated;
-  const size_t frames = r.times.size(), per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(FramePose))));
+  const size_t frames = r.times.size(),
+               per_block = std::max<size_t>(1, size_t(block_bytes / (frames * sizeof(FramePose))));
   for (size_t begin = 0; begin < animated.size(); begin += per_block) {
     size_t bodies = std::min(per_block, animated.size() - begin), low = animated[begin];
     std::vector<FramePose> row(animated[begin + bodies - 1] - low + 1);
@@ -467,7 +480,8 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
     if (!same_pose(r.last[k], r.bodies[body].rest)) r.moved[k] = true;
   }
   errno = 0;
-  if (std::fwrite(r.last.data(), sizeof(FramePose), r.last.size(), r.spool.get()) != r.last.size()) r.fail("cannot write the frames that wait for the end");
+  if (std::fwrite(r.last.data(), sizeof(FramePose), r.last.size(), r.spool.get()) != r.last.size())
+    r.fail("cannot write the frames that wait for the end");
 }
 
 void AnimationWriter::finish()

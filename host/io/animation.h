@@ -2,19 +2,19 @@
  *
  * One node per body; one keyframe per recorded step for each body that moved. The result is body by
  * body in the file while the simulation delivers frame by frame, so frames wait in a file beside the
- * target, in one without a name, until finish() turns them over block by block; memory stays at a few tens of bytes a body,
- * however long the recording.
+ * target, in one without a name, until finish() turns them over block by block; memory stays at a few tens of bytes a
+ * body, however long the recording.
  *
  *   add_frame: |b0 b1 b2 …|b0 b1 b2 …|   ->   finish: | b0: t t t …, q q q … | b1: … |
  *                 frame 0     frame 1
  */
 #pragma once
 
-#include <tandem/scene.h>
-
 #include <memory>
 #include <span>
 #include <string>
+
+#include <tandem/scene.h>
 
 namespace tandem {
 
@@ -22,7 +22,8 @@ struct Recording; /* what is kept until finish(); animation.cpp */
 
 class AnimationWriter {
 public:
-  /* `path` must end in .glb; a place that cannot be written throws InputError before the simulation runs. Of the frames added, every `stride`-th is kept, from the first on. */
+  /* `path` must end in .glb; a place that cannot be written throws InputError before the simulation runs. Of the frames
+   * added, every `stride`-th is kept, from the first on. */
   AnimationWriter(const Scene &scene, const std::string &path, uint32_t stride = 1);
   /* Without finish(), what stood at `path` stands there still. */
   ~AnimationWriter();

@@ -1,17 +1,19 @@
 /* animation_geometry.cpp - see animation_geometry.h. */
 #include "host/io/animation_geometry.h"
 
-#include "host/geometry/convex_hull.h"
-#include "host/geometry/shape_mass.h"
-#include <tandem/round_to_float.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <tandem/round_to_float.h>
+
+#include "host/geometry/convex_hull.h"
+#include "host/geometry/shape_mass.h"
 
 namespace tandem {
 namespace {
 
-/* Half extents of a unit mesh. Normals of stretched balls and boxes stay as they are: their sizes are alike, or their faces square. */
+/* Half extents of a unit mesh. Normals of stretched balls and boxes stay as they are: their sizes are alike, or their
+ * faces square. */
 void stretch(DisplayMesh &mesh, const Vec3 &size)
 {
   for (Vec3 &p : mesh.positions)
@@ -25,7 +27,8 @@ Vec3 unit_normal(const Vec3 &a, const Vec3 &b, const Vec3 &c)
     u[k] = double(b[k]) - a[k];
     v[k] = double(c[k]) - a[k];
   }
-  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0], length = std::hypot(x, y, z);
+  const double x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0],
+               length = std::hypot(x, y, z);
   return {round_to_float(x / length), round_to_float(y / length), round_to_float(z / length)};
 }
 
@@ -89,7 +92,8 @@ DisplayMesh sphere_mesh()
 /* --- solids of revolution ------------------------------------------------------------------------
  *
  *   y ^  _          Rings along the profile from the top down, each with the normal there: (across, along Y).
- *     | / \         A ring of radius 0 is a pole. Where the profile has a corner, as a cylinder at its rim, a ring stands
+ *     | / \         A ring of radius 0 is a pole. Where the profile has a corner, as a cylinder at its rim, a ring
+ * stands
  *     ||   |        twice, with a normal each, and nothing is drawn between the two.
  *     | \_/
  */
@@ -104,16 +108,20 @@ DisplayMesh revolved(const std::vector<Ring> &rings)
   for (const Ring &ring : rings)
     for (int segment = 0; segment <= segments; ++segment) {
       const double azimuth = 2 * pi * segment / segments, x = std::cos(azimuth), z = std::sin(azimuth);
-      mesh.positions.push_back({round_to_float(ring.radius * x), round_to_float(ring.y), round_to_float(ring.radius * z)});
-      mesh.normals.push_back({round_to_float(ring.across * x), round_to_float(ring.along), round_to_float(ring.across * z)});
+      mesh.positions.push_back(
+          {round_to_float(ring.radius * x), round_to_float(ring.y), round_to_float(ring.radius * z)});
+      mesh.normals.push_back(
+          {round_to_float(ring.across * x), round_to_float(ring.along), round_to_float(ring.across * z)});
     }
   const auto vertex = [](size_t ring, int segment) { return uint32_t(ring * (segments + 1) + size_t(segment)); };
   for (size_t ring = 0; ring + 1 < rings.size(); ++ring) {
     const Ring &upper = rings[ring], &lower = rings[ring + 1];
     if (upper.radius == lower.radius && upper.y == lower.y) continue;
     for (int s = 0; s < segments; ++s) {
-      if (upper.radius > 0) mesh.indices.insert(mesh.indices.end(), {vertex(ring, s), vertex(ring, s + 1), vertex(ring + 1, s)});
-      if (lower.radius > 0) mesh.indices.insert(mesh.indices.end(), {vertex(ring, s + 1), vertex(ring + 1, s + 1), vertex(ring + 1, s)});
+      if (upper.radius > 0)
+        mesh.indices.insert(mesh.indices.end(), {vertex(ring, s), vertex(ring, s + 1), vertex(ring + 1, s)});
+      if (lower.radius > 0)
+        mesh.indices.insert(mesh.indices.end(), {vertex(ring, s + 1), vertex(ring + 1, s + 1), vertex(ring + 1, s)});
     }
   }
   return mesh;
@@ -135,7 +143,8 @@ void append_cap(std::vector<Ring> &rings, double radius, double y, double from, 
 {
   const int steps = std::max(1, int(std::ceil((to - from) / (pi / 12) - 1e-9)));
   for (int step = 0; step <= steps; ++step) {
-    const double polar = from + (to - from) * step / steps, across = polar == 0 || polar == pi ? 0 : std::sin(polar), along = std::cos(polar);
+    const double polar = from + (to - from) * step / steps, across = polar == 0 || polar == pi ? 0 : std::sin(polar),
+                 along = std::cos(polar);
     rings.push_back({radius * across, y + radius * along, across, along});
   }
 }
@@ -161,7 +170,8 @@ DisplayMesh hull_mesh(const ConvexHull &hull)
       mesh.positions.push_back(hull.vertices[corner]);
       mesh.normals.push_back({round_to_float(n[0]), round_to_float(n[1]), round_to_float(n[2])});
     }
-    for (uint32_t i = 2; i < hull.faces[face].size(); ++i) mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
+    for (uint32_t i = 2; i < hull.faces[face].size(); ++i)
+      mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
   }
   return mesh;
 }
@@ -209,7 +219,10 @@ DisplayMesh half_space_mesh()
 
 } // namespace
 
-bool has_unit_mesh(ShapeType type) { return type == ShapeType::sphere || type == ShapeType::box || type == ShapeType::half_space; }
+bool has_unit_mesh(ShapeType type)
+{
+  return type == ShapeType::sphere || type == ShapeType::box || type == ShapeType::half_space;
+}
 
 DisplayMesh display_mesh(const Shape &shape)
 {

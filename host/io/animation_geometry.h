@@ -1,11 +1,12 @@
-/* animation_geometry.h - triangle meshes of the shapes, and the colours, for host/io/animation.cpp; outlines for pictures. */
+/* animation_geometry.h - triangle meshes of the shapes, and the colours, for host/io/animation.cpp; outlines for
+ * pictures. */
 #pragma once
-
-#include <tandem/scene.h>
 
 #include <array>
 #include <cstdint>
 #include <vector>
+
+#include <tandem/scene.h>
 
 namespace tandem {
 
@@ -17,8 +18,8 @@ struct DisplayMesh {
 /* Spheres, boxes and half-spaces are all one mesh, stretched; the others have one for each shape. */
 bool has_unit_mesh(ShapeType type);
 
-/* Of those: half extent or radius 1; the half space is a quad of half extent 1 in y = 0 that faces +Y. Of the others, the shape
- * itself in its own frame: round ones with corners on their surface, hulls with flat faces. */
+/* Of those: half extent or radius 1; the half space is a quad of half extent 1 in y = 0 that faces +Y. Of the others,
+ * the shape itself in its own frame: round ones with corners on their surface, hulls with flat faces. */
 DisplayMesh display_mesh(const Shape &shape);
 
 /* Points whose convex hull is the shape, of round ones nearly; in the shape's frame. Of a half-space, none. */

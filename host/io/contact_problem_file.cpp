@@ -8,9 +8,10 @@
 
 #include <fmt/format.h>
 
-#include "host/io/input_file.h"
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
+
+#include "host/io/input_file.h"
 
 namespace tandem {
 namespace {
@@ -22,7 +23,10 @@ class Numbers {
 public:
   explicit Numbers(const std::string &path) : path_(path), text_(read_file(path)) {}
 
-  [[noreturn]] void refuse(const std::string &why) const { throw InputError(fmt::format("{}: line {}: {}", path_, line_, why)); }
+  [[noreturn]] void refuse(const std::string &why) const
+  {
+    throw InputError(fmt::format("{}: line {}: {}", path_, line_, why));
+  }
 
   bool at_end()
   {
@@ -34,7 +38,8 @@ public:
   {
     const double value = number<double>(what, "a number");
     if (!std::isfinite(value)) refuse(fmt::format("{} is not finite", what));
-    if (!std::isfinite(round_to_float(value))) refuse(fmt::format("{} is {}, which no 32-bit float holds", what, value));
+    if (!std::isfinite(round_to_float(value)))
+      refuse(fmt::format("{} is {}, which no 32-bit float holds", what, value));
     return value;
   }
   uint64_t whole(const std::string &what, uint64_t lowest, uint64_t highest)
@@ -66,11 +71,13 @@ private:
 void read_dense(Numbers &numbers, ContactProblem &problem)
 {
   const uint64_t n = problem.contacts, size = 3 * n;
-  if (n > most_dense_contacts) numbers.refuse(fmt::format("a dense W of {} contacts; more than {} need storage 1", n, most_dense_contacts));
+  if (n > most_dense_contacts)
+    numbers.refuse(fmt::format("a dense W of {} contacts; more than {} need storage 1", n, most_dense_contacts));
   numbers.whole("the number of rows of W", size, size);
   numbers.whole("the number of columns of W", size, size);
   std::vector<double> values;
-  for (uint64_t k = 0; k < size * size; ++k) values.push_back(numbers.real(fmt::format("W[{}][{}]", k % size, k / size)));
+  for (uint64_t k = 0; k < size * size; ++k)
+    values.push_back(numbers.real(fmt::format("W[{}][{}]", k % size, k / size)));
   for (uint64_t i = 0; i < n; ++i) {
     problem.start.push_back(static_cast<uint32_t>(i * n));
     for (uint64_t j = 0; j < n; ++j) {
@@ -89,12 +96,14 @@ void read_block_rows(Numbers &numbers, ContactProblem &problem)
   const uint64_t blocks = numbers.whole("the number of blocks", n, std::min<uint64_t>(n * n, 1u << 28));
   for (const char *side : {"block rows", "block columns"}) numbers.whole(fmt::format("the number of {}", side), n, n);
   for (const char *side : {"row", "column"})
-    for (uint64_t i = 0; i < n; ++i) numbers.whole(fmt::format("the end of block {} {}", side, i), 3 * i + 3, 3 * i + 3);
+    for (uint64_t i = 0; i < n; ++i)
+      numbers.whole(fmt::format("the end of block {} {}", side, i), 3 * i + 3, 3 * i + 3);
   numbers.whole("the length of the first index array", n + 1, n + 1);
   numbers.whole("the length of the second index array", blocks, blocks);
   for (uint64_t i = 0; i <= n; ++i) {
     const uint64_t lowest = i == 0 ? 0 : problem.start.back(), highest = i == 0 ? 0 : blocks;
-    problem.start.push_back(static_cast<uint32_t>(numbers.whole(fmt::format("the start of block row {}", i), i == n ? blocks : lowest, highest)));
+    problem.start.push_back(static_cast<uint32_t>(
+        numbers.whole(fmt::format("the start of block row {}", i), i == n ? blocks : lowest, highest)));
   }
   for (uint64_t k = 0; k < blocks; ++k)
     problem.column.push_back(static_cast<uint32_t>(numbers.whole(fmt::format("the column of block {}", k), 0, n - 1)));
@@ -105,7 +114,8 @@ void read_block_rows(Numbers &numbers, ContactProblem &problem)
   }
 }
 
-/* Each contact's own block first, then ascending columns; the order in which a row is summed must not depend on the file. */
+/* Each contact's own block first, then ascending columns; the order in which a row is summed must not depend on the
+ * file. */
 void order_rows(const Numbers &numbers, ContactProblem &problem)
 {
   std::vector<uint32_t> order(problem.column.size());
@@ -115,12 +125,15 @@ void order_rows(const Numbers &numbers, ContactProblem &problem)
     const auto key = [&](uint32_t k) { return problem.column[k] == i ? 0u : problem.column[k] + 1u; };
     const auto first = order.begin() + problem.start[i], last = order.begin() + problem.start[i + 1];
     std::sort(first, last, [&](uint32_t a, uint32_t b) { return key(a) < key(b); });
-    if (first == last || problem.column[*first] != i) numbers.refuse(fmt::format("contact {} has no block of its own in W", i));
+    if (first == last || problem.column[*first] != i)
+      numbers.refuse(fmt::format("contact {} has no block of its own in W", i));
     const auto twice = std::adjacent_find(first, last, [&](uint32_t a, uint32_t b) { return key(a) == key(b); });
     if (twice != last) numbers.refuse(fmt::format("contact {} has two blocks in column {}", i, problem.column[*twice]));
     for (int axis = 0; axis < 3; ++axis)
-      if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)]; !(own > 0) || !std::isfinite(1 / round_to_float(own)))
-        numbers.refuse(fmt::format("W[{0}][{0}] must be positive, and its inverse a 32-bit float; it is {1}", 3 * i + static_cast<uint32_t>(axis), own));
+      if (const double own = problem.blocks[*first][static_cast<size_t>(4 * axis)];
+          !(own > 0) || !std::isfinite(1 / round_to_float(own)))
+        numbers.refuse(fmt::format("W[{0}][{0}] must be positive, and its inverse a 32-bit float; it is {1}",
+                                   3 * i + static_cast<uint32_t>(axis), own));
   }
   for (size_t k = 0; k < order.size(); ++k) {
     sorted.column[k] = problem.column[order[k]];
@@ -149,7 +162,8 @@ ContactProblem read_contact_problem(const std::string &path)
   }
   for (uint64_t i = 0; i < problem.contacts; ++i) {
     problem.friction.push_back(numbers.real(fmt::format("the friction coefficient of contact {}", i)));
-    if (problem.friction.back() < 0) numbers.refuse(fmt::format("the friction coefficient of contact {} is negative", i));
+    if (problem.friction.back() < 0)
+      numbers.refuse(fmt::format("the friction coefficient of contact {} is negative", i));
   }
   /* Some writers end with a flag. */
   if (!numbers.at_end()) numbers.whole("what follows the last friction coefficient", 0, 1);

@@ -7,10 +7,9 @@
 #include <filesystem>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include <tandem/scene.h>
 
@@ -59,7 +58,8 @@ bool is_below(const files::path &file, const files::path &folder)
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/* The same, if it can be told, whatever links lead there. What does not exist stays as it is written: it has a folder first. */
+/* The same, if it can be told, whatever links lead there. What does not exist stays as it is written: it has a folder
+ * first. */
 files::path place_of(const files::path &path)
 {
   std::error_code error;

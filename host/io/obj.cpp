@@ -1,16 +1,15 @@
 /* obj.cpp - see obj.h. */
 #include "host/io/obj.h"
 
-#include <tandem/round_to_float.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include <fmt/format.h>
-
 #include <tiny_obj_loader.h>
+
+#include <tandem/round_to_float.h>
 
 #include "host/geometry/polygon_crossing.h"
 #include "host/io/input_file.h"
@@ -23,7 +22,8 @@ constexpr std::string_view passed_over[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
     "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
-constexpr size_t most_corners = 10'000; /* of a face: the time to cut it grows with their square, here to some tenths of a second */
+constexpr size_t most_corners =
+    10'000; /* of a face: the time to cut it grows with their square, here to some tenths of a second */
 
 struct ObjFace {
   std::vector<int64_t> corners; /* from 0 */
@@ -113,8 +113,8 @@ void ObjReader::read_vertex(const std::vector<std::string_view> &words)
   vertices.push_back({number(words[1]), number(words[2]), number(words[3])});
 }
 
-/* "7", "7/2", "7//3" or "7/2/3": of these the first says where the corner is; the others must be numbers all the same. Negative ones
- * count back from the vertex before. */
+/* "7", "7/2", "7//3" or "7/2/3": of these the first says where the corner is; the others must be numbers all the same.
+ * Negative ones count back from the vertex before. */
 int64_t ObjReader::corner(std::string_view word) const
 {
   int64_t first = 0;
@@ -142,7 +142,9 @@ void ObjReader::read_face(const std::vector<std::string_view> &words)
 {
   if (words.size() < 4) fail(fmt::format("a face of {} corners; three are needed at least", words.size() - 1), line_);
   if (words.size() - 1 > most_corners)
-    fail(fmt::format("a face of {} corners; more than {} are not cut into triangles: give triangles", words.size() - 1, most_corners), line_);
+    fail(fmt::format("a face of {} corners; more than {} are not cut into triangles: give triangles", words.size() - 1,
+                     most_corners),
+         line_);
   ObjFace &face = faces.emplace_back();
   face.line = line_;
   for (size_t k = 1; k < words.size(); ++k) face.corners.push_back(corner(words[k]));
@@ -183,7 +185,8 @@ std::vector<Vec3> ObjReader::corners_of(const ObjFace &face) const
 void ObjReader::check_crossings() const
 {
   for (const ObjFace &face : faces)
-    if (crosses_itself(corners_of(face))) fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
+    if (crosses_itself(corners_of(face)))
+      fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
 }
 
 /* The same vertices and faces, and nothing that could be read in another way. */
@@ -221,7 +224,9 @@ void ObjReader::check_cut(const ObjFace &face) const
   ObjFace alone{{}, face.line};
   for (size_t k = 0; k < face.corners.size(); ++k) alone.corners.push_back(static_cast<int64_t>(k));
   if (cut(corners_of(face), {alone}).size() != face.corners.size() - 2)
-    fail("a polygon that cannot be cut into triangles: it leaves its plane, names a place twice or crosses itself; give triangles", face.line);
+    fail("a polygon that cannot be cut into triangles: it leaves its plane, names a place twice or crosses itself; "
+         "give triangles",
+         face.line);
 }
 
 std::vector<Triangle> ObjReader::triangles() const

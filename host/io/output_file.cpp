@@ -9,10 +9,9 @@
 #include <filesystem>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <fmt/format.h>
 
 #include <tandem/scene.h>
 
@@ -162,7 +161,8 @@ void OutputFile::commit()
   close();
 }
 
-/* The target is a place of its own, such as a file that was mounted. It is emptied when nothing is left that it could be spared. */
+/* The target is a place of its own, such as a file that was mounted. It is emptied when nothing is left that it could
+ * be spared. */
 void OutputFile::copy_to_target()
 {
   std::string piece(most_buffered, '\0');
@@ -197,12 +197,15 @@ void remove_unfinished_files() noexcept
 
 bool is_same_file(const std::string &one, const std::string &other)
 {
-  struct stat first {}, second {};
+  struct stat first {
+  }, second{};
   const bool exists = ::stat(one.c_str(), &first) == 0;
   if (exists != (::stat(other.c_str(), &second) == 0)) return false;
   if (exists) return !S_ISCHR(first.st_mode) && first.st_dev == second.st_dev && first.st_ino == second.st_ino;
   std::error_code error;
-  const auto place = [&](const std::string &path) { return files::weakly_canonical(files::absolute(behind_links(path), error), error); };
+  const auto place = [&](const std::string &path) {
+    return files::weakly_canonical(files::absolute(behind_links(path), error), error);
+  };
   return place(one) == place(other) && !error;
 }
 

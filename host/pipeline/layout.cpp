@@ -6,8 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "host/pipeline/primitives.h"
 #include <tandem/scene.h>
+
+#include "host/pipeline/primitives.h"
 #include "shared/broadphase/near_limits.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
@@ -17,9 +18,11 @@ namespace {
 
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
-  /* Bodies, pairs and what scenes hold are below 2^32 each, and rows have a few of them: 64 bits suffice for all products here. */
+  /* Bodies, pairs and what scenes hold are below 2^32 each, and rows have a few of them: 64 bits suffice for all
+   * products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
-  const size_t most_sorted = std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
+  const size_t most_sorted =
+      std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -51,7 +54,8 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);
   case Capacity::SCAN_SUMS:
-    return scan_sum_words(std::max({most_sorted, size_t{SWEEP_SHARES} * sizes.bodies, histogram_words(most_sorted)}) + 1);
+    return scan_sum_words(std::max({most_sorted, size_t{SWEEP_SHARES} * sizes.bodies, histogram_words(most_sorted)}) +
+                          1);
   case Capacity::REDUCE_PARTIAL: return reduce_partial_words(sizes.pairs);
   }
   return 0;
@@ -68,14 +72,16 @@ size_t bytes_of(Buffer buffer, const Sizes &sizes)
 
 void check_size(Buffer buffer, const Sizes &sizes)
 {
-  const uint64_t elements = uint64_t{bytes_of(buffer, sizes)} / size_of(row_of(buffer).element), most = uint64_t{1} << 32;
+  const uint64_t elements = uint64_t{bytes_of(buffer, sizes)} / size_of(row_of(buffer).element),
+                 most = uint64_t{1} << 32;
   if (elements > most)
-    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or cells of cube maps are needed",
+    throw InputError(fmt::format("buffer {} would have {} elements, and kernels can number {}: fewer bodies, hulls or "
+                                 "cells of cube maps are needed",
                                  row_of(buffer).name, elements, most));
 }
 
 uint32_t leaves_for(uint32_t bodies) { return std::bit_ceil(std::max(bodies, 1u)); }
 
-uint32_t cells_for(uint32_t bodies) { return std::max<uint32_t>(1024, std::bit_ceil(2 * std::min(bodies, 1u << 29)) ); }
+uint32_t cells_for(uint32_t bodies) { return std::max<uint32_t>(1024, std::bit_ceil(2 * std::min(bodies, 1u << 29))); }
 
 } // namespace tandem

@@ -4,9 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "host/scene/hull_buffers.h"
-#include "host/runtime/interface/kernel_list.h"
 #include <tandem/settings.h>
+
+#include "host/runtime/interface/kernel_list.h"
+#include "host/scene/hull_buffers.h"
 #include "host/scene/tree_tables.h"
 
 namespace tandem {

@@ -15,7 +15,10 @@ namespace {
 constexpr uint32_t units(uint64_t n, uint32_t unit) { return static_cast<uint32_t>((n + unit - 1) / unit); }
 
 /* Launches count groups of TILE items; this many items make `groups` groups. */
-constexpr uint32_t items_for(uint64_t groups) { return static_cast<uint32_t>(std::min<uint64_t>(groups * TILE, UINT32_MAX)); }
+constexpr uint32_t items_for(uint64_t groups)
+{
+  return static_cast<uint32_t>(std::min<uint64_t>(groups * TILE, UINT32_MAX));
+}
 
 /* per_unit * ceil(counts[length] / unit) words (shared/parallel/length.h), at most `capacity`. */
 struct Extent {
@@ -28,15 +31,18 @@ static_assert(SCAN_TILE >= TILE && SORT_TILE >= TILE && SORT_DIGITS <= SORT_TILE
 
 void scan_words(Launcher &launcher, Buffer in, Buffer out, Buffer sums, const Extent &extent)
 {
-  const uint32_t length = extent.length, unit = extent.unit, per_unit = extent.per_unit; /* a lambda may not capture parts of a whole */
+  const uint32_t length = extent.length, unit = extent.unit,
+                 per_unit = extent.per_unit; /* a lambda may not capture parts of a whole */
   const uint32_t tiles = units(extent.capacity, SCAN_TILE);
   const auto in_order = [&](Buffer from, Buffer to, uint32_t block) {
-    launcher.launch({Kernel::scan_in_order, {from, to, out}, {length, unit, per_unit, block}, COUNT_ZERO, COUNT_ONE, 1});
+    launcher.launch(
+        {Kernel::scan_in_order, {from, to, out}, {length, unit, per_unit, block}, COUNT_ZERO, COUNT_ONE, 1});
   };
   if (tiles <= 1) return in_order(in, out, 1);
   launcher.launch({Kernel::scan_reduce, {in, sums}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
   in_order(sums, sums, SCAN_TILE);
-  launcher.launch({Kernel::scan_tiles, {in, sums, out}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
+  launcher.launch(
+      {Kernel::scan_tiles, {in, sums, out}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
 }
 
 /* Buffers and kernels of one kind of sort: with or without values, 32- or 64-bit keys. */
@@ -51,9 +57,16 @@ struct Sort {
 void sort_pass(Launcher &launcher, const Sort &sort, uint32_t length, uint32_t capacity, unsigned shift, unsigned bits)
 {
   const uint32_t tiles = units(capacity, SORT_TILE), digits = 1u << bits;
-  launcher.launch({sort.histogram_kernel, {sort.keys, sort.histogram}, {length, shift, bits}, COUNT_ZERO, length, items_for(tiles)});
+  launcher.launch({sort.histogram_kernel,
+                   {sort.keys, sort.histogram},
+                   {length, shift, bits},
+                   COUNT_ZERO,
+                   length,
+                   items_for(tiles)});
   scan_words(launcher, sort.histogram, sort.histogram, sort.sums, {length, SORT_TILE, digits, tiles * digits});
-  Launch scatter{sort.scatter_kernel, {sort.keys, sort.histogram, sort.other_keys}, {length, shift, bits}, COUNT_ZERO, length, items_for(tiles)};
+  Launch scatter{
+      sort.scatter_kernel, {sort.keys, sort.histogram, sort.other_keys}, {length, shift, bits}, COUNT_ZERO, length,
+      items_for(tiles)};
   if (sort.has_values) scatter.slots = {sort.keys, sort.values, sort.histogram, sort.other_keys, sort.other_values};
   launcher.launch(scatter);
 }
@@ -72,7 +85,8 @@ void sort_bits(Launcher &launcher, Sort sort, uint32_t length, uint32_t capacity
   }
   if (passes % 2 == 0) return;
   launcher.launch({sort.copy_kernel, {sort.keys, sort.other_keys}, {}, COUNT_ZERO, length, capacity});
-  if (sort.has_values) launcher.launch({Kernel::copy, {sort.values, sort.other_values}, {}, COUNT_ZERO, length, capacity});
+  if (sort.has_values)
+    launcher.launch({Kernel::copy, {sort.values, sort.other_values}, {}, COUNT_ZERO, length, capacity});
 }
 
 } // namespace
@@ -86,35 +100,49 @@ void exclusive_scan(Launcher &launcher, Buffer in, Buffer out, Buffer sums, uint
 
 size_t histogram_words(size_t capacity) { return size_t{units(capacity, SORT_TILE)} * SORT_DIGITS + 1; }
 
-void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
-               unsigned first_bit, unsigned last_bit)
+void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length,
+               uint32_t capacity, unsigned first_bit, unsigned last_bit)
 {
-  sort_bits(launcher, {Kernel::sort_histogram, Kernel::sort_scatter, Kernel::copy, keys, other_keys, false, {}, {}, histogram, sums},
+  sort_bits(
+      launcher,
+      {Kernel::sort_histogram, Kernel::sort_scatter, Kernel::copy, keys, other_keys, false, {}, {}, histogram, sums},
+      length, capacity, first_bit, last_bit);
+}
+
+void sort_pairs(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values,
+                Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit,
+                unsigned last_bit)
+{
+  sort_bits(launcher,
+            {Kernel::sort_histogram, Kernel::sort_scatter_pairs, Kernel::copy, keys, other_keys, true, values,
+             other_values, histogram, sums},
             length, capacity, first_bit, last_bit);
 }
 
-void sort_pairs(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram, Buffer sums,
-                uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+void sort_keys64(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length,
+                 uint32_t capacity, unsigned first_bit, unsigned last_bit)
 {
   sort_bits(launcher,
-            {Kernel::sort_histogram, Kernel::sort_scatter_pairs, Kernel::copy, keys, other_keys, true, values, other_values, histogram, sums},
-            length, capacity, first_bit, last_bit);
-}
-
-void sort_keys64(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
-                 unsigned first_bit, unsigned last_bit)
-{
-  sort_bits(launcher,
-            {Kernel::sort_histogram64, Kernel::sort_scatter64, Kernel::copy64, keys, other_keys, false, {}, {}, histogram, sums}, length,
-            capacity, first_bit, last_bit);
-}
-
-void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram,
-                  Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
-{
-  sort_bits(launcher,
-            {Kernel::sort_histogram64, Kernel::sort_scatter64_pairs, Kernel::copy64, keys, other_keys, true, values, other_values, histogram,
+            {Kernel::sort_histogram64,
+             Kernel::sort_scatter64,
+             Kernel::copy64,
+             keys,
+             other_keys,
+             false,
+             {},
+             {},
+             histogram,
              sums},
+            length, capacity, first_bit, last_bit);
+}
+
+void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values,
+                  Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit,
+                  unsigned last_bit)
+{
+  sort_bits(launcher,
+            {Kernel::sort_histogram64, Kernel::sort_scatter64_pairs, Kernel::copy64, keys, other_keys, true, values,
+             other_values, histogram, sums},
             length, capacity, first_bit, last_bit);
 }
 
@@ -137,14 +165,16 @@ void bitonic_sort(Launcher &launcher, Buffer keys, Buffer values, uint32_t lengt
 
 namespace {
 
-static_assert(REDUCE_SUM == static_cast<int>(Reduction::sum) && REDUCE_SMALLEST == static_cast<int>(Reduction::smallest) &&
+static_assert(REDUCE_SUM == static_cast<int>(Reduction::sum) &&
+              REDUCE_SMALLEST == static_cast<int>(Reduction::smallest) &&
               REDUCE_LARGEST == static_cast<int>(Reduction::largest));
 
-void reduce_with(Launcher &launcher, Kernel tiles, Kernel partials, Reduction reduction, Buffer values, Buffer partial, Buffer result,
-                 uint32_t length, uint32_t capacity)
+void reduce_with(Launcher &launcher, Kernel tiles, Kernel partials, Reduction reduction, Buffer values, Buffer partial,
+                 Buffer result, uint32_t length, uint32_t capacity)
 {
   const auto operation = static_cast<uint32_t>(reduction);
-  launcher.launch({tiles, {values, partial}, {length, operation}, COUNT_ZERO, length, items_for(units(capacity, REDUCE_TILE))});
+  launcher.launch(
+      {tiles, {values, partial}, {length, operation}, COUNT_ZERO, length, items_for(units(capacity, REDUCE_TILE))});
   launcher.launch({partials, {partial, result}, {length, operation}, COUNT_ZERO, COUNT_ONE, 1});
 }
 
@@ -152,18 +182,22 @@ void reduce_with(Launcher &launcher, Kernel tiles, Kernel partials, Reduction re
 
 size_t reduce_partial_words(size_t capacity) { return std::max(units(capacity, REDUCE_TILE), 1u); }
 
-void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length, uint32_t capacity)
+void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
+            uint32_t capacity)
 {
-  reduce_with(launcher, Kernel::reduce_tiles, Kernel::reduce_partials, reduction, values, partial, result, length, capacity);
+  reduce_with(launcher, Kernel::reduce_tiles, Kernel::reduce_partials, reduction, values, partial, result, length,
+              capacity);
 }
 
-void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length, uint32_t capacity)
+void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
+                 uint32_t capacity)
 {
-  reduce_with(launcher, Kernel::reduce_real_tiles, Kernel::reduce_real_partials, reduction, values, partial, result, length, capacity);
+  reduce_with(launcher, Kernel::reduce_real_tiles, Kernel::reduce_real_partials, reduction, values, partial, result,
+              length, capacity);
 }
 
-void compact(Launcher &launcher, Buffer flags, Buffer offsets, Buffer sums, Buffer indices, uint32_t length, uint32_t capacity,
-             uint32_t found)
+void compact(Launcher &launcher, Buffer flags, Buffer offsets, Buffer sums, Buffer indices, uint32_t length,
+             uint32_t capacity, uint32_t found)
 {
   launcher.launch({Kernel::compact_count, {flags, offsets}, {}, COUNT_ZERO, length, capacity});
   exclusive_scan(launcher, offsets, offsets, sums, length, capacity);

@@ -20,14 +20,16 @@ size_t scan_sum_words(size_t capacity);
 /* Stable ascending sort by bits first_bit .. last_bit - 1 of the key. The result is in keys and values; the other
  * buffers, of equal sizes, are scratch. histogram: histogram_words(capacity) words; sums:
  * scan_sum_words(histogram_words(capacity)) words. */
-void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
-               unsigned first_bit, unsigned last_bit);
-void sort_pairs(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram, Buffer sums,
-                uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
-void sort_keys64(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity,
-                 unsigned first_bit, unsigned last_bit);
-void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values, Buffer histogram,
-                  Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
+void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length,
+               uint32_t capacity, unsigned first_bit, unsigned last_bit);
+void sort_pairs(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values,
+                Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit,
+                unsigned last_bit);
+void sort_keys64(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length,
+                 uint32_t capacity, unsigned first_bit, unsigned last_bit);
+void sort_pairs64(Launcher &launcher, Buffer keys, Buffer values, Buffer other_keys, Buffer other_values,
+                  Buffer histogram, Buffer sums, uint32_t length, uint32_t capacity, unsigned first_bit,
+                  unsigned last_bit);
 size_t histogram_words(size_t capacity);
 
 /* Sorts pairs by (key, value), ascending, in place and without scratch: for short arrays, and as an oracle. About
@@ -36,16 +38,18 @@ void bitonic_sort(Launcher &launcher, Buffer keys, Buffer values, uint32_t lengt
 
 enum class Reduction : uint32_t { sum, smallest, largest };
 
-/* result[0] = the sum (uint: modulo 2^32), smallest or largest of values; what nothing reduces to: shared/parallel/reduce.h.
- * partial: reduce_partial_words(capacity) elements of scratch. The reals are added in one order on every backend. */
-void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length, uint32_t capacity);
+/* result[0] = the sum (uint: modulo 2^32), smallest or largest of values; what nothing reduces to:
+ * shared/parallel/reduce.h. partial: reduce_partial_words(capacity) elements of scratch. The reals are added in one
+ * order on every backend. */
+void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
+            uint32_t capacity);
 void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
                  uint32_t capacity);
 size_t reduce_partial_words(size_t capacity);
 
 /* The indices i with flags[i] != 0, ascending; how many goes to counts[found]. offsets: capacity + 1 words of scratch;
  * sums: scan_sum_words(capacity). */
-void compact(Launcher &launcher, Buffer flags, Buffer offsets, Buffer sums, Buffer indices, uint32_t length, uint32_t capacity,
-             uint32_t found);
+void compact(Launcher &launcher, Buffer flags, Buffer offsets, Buffer sums, Buffer indices, uint32_t length,
+             uint32_t capacity, uint32_t found);
 
 } // namespace tandem

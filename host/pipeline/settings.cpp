@@ -1,6 +1,4 @@
 /* settings.cpp - which settings and placements make sense; see settings.h. */
-#include <tandem/settings.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -8,11 +6,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/runtime/backend_list.h"
+#include <tandem/scene.h>
+#include <tandem/settings.h>
+
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/runtime/backend_list.h"
 #include "host/runtime/interface/kernel_list.h"
-#include <tandem/scene.h>
 #include "shared/body_codes.h"
 
 namespace tandem {
@@ -36,7 +36,8 @@ void check_count(const char *what, uint32_t value)
 void check_number(const char *what, float value, const char *unit, bool zero_allowed)
 {
   if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed))
-    throw InputError(fmt::format("{} {} {}: use a finite number {} 0", what, value, unit, zero_allowed ? "of at least" : "above"));
+    throw InputError(
+        fmt::format("{} {} {}: use a finite number {} 0", what, value, unit, zero_allowed ? "of at least" : "above"));
 }
 
 bool names_stage_or_kernel(const std::string &name)
@@ -65,12 +66,19 @@ std::vector<std::string> support_names() { return {"brute-force", "hill-climbing
 
 uint32_t narrowphase_method(const Settings &settings)
 {
-  static const std::map<std::string, uint32_t> methods{
-      {"sat", CONVEX_AXES}, {"gjk-epa", CONVEX_EXPANSION}, {"gjk-sampled", CONVEX_SAMPLED}, {"sat-split", CONVEX_AXES}, {"cube-map", CONVEX_FIELDS}};
+  static const std::map<std::string, uint32_t> methods{{"sat", CONVEX_AXES},
+                                                       {"gjk-epa", CONVEX_EXPANSION},
+                                                       {"gjk-sampled", CONVEX_SAMPLED},
+                                                       {"sat-split", CONVEX_AXES},
+                                                       {"cube-map", CONVEX_FIELDS}};
   const std::vector<std::string> names = support_names();
-  return methods.at(settings.narrowphase) | static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
+  return methods.at(settings.narrowphase) |
+         static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
 }
-uint32_t cube_map_cells(const Settings &settings) { return settings.support == "brute-force" && settings.narrowphase != "cube-map" ? 0 : settings.support_cells; }
+uint32_t cube_map_cells(const Settings &settings)
+{
+  return settings.support == "brute-force" && settings.narrowphase != "cube-map" ? 0 : settings.support_cells;
+}
 
 std::vector<std::string> broadphase_names()
 {
@@ -89,12 +97,14 @@ std::vector<std::string> batching_names()
 void validate(const Settings &settings)
 {
   if (!std::isfinite(settings.step) || settings.step <= 0 || settings.step > longest_step)
-    throw InputError(fmt::format("time step {} s: use a number of seconds above 0, at most {}", settings.step, longest_step));
+    throw InputError(
+        fmt::format("time step {} s: use a number of seconds above 0, at most {}", settings.step, longest_step));
   check_count("substeps", settings.substeps);
   check_count("iterations", settings.iterations);
   const float substeps = settings.substeps;
   if (settings.step / substeps < 1e-9f)
-    throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step, settings.substeps));
+    throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step,
+                                 settings.substeps));
   check_name("solver", settings.solver, solver_names());
   std::vector<std::string> broadphases = broadphase_names();
   broadphases.emplace_back("auto");
@@ -125,7 +135,8 @@ std::vector<std::pair<std::string, std::string>> parse_placement(const std::stri
       throw InputError(fmt::format("placement '{}' is not STAGE=BACKEND", part));
     const std::string place = part.substr(0, equals);
     if (!names_stage_or_kernel(place))
-      throw InputError(fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
+      throw InputError(
+          fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
     exceptions.emplace_back(place, part.substr(equals + 1));
   }
   return exceptions;

@@ -53,7 +53,8 @@ private:
     if (by_subtree) run(Kernel::group_body_pairs);
     if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree, GROUP_PAIRS);
     else run(Kernel::count_leaf_pairs);
-    exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS, plan().capacity_pairs);
+    exclusive_scan(launcher(), Buffer::leaf_start, Buffer::leaf_start, Buffer::scan_sums, COUNT_PAIRS,
+                   plan().capacity_pairs);
     run(Kernel::count_all_leaf_pairs);
     if (by_subtree) run_pair_groups(Kernel::write_leaf_pairs_by_subtree, GROUP_PAIRS);
     else run(Kernel::write_leaf_pairs);
@@ -92,9 +93,10 @@ private:
   void collide_convexes(uint32_t method)
   {
     if (settings().narrowphase == "sat-split")
-      for (Kernel kernel : {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts}) run(kernel, {method});
-    else
-      run(Kernel::collide_convex, {method});
+      for (Kernel kernel :
+           {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts})
+        run(kernel, {method});
+    else run(Kernel::collide_convex, {method});
     run(Kernel::follow_convexes, {method});
   }
 
@@ -128,7 +130,8 @@ private:
     run(Kernel::cache_pairs);
     run(Kernel::cache_impulses);
     if (has(FEATURE_TREES)) run(Kernel::cache_normals);
-    if (has(FEATURE_EVENTS)) run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
+    if (has(FEATURE_EVENTS))
+      run_range(Kernel::copy, COUNT_ZERO, COUNT_COMMIT_PAIRS, {}, {Buffer::pair_touching, Buffer::cached_touching});
     if (has(FEATURE_ROLLING)) {
       run(Kernel::clear_cached, {1}, {Buffer::cached_rolling_impulse});
       run(Kernel::cache_rolling);
@@ -139,7 +142,8 @@ private:
   void list_pair_events()
   {
     run(Kernel::count_pair_events);
-    exclusive_scan(launcher(), Buffer::pair_event_start, Buffer::pair_event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    exclusive_scan(launcher(), Buffer::pair_event_start, Buffer::pair_event_start, Buffer::scan_sums,
+                   COUNT_COMMIT_BODIES, plan().bodies);
     run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_PAIR_EVENTS}, {Buffer::pair_event_start});
     run(Kernel::write_pair_events);
   }
@@ -150,7 +154,8 @@ private:
     run(Kernel::pair_impulses);
     run(Kernel::find_touching);
     run(Kernel::count_events);
-    exclusive_scan(launcher(), Buffer::event_start, Buffer::event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES, plan().bodies);
+    exclusive_scan(launcher(), Buffer::event_start, Buffer::event_start, Buffer::scan_sums, COUNT_COMMIT_BODIES,
+                   plan().bodies);
     run(Kernel::compact_total, {COUNT_COMMIT_BODIES, COUNT_EVENTS}, {Buffer::event_start});
     run(Kernel::write_events);
   }
@@ -158,6 +163,9 @@ private:
 
 } // namespace
 
-void launch_step(Launcher &launcher, const StepPlan &plan, const Settings &settings) { Step(launcher, plan, settings).run_all(); }
+void launch_step(Launcher &launcher, const StepPlan &plan, const Settings &settings)
+{
+  Step(launcher, plan, settings).run_all();
+}
 
 } // namespace tandem

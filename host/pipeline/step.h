@@ -4,8 +4,9 @@
 #include <array>
 #include <cstdint>
 
-#include "host/runtime/launcher.h"
 #include <tandem/settings.h>
+
+#include "host/runtime/launcher.h"
 
 namespace tandem {
 

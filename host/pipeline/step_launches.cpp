@@ -18,12 +18,14 @@ void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const
   run_range(kernel, COUNT_ZERO, row.items, values, slots);
 }
 
-void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values,
+                             const std::vector<Buffer> &slots)
 {
   launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
 }
 
-void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values,
+                               const std::vector<Buffer> &slots)
 {
   launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
 }
@@ -53,10 +55,11 @@ void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
   run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {length}, {starts});
 }
 
-void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
+void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit,
+                        unsigned last_bit)
 {
-  sort_pairs(launcher_, keys, values, Buffer::sort_key_other, Buffer::sort_value_other, Buffer::sort_histogram, Buffer::scan_sums, length,
-             capacity, first_bit, last_bit);
+  sort_pairs(launcher_, keys, values, Buffer::sort_key_other, Buffer::sort_value_other, Buffer::sort_histogram,
+             Buffer::scan_sums, length, capacity, first_bit, last_bit);
 }
 
 } // namespace tandem

@@ -11,7 +11,9 @@ namespace tandem {
 
 class StepLaunches {
 public:
-  StepLaunches(Launcher &launcher, const StepPlan &plan, const Settings &settings) : launcher_(launcher), plan_(plan), settings_(settings) {}
+  StepLaunches(Launcher &launcher, const StepPlan &plan, const Settings &settings)
+      : launcher_(launcher), plan_(plan), settings_(settings)
+  {}
 
   const StepPlan &plan() const { return plan_; }
   const Settings &settings() const { return settings_; }
@@ -21,10 +23,13 @@ public:
   /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
   void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
   /* A kernel over [counts[first], counts[last]). */
-  void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {},
+                 const std::vector<Buffer> &slots = {});
   /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
-  void run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
-  /* One launch a colour of constraints; those without a colour of their own are left to host/pipeline/solvers/mass_split.h. */
+  void run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values = {},
+                   const std::vector<Buffer> &slots = {});
+  /* One launch a colour of constraints; those without a colour of their own are left to
+   * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
   /* The same, and `tail` over those without a colour. */
   void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});

@@ -16,7 +16,8 @@ bool is_backend_option(std::string_view part)
 {
   constexpr std::array<std::string_view, 3> names = {"threads", "lanes", "order"};
   const size_t equals = part.find('=');
-  return equals != std::string_view::npos && std::find(names.begin(), names.end(), part.substr(0, equals)) != names.end();
+  return equals != std::string_view::npos &&
+         std::find(names.begin(), names.end(), part.substr(0, equals)) != names.end();
 }
 
 } // namespace

@@ -21,8 +21,12 @@ void PlacedLauncher::launch(const Launch &launch)
   size_t slot = 0, value = 0;
   for (const Argument &argument : row.arguments) {
     switch (argument.kind) {
-    case Argument::Kind::buffer: bound_.push_back({memory_.acquire(argument.buffer, backend.storage(), argument.access), 0}); break;
-    case Argument::Kind::slot: bound_.push_back({memory_.acquire(launch.slots.at(slot++), backend.storage(), argument.access), 0}); break;
+    case Argument::Kind::buffer:
+      bound_.push_back({memory_.acquire(argument.buffer, backend.storage(), argument.access), 0});
+      break;
+    case Argument::Kind::slot:
+      bound_.push_back({memory_.acquire(launch.slots.at(slot++), backend.storage(), argument.access), 0});
+      break;
     case Argument::Kind::value: bound_.push_back({nullptr, launch.values.at(value++)}); break;
     }
   }

@@ -49,8 +49,7 @@ class DirectLauncher : public PlacedLauncher {
 public:
   DirectLauncher(Memory &memory, Backend &backend)
       : PlacedLauncher(memory, [&backend](Kernel) -> Backend & { return backend; })
-  {
-  }
+  {}
 };
 
 } // namespace tandem

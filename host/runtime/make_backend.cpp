@@ -5,8 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "host/runtime/opencl/device.h"
 #include <tandem/error.h>
+
+#include "host/runtime/opencl/device.h"
 #include "minicl/dispatcher.h"
 #include "minicl/kernel_table.h"
 
@@ -39,8 +40,8 @@ std::vector<std::pair<std::string, std::string>> options_of(const std::string &t
 
 uint32_t number_from(const std::string &text, const std::string &name, const std::string &value, uint32_t highest)
 {
-  if (value.empty() || value.size() > 4 || value.find_first_not_of("0123456789") != std::string::npos || std::stoul(value) < 1 ||
-      std::stoul(value) > highest)
+  if (value.empty() || value.size() > 4 || value.find_first_not_of("0123456789") != std::string::npos ||
+      std::stoul(value) < 1 || std::stoul(value) > highest)
     refuse(text, fmt::format("{} '{}' is not a whole number from 1 to {}", name, value, highest));
   return static_cast<uint32_t>(std::stoul(value));
 }
@@ -65,7 +66,8 @@ std::unique_ptr<Backend> make_cpu_backend(const std::string &text, const std::st
     else if (kind == "tbb" && name == "lanes") {
       options.lanes = number_from(text, name, value, 16);
       if (options.lanes != 1 && !minicl::lanes_table(options.lanes))
-        refuse(text, fmt::format("lanes={} is not 1, 4, 8 or 16, or wider than this processor's {}", value, minicl::widest_lanes()));
+        refuse(text, fmt::format("lanes={} is not 1, 4, 8 or 16, or wider than this processor's {}", value,
+                                 minicl::widest_lanes()));
     } else refuse(text, fmt::format("'{}' is not an option of {}", name, kind));
   }
   return minicl::make_backend(text, options);
@@ -78,7 +80,8 @@ std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexac
   const size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   if (kind == "serial" || kind == "tbb" || kind == "reference") return make_cpu_backend(text, kind, colon);
-  if (kind == "cl") return opencl::make_backend(text, colon == std::string::npos ? "" : text.substr(colon + 1), allow_inexact);
+  if (kind == "cl")
+    return opencl::make_backend(text, colon == std::string::npos ? "" : text.substr(colon + 1), allow_inexact);
   refuse(text, "unknown");
 }
 

@@ -7,8 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "host/base/out_of_memory.h"
 #include <tandem/round_to_float.h>
+
+#include "host/base/out_of_memory.h"
 
 namespace tandem {
 Memory::Memory()
@@ -79,7 +80,8 @@ void *Memory::allocate(const Entry &entry, size_t bytes, Storage &storage, void 
 {
   const auto refusal = [&](const std::string &why) {
     return fmt::format("out of memory: buffer {} needs {} bytes of {}, all buffers together {}{}",
-                       row_of(buffer_at(static_cast<size_t>(&entry - entries_.data()))).name, bytes, storage.what(), total_bytes(), why);
+                       row_of(buffer_at(static_cast<size_t>(&entry - entries_.data()))).name, bytes, storage.what(),
+                       total_bytes(), why);
   };
   try {
     return storage.allocate(entry.element, bytes, host_memory);
@@ -94,7 +96,8 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
 {
   for (Copy &copy : entry.copies)
     if (copy.storage == &storage) return copy;
-  entry.copies.reserve(entry.copies.size() + 2); /* itself, and the host's copy beside it: a handle must not be lost for want of a place */
+  entry.copies.reserve(entry.copies.size() +
+                       2); /* itself, and the host's copy beside it: a handle must not be lost for want of a place */
   if (&storage != &host_storage() && storage.shares_host_memory()) {
     void *host = copy_in(entry, host_storage()).handle;
     entry.copies.push_back({&storage, allocate(entry, entry.bytes, storage, host), false});
@@ -112,7 +115,8 @@ void Memory::make_valid(Entry &entry, Copy &wanted)
   Storage *target = wanted.storage;
   Copy &host = copy_in(entry, host_storage());
   if (!host.valid) {
-    const auto source = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
+    const auto source =
+        std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
     if (source != entry.copies.end()) {
       for (Copy &copy : entry.copies)
         if (copy.storage != source->storage && copy.storage->shares_host_memory()) copy.storage->wait();
@@ -166,7 +170,8 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
 Memory::Copy &Memory::most_precise(Entry &entry)
 {
   copy_in(entry, host_storage());
-  const auto wide = std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid && copy.storage->keeps_doubles(); });
+  const auto wide = std::find_if(entry.copies.begin(), entry.copies.end(),
+                                 [](const Copy &copy) { return copy.valid && copy.storage->keeps_doubles(); });
   if (wide != entry.copies.end()) return *wide;
   return *std::find_if(entry.copies.begin(), entry.copies.end(), [](const Copy &copy) { return copy.valid; });
 }

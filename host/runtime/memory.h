@@ -37,8 +37,9 @@ public:
   size_t total_bytes() const;
   bool holds(Buffer buffer, const Storage &storage) const; /* whether there is a copy of it */
 
-  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. What cannot be had leaves every content
-   * as it was: OutOfMemory, naming the buffer and its bytes, or the device's std::runtime_error. */
+  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. What cannot be had
+   * leaves every content as it was: OutOfMemory, naming the buffer and its bytes, or the device's
+   * std::runtime_error. */
   void *acquire(Buffer buffer, Storage &storage, Access access);
 
   void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);

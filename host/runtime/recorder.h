@@ -1,4 +1,5 @@
-/* recorder.h - a launcher that runs nothing: which kernels a series of launches needs, and which buffers each touches. */
+/* recorder.h - a launcher that runs nothing: which kernels a series of launches needs, and which buffers each
+ * touches. */
 #pragma once
 
 #include <algorithm>

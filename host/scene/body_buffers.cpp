@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/scene/buffer_upload.h"
-#include "host/geometry/shape_mass.h"
-#include "host/base/hash.h"
-#include "host/scene/hull_buffers.h"
 #include <tandem/round_to_float.h>
+
+#include "host/base/hash.h"
+#include "host/geometry/shape_mass.h"
+#include "host/scene/buffer_upload.h"
+#include "host/scene/hull_buffers.h"
 #include "host/scene/shape_bounds.h"
 #include "host/scene/specialise.h"
 #include "host/scene/tree_tables.h"
@@ -22,7 +23,8 @@ Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
 
 Point point_of(const row *place)
 {
-  return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y}, double{place[0].z} + double{place[1].z}};
+  return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y},
+          double{place[0].z} + double{place[1].z}};
 }
 
 /* A shape as it stands in a body: the body's own, or a child of its compound. */
@@ -42,7 +44,8 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
   std::vector<PlacedShape> placed;
   for (uint32_t index : order) {
     const Body &body = scene.bodies[index];
-    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material, filter_of(scene, body), bounding_radius(scene, body)});
+    placed.push_back({&body, &scene.shapes[body.shape], body.shape_position, body.shape_orientation, body.material,
+                      filter_of(scene, body), bounding_radius(scene, body)});
   }
   for (uint32_t index : order) {
     const Body &body = scene.bodies[index];
@@ -52,7 +55,13 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
       const ShapePlace place = place_of_child(body, child);
       const auto &[x, y, z] = place.position;
       const auto &[qx, qy, qz, qw] = place.orientation;
-      placed.push_back({&body, &child.shape, {round_to_float(x), round_to_float(y), round_to_float(z)}, {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)}, child.material.value_or(body.material), filter_of(body, child), 0});
+      placed.push_back({&body,
+                        &child.shape,
+                        {round_to_float(x), round_to_float(y), round_to_float(z)},
+                        {round_to_float(qx), round_to_float(qy), round_to_float(qz), round_to_float(qw)},
+                        child.material.value_or(body.material),
+                        filter_of(body, child),
+                        0});
     }
   }
   return placed;
@@ -60,28 +69,37 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
 
 uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
 {
-  const uint32_t shape = is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
-  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 | (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
+  const uint32_t shape =
+      is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
+  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 |
+         (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
          (placed.body->continuous ? uint32_t{TRAIT_CONTINUOUS} : 0u);
 }
 
 float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
 
-Vec3 velocity_of(const Body &body, const Vec3 &velocity) { return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity; }
+Vec3 velocity_of(const Body &body, const Vec3 &velocity)
+{
+  return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity;
+}
 
 } // namespace
 
 std::array<row, 2> place_of(const Point &p)
 {
   const row high{round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
-  return {high, {round_to_float(p[0] - double{high.x}), round_to_float(p[1] - double{high.y}), round_to_float(p[2] - double{high.z}), 0}};
+  return {high,
+          {round_to_float(p[0] - double{high.x}), round_to_float(p[1] - double{high.y}),
+           round_to_float(p[2] - double{high.z}), 0}};
 }
 
 Quat unit(const Quat &q)
 {
-  const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  const double length =
+      std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (std::abs(length - 1) < 1e-6) return q;
-  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length), round_to_float(q[3] / length)};
+  return {round_to_float(q[0] / length), round_to_float(q[1] / length), round_to_float(q[2] / length),
+          round_to_float(q[3] / length)};
 }
 
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
@@ -113,12 +131,14 @@ void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_
   for (const PlacedShape &placed : placed_shapes(scene, order)) {
     const Shape &shape = *placed.shape;
     const Quat q = unit(placed.orientation);
-    const ShapeBox box = shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
+    const ShapeBox box =
+        shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
     sizes.push_back(row_of_vec(kernel_size(shape), placed.radius));
     traits.push_back(traits_of(scene, placed));
     filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
     convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});
-    poses.insert(poses.end(), {row_of_vec(placed.position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0), row_of_vec(box.half_extents, 0)});
+    poses.insert(poses.end(), {row_of_vec(placed.position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0),
+                               row_of_vec(box.half_extents, 0)});
   }
   upload_all(memory, Buffer::body_shape, sizes);
   upload_all(memory, Buffer::body_traits, traits);
@@ -131,7 +151,8 @@ void upload_materials(Memory &memory, const Scene &scene)
 {
   std::vector<row> rows, rolling;
   for (const Material &material : scene.materials) {
-    const float rules = static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
+    const float rules =
+        static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
     rows.push_back({material.static_friction, material.dynamic_friction, material.restitution, rules});
     rolling.push_back({material.rolling_friction, material.spinning_friction, 0, 0});
   }
@@ -144,7 +165,8 @@ namespace {
 /* All but the traits. What can fail comes before the first change. */
 void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
 {
-  for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity}) memory.prepare_upload(buffer);
+  for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity})
+    memory.prepare_upload(buffer);
   memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
   memory.upload(Buffer::body_orientation, &record.orientation, sizeof(row), size_t{index} * sizeof(row));
   memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
@@ -154,9 +176,13 @@ void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
 
 BodyRecord read_body(Memory &memory, uint32_t index)
 {
-  const auto position = memory.read<row>(Buffer::body_position, 2, 2 * size_t{index}), velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const auto position = memory.read<row>(Buffer::body_position, 2, 2 * size_t{index}),
+             velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
   const row orientation = memory.read<row>(Buffer::body_orientation, 1, index).front();
-  return {{position[0], position[1]}, orientation, {velocity[0], velocity[1]}, memory.read<uint32_t>(Buffer::body_traits, 1, index).front()};
+  return {{position[0], position[1]},
+          orientation,
+          {velocity[0], velocity[1]},
+          memory.read<uint32_t>(Buffer::body_traits, 1, index).front()};
 }
 
 void write_body(Memory &memory, uint32_t index, const BodyRecord &record)
@@ -172,26 +198,31 @@ void upload_body(Memory &memory, uint32_t index, const BodyState &state)
   const auto place = place_of(state.position);
   const row orientation{q[0], q[1], q[2], q[3]};
   const auto velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
-  const row linear = row_of_vec(state.linear_velocity, velocity[0].w), angular = row_of_vec(state.angular_velocity, velocity[1].w);
+  const row linear = row_of_vec(state.linear_velocity, velocity[0].w),
+            angular = row_of_vec(state.angular_velocity, velocity[1].w);
   write_state(memory, index, {place, orientation, {linear, angular}, 0});
 }
 
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  const auto position = memory.read<row>(Buffer::body_position, 2 * n), orientation = memory.read<row>(Buffer::body_orientation, n);
+  const auto position = memory.read<row>(Buffer::body_position, 2 * n),
+             orientation = memory.read<row>(Buffer::body_orientation, n);
   const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
   for (size_t i = 0; i < n; ++i)
-    states[order[i]] = {point_of(&position[2 * i]), {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
-                        vec_of_row(velocity[2 * i]), vec_of_row(velocity[2 * i + 1])};
+    states[order[i]] = {point_of(&position[2 * i]),
+                        {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
+                        vec_of_row(velocity[2 * i]),
+                        vec_of_row(velocity[2 * i + 1])};
   return states;
 }
 
 std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  const auto position = memory.read_reals(Buffer::body_position, 8 * n), orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
+  const auto position = memory.read_reals(Buffer::body_position, 8 * n),
+             orientation = memory.read_reals(Buffer::body_orientation, 4 * n);
   const auto velocity = memory.read_reals(Buffer::body_velocity, 8 * n);
   std::vector<PreciseBodyState> states(n);
   for (size_t i = 0; i < n; ++i) {
@@ -206,8 +237,11 @@ std::vector<PreciseBodyState> download_precise_bodies(Memory &memory, const std:
 
 bool is_finite(const BodyState &state)
 {
-  const auto finite = [](const auto &values) { return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); }); };
-  return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) && finite(state.angular_velocity);
+  const auto finite = [](const auto &values) {
+    return std::all_of(values.begin(), values.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });
+  };
+  return finite(state.position) && finite(state.orientation) && finite(state.linear_velocity) &&
+         finite(state.angular_velocity);
 }
 
 void quarantine_body(Memory &memory, uint32_t index)
@@ -231,7 +265,8 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   statistics.direct_islands = counts[COUNT_DIRECT_ISLANDS];
   statistics.direct_left = counts[COUNT_DIRECT_LEFT];
   statistics.direct_stalled = counts[COUNT_DIRECT_STALLED];
-  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs), colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
+  const auto points = memory.read<uint32_t>(Buffer::manifold_count, pairs),
+             colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
   double sum = 0;
   for (uint32_t plane = 0; plane < 4; ++plane) {
     const auto rows = memory.read<row>(Buffer::manifold_points, pairs, size_t{plane} * stride);
@@ -261,7 +296,8 @@ double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint
                                {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
     for (int k = 0; k < 3; ++k) {
       const double v = s.linear_velocity[k];
-      const double spin = axes[k][0] * s.angular_velocity[0] + axes[k][1] * s.angular_velocity[1] + axes[k][2] * s.angular_velocity[2];
+      const double spin =
+          axes[k][0] * s.angular_velocity[0] + axes[k][1] * s.angular_velocity[1] + axes[k][2] * s.angular_velocity[2];
       energy += 0.5 * body.mass * v * v + (inverse[k] > 0 ? 0.5 * spin * spin / inverse[k] : 0.0);
     }
   }

@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "host/runtime/memory.h"
 #include <tandem/world.h>
+
+#include "host/runtime/memory.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -16,8 +17,8 @@ Quat unit(const Quat &q);
 
 /* Buffer index i holds scene body order[i]. */
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
-/* Size, traits, filter and pose of every body's shape, then of the children of compounds. Poses also of bodies with tests of their own: any
- * of them may meet a shape that has none. */
+/* Size, traits, filter and pose of every body's shape, then of the children of compounds. Poses also of bodies with
+ * tests of their own: any of them may meet a shape that has none. */
 void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
 void upload_materials(Memory &memory, const Scene &scene);
 void upload_body(Memory &memory, uint32_t index, const BodyState &state);

@@ -3,10 +3,11 @@
 
 #include <algorithm>
 
-#include "host/scene/buffer_upload.h"
-#include "host/geometry/convex_hull.h"
-#include "host/scene/hull_strips.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/convex_hull.h"
+#include "host/scene/buffer_upload.h"
+#include "host/scene/hull_strips.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -14,7 +15,8 @@ namespace {
 
 void add_hull(std::vector<const ConvexHull *> &hulls, const Shape &shape)
 {
-  if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end()) hulls.push_back(shape.hull.get());
+  if (shape.hull && std::find(hulls.begin(), hulls.end(), shape.hull.get()) == hulls.end())
+    hulls.push_back(shape.hull.get());
   if (!shape.compound) return;
   for (const Child &child : shape.compound->children) add_hull(hulls, child.shape);
 }
@@ -41,12 +43,13 @@ struct Tables {
   void add(const ConvexHull &hull, uint32_t map_side)
   {
     const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
-    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4, size(hull.edges), size(corners), corners_of(hull),
-                          size(strips), size(links), map_side})
+    for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4,
+                          size(hull.edges), size(corners), corners_of(hull), size(strips), size(links), map_side})
       headers.push_back(word);
     for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
     for (const HullPlane &p : hull.planes)
-      planes.push_back({round_to_float(p.normal[0]), round_to_float(p.normal[1]), round_to_float(p.normal[2]), round_to_float(p.distance)});
+      planes.push_back({round_to_float(p.normal[0]), round_to_float(p.normal[1]), round_to_float(p.normal[2]),
+                        round_to_float(p.distance)});
     for (const auto &face : hull.faces) {
       face_starts.push_back(size(corners));
       corners.insert(corners.end(), face.begin(), face.end());
@@ -56,7 +59,8 @@ struct Tables {
     append_strips(strips, std::span(planes).last(hull.faces.size()), 4);
     strips.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
     append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
-    append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()), strips.back(), map_side);
+    append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()),
+                     strips.back(), map_side);
   }
 };
 

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <map>
 
-#include "host/runtime/memory.h"
 #include <tandem/scene.h>
+
+#include "host/runtime/memory.h"
 
 namespace tandem {
 
-/* How many of each the hulls of a scene have together: cube maps may be too many for 32 bits (check_size of layout.h). */
+/* How many of each the hulls of a scene have together: cube maps may be too many for 32 bits (check_size of
+ * layout.h). */
 struct HullSizes {
   uint64_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
 };

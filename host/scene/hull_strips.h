@@ -13,10 +13,14 @@
 namespace tandem {
 
 /* Rows of so many entries of so many numbers each. */
-inline uint32_t strip_rows(size_t entries, uint32_t numbers) { return static_cast<uint32_t>((entries + 7) / 8) * 2 * numbers; }
+inline uint32_t strip_rows(size_t entries, uint32_t numbers)
+{
+  return static_cast<uint32_t>((entries + 7) / 8) * 2 * numbers;
+}
 
 /* The first 3 or 4 numbers of each entry, eight entries a strip; the last strip is filled up with the first entry. */
-template <class Row> void append_strips(std::vector<Row> &strips, std::span<const std::type_identity_t<Row>> entries, int numbers)
+template <class Row>
+void append_strips(std::vector<Row> &strips, std::span<const std::type_identity_t<Row>> entries, int numbers)
 {
   const auto number = [&](size_t entry, int k) {
     const Row &r = entries[entry < entries.size() ? entry : 0];
@@ -28,13 +32,16 @@ template <class Row> void append_strips(std::vector<Row> &strips, std::span<cons
         strips.push_back({number(half, k), number(half + 1, k), number(half + 2, k), number(half + 3, k)});
 }
 
-/* faces: corners of each; edges: from, to, left, right. A corner whose side is no edge (a flat hull) names INDEX_NONE. */
-template <class Faces> void append_links(std::vector<uint32_t> &links, uint32_t vertices, const Faces &faces, std::span<const uint32_t> edges)
+/* faces: corners of each; edges: from, to, left, right. A corner whose side is no edge (a flat hull) names
+ * INDEX_NONE. */
+template <class Faces>
+void append_links(std::vector<uint32_t> &links, uint32_t vertices, const Faces &faces, std::span<const uint32_t> edges)
 {
   std::vector<std::vector<uint32_t>> faces_of(vertices);
   std::vector<uint32_t> edge_of_corner;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> edge_of;
-  for (uint32_t e = 0; 4 * e < edges.size(); ++e) edge_of[{edges[4 * e], edges[4 * e + 1]}] = edge_of[{edges[4 * e + 1], edges[4 * e]}] = e;
+  for (uint32_t e = 0; 4 * e < edges.size(); ++e)
+    edge_of[{edges[4 * e], edges[4 * e + 1]}] = edge_of[{edges[4 * e + 1], edges[4 * e]}] = e;
   for (uint32_t f = 0; f < faces.size(); ++f)
     for (size_t c = 0; c < faces[f].size(); ++c) {
       const auto edge = edge_of.find({faces[f][c], faces[f][(c + 1) % faces[f].size()]});
@@ -72,12 +79,18 @@ template <class Look> void append_cube(std::vector<uint32_t> &links, uint32_t si
 }
 
 /* Two maps: the vertex farthest in the direction, and the face that lies in it as seen from the middle. */
-template <class Row> void append_cube_maps(std::vector<uint32_t> &links, std::span<Row> vertices, std::span<Row> planes, const std::type_identity_t<Row> &middle, uint32_t side)
+template <class Row>
+void append_cube_maps(std::vector<uint32_t> &links, std::span<Row> vertices, std::span<Row> planes,
+                      const std::type_identity_t<Row> &middle, uint32_t side)
 {
   const auto along = [](const Row &r, const std::array<double, 3> &d) { return r.x * d[0] + r.y * d[1] + r.z * d[2]; };
-  append_cube(links, side, [&](const std::array<double, 3> &d) { return highest_of(vertices, [&](const Row &vertex) { return along(vertex, d); }); });
   append_cube(links, side, [&](const std::array<double, 3> &d) {
-    return highest_of(planes, [&](const Row &plane) { return along(plane, d) / (plane.w - along(plane, {middle.x, middle.y, middle.z})); });
+    return highest_of(vertices, [&](const Row &vertex) { return along(vertex, d); });
+  });
+  append_cube(links, side, [&](const std::array<double, 3> &d) {
+    return highest_of(planes, [&](const Row &plane) {
+      return along(plane, d) / (plane.w - along(plane, {middle.x, middle.y, middle.z}));
+    });
   });
 }
 
@@ -88,7 +101,8 @@ template <class Row> Row middle_of(std::span<Row> vertices)
   for (const Row &v : vertices) x += v.x, y += v.y, z += v.z;
   const double n = static_cast<double>(vertices.size());
   Row middle{};
-  middle.x = static_cast<decltype(middle.x)>(x / n), middle.y = static_cast<decltype(middle.y)>(y / n), middle.z = static_cast<decltype(middle.z)>(z / n);
+  middle.x = static_cast<decltype(middle.x)>(x / n), middle.y = static_cast<decltype(middle.y)>(y / n),
+  middle.z = static_cast<decltype(middle.z)>(z / n);
   return middle;
 }
 

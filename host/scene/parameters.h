@@ -3,8 +3,9 @@
 
 #include <tandem/scene.h>
 #include <tandem/settings.h>
-#include "shared/platform.h"
+
 #include "shared/parameters.h"
+#include "shared/platform.h"
 
 namespace tandem {
 

@@ -3,23 +3,24 @@
  * Every loader and generator ends here, so that the later stages can rely on finite numbers, unit
  * quaternions and indices in range, and never check them again.
  */
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
 #include <tandem/scene.h>
 
 #include "host/base/finite_vector.h"
+#include "host/base/printable.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
-#include "host/base/printable.h"
 #include "shared/body_codes.h"
-
-#include <algorithm>
-#include <cmath>
-#include <fmt/format.h>
 
 namespace tandem {
 namespace {
 
-/* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined and squared;
- * distances are squared; masses and their inverses are added. */
+/* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined
+ * and squared; distances are squared; masses and their inverses are added. */
 constexpr double farthest = 1e18;
 constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
 
@@ -96,8 +97,9 @@ void check_capsule(const Shape &shape, const Checker &check)
   check.length("half_height", half_height);
   check.length("radius_top", top);
   if (std::abs(double(bottom) - top) >= 2.0 * half_height)
-    check.fail(fmt::format("one sphere of the capsule (radii {} and {}, {} apart) holds the other; a sphere of radius {} is the same", bottom, top,
-                           2.0 * half_height, std::max(bottom, top)));
+    check.fail(fmt::format(
+        "one sphere of the capsule (radii {} and {}, {} apart) holds the other; a sphere of radius {} is the same",
+        bottom, top, 2.0 * half_height, std::max(bottom, top)));
 }
 
 void check_cylinder(const Shape &shape, const Checker &check)
@@ -111,7 +113,8 @@ void check_cylinder(const Shape &shape, const Checker &check)
 void check_hull(const Shape &shape, const Checker &check)
 {
   if (!shape.hull) check.fail("a hull without points; hull_shape makes one");
-  if (shape.hull->vertices.size() < 4) check.fail(fmt::format("a hull of {} vertices; at least 4 are needed", shape.hull->vertices.size()));
+  if (shape.hull->vertices.size() < 4)
+    check.fail(fmt::format("a hull of {} vertices; at least 4 are needed", shape.hull->vertices.size()));
   for (const Vec3 &vertex : shape.hull->vertices) check.within("a vertex of the hull", vertex, longest_length);
 }
 
@@ -122,13 +125,15 @@ void check_unit(const char *field, const Quat &q, const Checker &check)
   double length_squared = 0;
   for (float x : q) length_squared += double(x) * x;
   if (!(std::abs(length_squared - 1.0) < 2e-3)) /* also true for NaN */
-    check.fail(fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
+    check.fail(
+        fmt::format("{} is [{}, {}, {}, {}]; a quaternion of length 1 is needed", field, q[0], q[1], q[2], q[3]));
 }
 
 void check_child(const Child &child, const Checker &check)
 {
   if (child.shape.type == ShapeType::half_space || child.shape.type == ShapeType::compound)
-    check.fail("a half_space or compound cannot be a child; give a half_space a body of its own, and name a compound's children one by one");
+    check.fail("a half_space or compound cannot be a child; give a half_space a body of its own, and name a compound's "
+               "children one by one");
   check_shape(child.shape, check);
   check.within("position", child.position, longest_length);
   check_unit("orientation", child.orientation, check);
@@ -137,7 +142,8 @@ void check_child(const Child &child, const Checker &check)
 
 void check_compound(const Shape &shape, const Checker &check)
 {
-  if (!shape.compound || shape.compound->children.empty()) check.fail("a compound without children; at least one is needed");
+  if (!shape.compound || shape.compound->children.empty())
+    check.fail("a compound without children; at least one is needed");
   for (size_t k = 0; k < shape.compound->children.size(); ++k) {
     const std::string kind = fmt::format("{} child", label(check.kind, check.index, check.name));
     check_child(shape.compound->children[k], {check.where, kind.c_str(), k, ""});
@@ -205,7 +211,8 @@ void check_inertia(const Body &body, const Shape &shape, const Checker &check)
     if (from_shape || moment != 0) check.mass(from_shape ? "inertia from shape and mass" : "inertia", moment);
   const bool turned = body.shape_orientation != Quat{0, 0, 0, 1} || shape.type >= ShapeType::hull;
   if (from_shape && turned && !has_principal_axes(body, shape))
-    check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the inertia, or a density instead "
+    check.fail("inertia from shape and mass is about the shape's principal axes, which are not the body's; give the "
+               "inertia, or a density instead "
                "of the mass (take_mass_properties)");
 }
 
@@ -214,7 +221,8 @@ void check_materials_of_children(const Shape &shape, const Scene &scene, const C
   if (!shape.compound) return;
   for (size_t k = 0; k < shape.compound->children.size(); ++k)
     if (const auto material = shape.compound->children[k].material; material && *material >= scene.materials.size())
-      check.fail(fmt::format("material {} of child {} does not exist; the scene has {}", *material, k, scene.materials.size()));
+      check.fail(fmt::format("material {} of child {} does not exist; the scene has {}", *material, k,
+                             scene.materials.size()));
 }
 
 void check_body(const Body &body, const Scene &scene, const Checker &check)
@@ -233,7 +241,8 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   if (!std::isfinite(body.mass)) check.fail(fmt::format("mass is {}; a finite number is needed", body.mass));
   check.finite_vector("inertia", body.inertia);
   const Shape &shape = scene.shapes[body.shape];
-  if (shape.type == ShapeType::half_space && (body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1}))
+  if (shape.type == ShapeType::half_space &&
+      (body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1}))
     check.fail("a half_space has no pose in its body (shape_position, shape_orientation); move and turn the body");
   if (shape.type == ShapeType::half_space && body.continuous)
     check.fail("a half_space is not continuous: nothing comes out behind it; make the bodies that hit it so");
@@ -260,7 +269,8 @@ std::string volume_doubt(const Shape &shape)
 {
   if (shape.mesh) return volume_warning(*shape.mesh);
   for (size_t k = 0; shape.compound && k < shape.compound->children.size(); ++k)
-    if (const std::string doubt = volume_doubt(shape.compound->children[k].shape); !doubt.empty()) return fmt::format("child {}: {}", k, doubt);
+    if (const std::string doubt = volume_doubt(shape.compound->children[k].shape); !doubt.empty())
+      return fmt::format("child {}: {}", k, doubt);
   return "";
 }
 

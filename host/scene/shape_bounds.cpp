@@ -4,15 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tandem/round_to_float.h>
+
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
-#include <tandem/round_to_float.h>
 
 namespace tandem {
 namespace {
 
 Double3 double3(const Vec3 &v) { return {v[0], v[1], v[2]}; }
-double length(const Double3 &v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); } /* hypot differs between libraries */
+double length(const Double3 &v)
+{
+  return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+} /* hypot differs between libraries */
 float outward(double x) { return std::nextafter(round_to_float(x), HUGE_VALF); }
 
 /* Where a shape stands in a body. Columns x y z: its axes. */
@@ -61,7 +65,8 @@ std::vector<Double3> corners_of(const Shape &shape)
     for (const Vec3 &v : shape.hull ? shape.hull->vertices : shape.mesh->vertices) corners.push_back(double3(v));
   else
     for (int k = 0; k < 8; ++k)
-      corners.push_back({k & 1 ? shape.size[0] : -shape.size[0], k & 2 ? shape.size[1] : -shape.size[1], k & 4 ? shape.size[2] : -shape.size[2]});
+      corners.push_back({k & 1 ? shape.size[0] : -shape.size[0], k & 2 ? shape.size[1] : -shape.size[1],
+                         k & 4 ? shape.size[2] : -shape.size[2]});
   return corners;
 }
 
@@ -70,14 +75,15 @@ bool has_corners(const Shape &shape) { return shape.type == ShapeType::box || sh
 void add_rounds(std::vector<Round> &rounds, const Shape &shape, const Frame &frame)
 {
   if (shape.compound)
-    for (const Child &child : shape.compound->children) add_rounds(rounds, child.shape, product(frame, frame_of(child.position, child.orientation)));
+    for (const Child &child : shape.compound->children)
+      add_rounds(rounds, child.shape, product(frame, frame_of(child.position, child.orientation)));
   else if (has_corners(shape))
     for (const Double3 &corner : corners_of(shape)) rounds.push_back({placed(frame, corner), 0, false, {}});
-  else if (shape.type == ShapeType::sphere)
-    rounds.push_back({frame.origin, shape.size[0], false, {}});
+  else if (shape.type == ShapeType::sphere) rounds.push_back({frame.origin, shape.size[0], false, {}});
   else
     for (size_t end : {0, 2})
-      rounds.push_back({placed(frame, {0, end == 0 ? -double(shape.size[1]) : double(shape.size[1]), 0}), shape.size[end], shape.type == ShapeType::cylinder, frame.y});
+      rounds.push_back({placed(frame, {0, end == 0 ? -double(shape.size[1]) : double(shape.size[1]), 0}),
+                        shape.size[end], shape.type == ShapeType::cylinder, frame.y});
 }
 
 std::vector<Round> rounds_of(const Shape &shape, const Vec3 &position, const Quat &orientation)
@@ -97,7 +103,8 @@ double reach_along(const Round &round, size_t axis)
 double farthest(const Round &round)
 {
   if (!round.disc) return length(round.center) + round.radius;
-  const double along = round.center[0] * round.axis[0] + round.center[1] * round.axis[1] + round.center[2] * round.axis[2];
+  const double along =
+      round.center[0] * round.axis[0] + round.center[1] * round.axis[1] + round.center[2] * round.axis[2];
   const double across = std::sqrt(std::max(0.0, length(round.center) * length(round.center) - along * along));
   return length({along, across + round.radius, 0});
 }
@@ -131,7 +138,10 @@ ShapeBox box_around(const Shape &shape, const Vec3 &position, const Quat &orient
   return box;
 }
 
-ShapeBox box_around(const Scene &scene, const Body &body) { return box_around(scene.shapes[body.shape], body.shape_position, body.shape_orientation); }
+ShapeBox box_around(const Scene &scene, const Body &body)
+{
+  return box_around(scene.shapes[body.shape], body.shape_position, body.shape_orientation);
+}
 
 float bounding_radius(const Scene &scene, const Body &body)
 {
@@ -141,7 +151,8 @@ float bounding_radius(const Scene &scene, const Body &body)
   if (shape.type == ShapeType::sphere && centred) return shape.size[0];
   if (shape.type == ShapeType::box && centred) return round_to_float(length(double3(shape.size)));
   double radius = 0;
-  for (const Round &round : rounds_of(shape, body.shape_position, body.shape_orientation)) radius = std::max(radius, farthest(round));
+  for (const Round &round : rounds_of(shape, body.shape_position, body.shape_orientation))
+    radius = std::max(radius, farthest(round));
   return outward(radius);
 }
 

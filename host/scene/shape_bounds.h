@@ -16,8 +16,8 @@ ShapeBox box_around(const Scene &scene, const Body &body); /* in the body's fram
 /* Radius of the sphere about the body's centre that holds the shape; 0 for a half-space. */
 float bounding_radius(const Scene &scene, const Body &body);
 
-/* What kernels read as the size of a shape (body_shape): that of scene.h; of a hull or mesh half extents of a box about its origin; of a
- * compound three times the least half extent of its children, since only the least is asked for. */
+/* What kernels read as the size of a shape (body_shape): that of scene.h; of a hull or mesh half extents of a box about
+ * its origin; of a compound three times the least half extent of its children, since only the least is asked for. */
 Vec3 kernel_size(const Shape &shape);
 
 } // namespace tandem

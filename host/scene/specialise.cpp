@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <tandem/settings.h>
+
 #include "host/scene/shape_bounds.h"
 #include "shared/body_codes.h"
 #include "shared/features.h"
@@ -40,17 +41,21 @@ Presence presence_of(const Scene &scene)
 /* Of bodies, and of children of compounds. */
 bool any_shape(const Scene &scene, std::initializer_list<ShapeType> types)
 {
-  const auto wanted = [&](const Shape &shape) { return std::find(types.begin(), types.end(), shape.type) != types.end(); };
+  const auto wanted = [&](const Shape &shape) {
+    return std::find(types.begin(), types.end(), shape.type) != types.end();
+  };
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) {
     const Shape &shape = scene.shapes[body.shape];
     if (wanted(shape)) return true;
-    return shape.compound && std::any_of(shape.compound->children.begin(), shape.compound->children.end(), [&](const Child &child) { return wanted(child.shape); });
+    return shape.compound && std::any_of(shape.compound->children.begin(), shape.compound->children.end(),
+                                         [&](const Child &child) { return wanted(child.shape); });
   });
 }
 
 uint32_t convex_features(const Scene &scene)
 {
-  const bool general = std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
+  const bool general =
+      std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
   if (!general) return 0;
   uint32_t features = FEATURE_CONVEX;
   if (any_shape(scene, {ShapeType::half_space})) features |= FEATURE_CONVEX_HALF_SPACE;
@@ -65,18 +70,22 @@ uint32_t narrowphase_features(const Scene &scene, uint32_t features, const Setti
 {
   if ((features & FEATURE_CONVEX) == 0) return 0;
   const uint32_t method = narrowphase_method(settings) & 255u;
-  if (method == CONVEX_SAMPLED) return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
+  if (method == CONVEX_SAMPLED)
+    return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
   if (method == CONVEX_EXPANSION) return FEATURE_EXPANSION;
   if (method == CONVEX_FIELDS) return uint32_t{FEATURE_FIELDS} | uint32_t{FEATURE_EXPANSION};
   const bool others = any_shape(scene, {ShapeType::sphere, ShapeType::capsule, ShapeType::cylinder, ShapeType::mesh});
-  return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) | (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
+  return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) |
+         (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
 }
 
 uint32_t support_features(uint32_t features, const Settings &settings)
 {
   if ((features & FEATURE_HULL) == 0) return 0;
   const uint32_t support = narrowphase_method(settings) >> 8;
-  return support == SUPPORT_HILL_CLIMBING ? uint32_t{FEATURE_HILL_CLIMBING} : support == SUPPORT_CUBE_MAP ? uint32_t{FEATURE_CUBE_MAP} : 0u;
+  return support == SUPPORT_HILL_CLIMBING ? uint32_t{FEATURE_HILL_CLIMBING}
+         : support == SUPPORT_CUBE_MAP    ? uint32_t{FEATURE_CUBE_MAP}
+                                          : 0u;
 }
 
 uint32_t pair_features(const Presence &present)
@@ -154,7 +163,9 @@ uint32_t body_features(const Scene &scene)
   return features;
 }
 
-struct LargeBodies { std::vector<uint32_t> boundless, large; };
+struct LargeBodies {
+  std::vector<uint32_t> boundless, large;
+};
 
 LargeBodies large_bodies(const Scene &scene)
 {
@@ -165,7 +176,8 @@ LargeBodies large_bodies(const Scene &scene)
   std::vector<uint32_t> boundless, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
-    else if (radius(body) > limit || scene.bodies[body].continuous) large.push_back(body); /* what is fast has bounds as large */
+    else if (radius(body) > limit || scene.bodies[body].continuous)
+      large.push_back(body); /* what is fast has bounds as large */
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
@@ -225,7 +237,8 @@ Specialisation specialise(const Scene &scene, const Settings &settings)
 {
   Specialisation result;
   result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
-  result.features |= narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
+  result.features |=
+      narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
   if (settings.events) result.features |= FEATURE_EVENTS;
   const LargeBodies first = large_bodies(scene);
   result.order = first.boundless;

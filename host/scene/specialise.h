@@ -20,9 +20,9 @@ constexpr float large_ratio = 4.0f;
 
 struct Specialisation {
   uint32_t features = 0; /* FEATURE_ bits */
-  /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid, so
-   * that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as large, as their
-   * bounds are. */
+  /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid,
+   * so that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as
+   * large, as their bounds are. */
   std::vector<uint32_t> order;
   uint32_t boundless = 0; /* half-spaces */
   uint32_t large = 0;     /* these and the large ones */
@@ -36,8 +36,8 @@ uint32_t all_features();
 /* The median of bounding_radius over the bodies of finite size; 0 for none. */
 float median_radius(const Scene &scene);
 
-/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body, or with
- * continuous collision. */
+/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body,
+ * or with continuous collision. */
 bool is_general(const Scene &scene, const Body &body);
 
 /* What a body or a child meets: see Body in scene.h. */

@@ -2,12 +2,13 @@
 #include "host/scene/tree_tables.h"
 
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
-#include "host/scene/buffer_upload.h"
+#include <fmt/format.h>
+
 #include "host/geometry/bvh.h"
 #include "host/geometry/shape_mass.h"
+#include "host/scene/buffer_upload.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/counts.h"
 #include "shared/midphase/tree.h"
@@ -19,7 +20,9 @@ static_assert(SUBTREE_NODES == most_subtree_nodes);
 
 uint32_t count_of(size_t n)
 {
-  if (n > UINT32_MAX) throw InputError(fmt::format("meshes and compounds: {} entries in one table; at most {} can be numbered", n, UINT32_MAX));
+  if (n > UINT32_MAX)
+    throw InputError(
+        fmt::format("meshes and compounds: {} entries in one table; at most {} can be numbered", n, UINT32_MAX));
   return static_cast<uint32_t>(n);
 }
 
@@ -45,7 +48,8 @@ public:
 
   TreeTables build()
   {
-    for (size_t i = 0; i < scene_.shapes.size(); ++i) tables_.tree_of_shape.push_back(tree_of(scene_.shapes[i], fmt::format("{}: shape {}", scene_.name, i)));
+    for (size_t i = 0; i < scene_.shapes.size(); ++i)
+      tables_.tree_of_shape.push_back(tree_of(scene_.shapes[i], fmt::format("{}: shape {}", scene_.name, i)));
     for (const Body &body : scene_.bodies) tables_.sizes.children += children_of(scene_.shapes[body.shape]);
     tables_.sizes.vertices = count_of(tables_.vertices.size());
     tables_.sizes.triangles = count_of(tables_.triangles.size() / 6);
@@ -78,14 +82,16 @@ private:
     return leaves;
   }
 
-  void add_triangles(std::vector<Leaf> &leaves, uint32_t child, const Shape &shape, const Vec3 &position, const Quat &orientation)
+  void add_triangles(std::vector<Leaf> &leaves, uint32_t child, const Shape &shape, const Vec3 &position,
+                     const Quat &orientation)
   {
     const TriangleMesh &mesh = *shape.mesh;
     const uint32_t first = first_triangle_of(mesh);
     const std::vector<Vec3> placed = placed_points(mesh.vertices, position, orientation);
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const Triangle &corners = mesh.triangles[t];
-      leaves.push_back({child, first + t, bounds_of(std::vector<Vec3>{placed[corners[0]], placed[corners[1]], placed[corners[2]]})});
+      leaves.push_back(
+          {child, first + t, bounds_of(std::vector<Vec3>{placed[corners[0]], placed[corners[1]], placed[corners[2]]})});
     }
   }
 
@@ -97,7 +103,8 @@ private:
     for (const Vec3 &v : mesh.vertices) tables_.vertices.push_back({v[0], v[1], v[2], 0});
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
       for (uint32_t corner : mesh.triangles[t]) tables_.triangles.push_back(vertex + corner);
-      for (uint32_t beyond : mesh.neighbours[t]) tables_.triangles.push_back(beyond == no_triangle ? INDEX_NONE : triangle + beyond);
+      for (uint32_t beyond : mesh.neighbours[t])
+        tables_.triangles.push_back(beyond == no_triangle ? INDEX_NONE : triangle + beyond);
     }
     return triangle;
   }
@@ -108,9 +115,11 @@ private:
     for (const Leaf &leaf : leaves) boxes.push_back(leaf.box);
     const Bvh bvh = build_bvh(boxes, where);
     const auto &[origin, step] = bvh.quantisation;
-    for (size_t word : {tables_.nodes.size() / 4, bvh.nodes.size(), tables_.leaves.size() / 2, leaves.size(), tables_.subtrees.size() / 4, bvh.subtrees.size()})
+    for (size_t word : {tables_.nodes.size() / 4, bvh.nodes.size(), tables_.leaves.size() / 2, leaves.size(),
+                        tables_.subtrees.size() / 4, bvh.subtrees.size()})
       tables_.headers.push_back(count_of(word));
-    tables_.frames.insert(tables_.frames.end(), {row{origin[0], origin[1], origin[2], 0}, row{step[0], step[1], step[2], 0}});
+    tables_.frames.insert(tables_.frames.end(),
+                          {row{origin[0], origin[1], origin[2], 0}, row{step[0], step[1], step[2], 0}});
     for (const BvhNode &node : bvh.nodes) add_box(tables_.nodes, node.bounds, static_cast<uint32_t>(node.value));
     for (const BvhSubtree &subtree : bvh.subtrees) add_box(tables_.subtrees, subtree.bounds, subtree.root);
     for (const Leaf &leaf : leaves) tables_.leaves.insert(tables_.leaves.end(), {leaf.child, leaf.triangle});

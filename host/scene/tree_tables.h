@@ -1,16 +1,17 @@
 /* tree_tables.h - meshes and compounds of a scene as the tables that the midphase walks: shared/midphase/tree.h.
  *
- * A compound's tree has a leaf for each convex child and one for each triangle of a child that is a mesh, so a pair of bodies has
- * one tree on either side at most. Bodies that share a shape share its tree; the children of each body have places of their own
- * behind the bodies, since they stand in that body's frame.
+ * A compound's tree has a leaf for each convex child and one for each triangle of a child that is a mesh, so a pair of
+ * bodies has one tree on either side at most. Bodies that share a shape share its tree; the children of each body have
+ * places of their own behind the bodies, since they stand in that body's frame.
  */
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "host/runtime/memory.h"
 #include <tandem/scene.h>
+
+#include "host/runtime/memory.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -23,7 +24,8 @@ struct TreeSizes {
 struct TreeTables {
   TreeSizes sizes;
   std::vector<uint32_t> tree_of_shape; /* of Scene::shapes; INDEX_NONE for convex ones */
-  std::vector<uint32_t> headers, nodes, leaves, subtrees, triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, .. */
+  std::vector<uint32_t> headers, nodes, leaves, subtrees,
+      triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, .. */
   std::vector<row> frames, vertices;
 };
 

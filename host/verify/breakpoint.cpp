@@ -1,7 +1,5 @@
 /* breakpoint.cpp - see breakpoint.h. */
 #include "host/verify/breakpoint.h"
-#include "host/runtime/memory.h"
-#include "host/runtime/interface/backend.h"
 
 #include <algorithm>
 #include <optional>
@@ -9,12 +7,21 @@
 
 #include <fmt/format.h>
 
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
+
 namespace tandem {
 namespace {
 
-uint32_t count_of(World &world, uint32_t entry) { return world.memory().read<uint32_t>(Buffer::counts, 1, entry).at(0); }
+uint32_t count_of(World &world, uint32_t entry)
+{
+  return world.memory().read<uint32_t>(Buffer::counts, 1, entry).at(0);
+}
 
-bool is_allocated(World &world, Buffer buffer, size_t item) { return (item + 1) * sizeof(uint32_t) <= world.memory().bytes(buffer); }
+bool is_allocated(World &world, Buffer buffer, size_t item)
+{
+  return (item + 1) * sizeof(uint32_t) <= world.memory().bytes(buffer);
+}
 
 std::string_view name_of_buffer(Buffer buffer) { return row_of(buffer).name; }
 
@@ -24,8 +31,8 @@ bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with
 /* Numbered as the kernel's own iterations are, whatever those stand for. */
 bool is_by_item(Buffer buffer)
 {
-  return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds || buffer == Buffer::finds ||
-         buffer == Buffer::grid_finds;
+  return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds ||
+         buffer == Buffer::finds || buffer == Buffer::grid_finds;
 }
 
 bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
@@ -42,7 +49,8 @@ Domain domain_of(const KernelRow &row)
 {
   switch (row.items) {
   case COUNT_BODIES:
-    if (names_buffer(row, [](Buffer buffer) { return buffer == Buffer::cell_start; })) return Domain::bodies_in_grid_order;
+    if (names_buffer(row, [](Buffer buffer) { return buffer == Buffer::cell_start; }))
+      return Domain::bodies_in_grid_order;
     if (names_buffer(row, [](Buffer buffer) { return buffer == Buffer::hierarchy; })) return Domain::bodies_on_curve;
     return Domain::bodies;
   case COUNT_BODIES_PLUS_ONE:
@@ -101,8 +109,10 @@ std::optional<uint32_t> place_in_order(World &world, Buffer list, uint32_t unsor
 
 std::optional<uint32_t> iteration_of_body(World &world, Domain runs, uint32_t body)
 {
-  if (runs == Domain::bodies_in_grid_order) return place_in_order(world, Buffer::sort_value, count_of(world, COUNT_LARGE), body);
-  if (runs == Domain::bodies_on_curve) return place_in_order(world, Buffer::leaf_body, count_of(world, COUNT_BOUNDLESS), body);
+  if (runs == Domain::bodies_in_grid_order)
+    return place_in_order(world, Buffer::sort_value, count_of(world, COUNT_LARGE), body);
+  if (runs == Domain::bodies_on_curve)
+    return place_in_order(world, Buffer::leaf_body, count_of(world, COUNT_BOUNDLESS), body);
   return body;
 }
 
@@ -119,7 +129,8 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   const Domain runs = domain_of(row), written = domain_of(buffer);
   if (row.form == Form::group) return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
   if (is_by_item(buffer)) return item;
-  if (runs == Domain::unknown || written == Domain::unknown || (buffer == Buffer::pair_key && runs != Domain::pairs)) return {};
+  if (runs == Domain::unknown || written == Domain::unknown || (buffer == Buffer::pair_key && runs != Domain::pairs))
+    return {};
   if (runs == Domain::constraints && written != Domain::constraints) return constraint_of(world, launch, written, item);
   if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order || runs == Domain::bodies_on_curve) {
     const std::optional<uint32_t> body = written == Domain::pairs ? owner_of_pair(world, item) : std::optional(item);

@@ -120,7 +120,8 @@ std::optional<uint64_t> ulps_between(Buffer buffer, const void *one, const void 
 {
   if (!holds_reals(buffer) || std::isnan(real_at(buffer, one)) || std::isnan(real_at(buffer, other))) return {};
   const uint64_t bits = bits_of(buffer, one), other_bits = bits_of(buffer, other);
-  const int64_t a = position_on_line(bits, scalar_bytes(buffer)), b = position_on_line(other_bits, scalar_bytes(buffer));
+  const int64_t a = position_on_line(bits, scalar_bytes(buffer)),
+                b = position_on_line(other_bits, scalar_bytes(buffer));
   if (a == b) return bits == other_bits ? 0 : 1; /* 0 and -0 */
   return static_cast<uint64_t>(a > b ? a - b : b - a);
 }
@@ -134,7 +135,8 @@ bool same_number(Buffer buffer, const void *one, const void *other)
 uint64_t hash_numbers(Buffer buffer, const void *contents, size_t bytes)
 {
   if (!holds_reals(buffer)) return hash_bytes(contents, bytes);
-  return scalar_bytes(buffer) == sizeof(double) ? hash_reals<double>(contents, bytes) : hash_reals<float>(contents, bytes);
+  return scalar_bytes(buffer) == sizeof(double) ? hash_reals<double>(contents, bytes)
+                                                : hash_reals<float>(contents, bytes);
 }
 
 void change_least(Buffer buffer, void *scalar)

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "host/verify/breakpoint.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
+#include "host/verify/breakpoint.h"
 
 namespace tandem {
 std::vector<Buffer> buffers_written(const Launch &launch)
@@ -102,7 +102,8 @@ void Lockstep::step_reference(World &world)
 {
   reference_.clear();
   step(0, world, current_, [&](const Launch &launch, uint32_t number) {
-    for (const Buffer buffer : buffers_written(launch)) reference_.push_back({number, launch.kernel, buffer, hash_of(world, buffer)});
+    for (const Buffer buffer : buffers_written(launch))
+      reference_.push_back({number, launch.kernel, buffer, hash_of(world, buffer)});
   });
 }
 
@@ -163,11 +164,13 @@ Difference Lockstep::explain() const
     return difference;
   }
   difference.buffer = departure_->output.buffer;
-  difference.note = fmt::format("'{}' did not get as far when it ran again: it does not repeat itself", request_.backends[0]);
+  difference.note =
+      fmt::format("'{}' did not get as far when it ran again: it does not repeat itself", request_.backends[0]);
   const std::unique_ptr<World> reference = make_world(0);
   for (uint64_t k = 0; k <= departure_->step; ++k)
     step(0, *reference, k, [&](const Launch &launch, uint32_t number) {
-      if (k == departure_->step && number == departure_->output.launch) lay_side_by_side(*reference, launch, difference);
+      if (k == departure_->step && number == departure_->output.launch)
+        lay_side_by_side(*reference, launch, difference);
     });
   return difference;
 }
@@ -184,10 +187,12 @@ void Lockstep::lay_side_by_side(World &reference, const Launch &launch, Differen
     if (differs(k)) first = k, ++difference.differing;
   difference.note.clear();
   if (reference.memory().bytes(buffer) != other.size())
-    difference.note = fmt::format("the buffer has {} bytes on one and {} on the other", reference.memory().bytes(buffer), other.size());
+    difference.note = fmt::format("the buffer has {} bytes on one and {} on the other",
+                                  reference.memory().bytes(buffer), other.size());
   if (first == count) {
     if (difference.note.empty())
-      difference.note = fmt::format("'{}' gave other bits when it ran again: it does not repeat itself", request_.backends[0]);
+      difference.note =
+          fmt::format("'{}' gave other bits when it ran again: it does not repeat itself", request_.backends[0]);
     return;
   }
   difference.scalar = first;
@@ -218,7 +223,10 @@ Comparison Lockstep::run()
   return result_;
 }
 
-bool holds(const Memory &memory, Buffer buffer, size_t scalar) { return (scalar + 1) * scalar_bytes(buffer) <= memory.bytes(buffer); }
+bool holds(const Memory &memory, Buffer buffer, size_t scalar)
+{
+  return (scalar + 1) * scalar_bytes(buffer) <= memory.bytes(buffer);
+}
 
 void change_in_memory(Memory &memory, Buffer buffer, size_t scalar)
 {
@@ -233,9 +241,11 @@ void change_in_memory(Memory &memory, Buffer buffer, size_t scalar)
 std::string what_is_missing(const PlantedError &error, const Memory &memory, const Launch &launch)
 {
   const std::vector<Buffer> written = buffers_written(launch);
-  if (std::find(written.begin(), written.end(), error.buffer) == written.end()) return fmt::format("{} does not write {}", row_of(error.kernel).name, row_of(error.buffer).name);
+  if (std::find(written.begin(), written.end(), error.buffer) == written.end())
+    return fmt::format("{} does not write {}", row_of(error.kernel).name, row_of(error.buffer).name);
   if (holds(memory, error.buffer, error.scalar)) return {};
-  return fmt::format("{} holds {} numbers then, counted from 0", row_of(error.buffer).name, memory.bytes(error.buffer) / scalar_bytes(error.buffer));
+  return fmt::format("{} holds {} numbers then, counted from 0", row_of(error.buffer).name,
+                     memory.bytes(error.buffer) / scalar_bytes(error.buffer));
 }
 
 } // namespace
@@ -244,7 +254,8 @@ Tamper plant(const PlantedError &error, std::string *missing)
 {
   if (missing) *missing = fmt::format("{} does not run in step {}", row_of(error.kernel).name, error.step);
   /* The world that this step was planted in: a fresh world of the same index (the second run) gets it again. */
-  return [error, missing, done = static_cast<World *>(nullptr)](size_t index, uint64_t step, World &world, const Launch &launch) mutable {
+  return [error, missing, done = static_cast<World *>(nullptr)](size_t index, uint64_t step, World &world,
+                                                                const Launch &launch) mutable {
     if (index != error.world || step != error.step || launch.kernel != error.kernel || done == &world) return;
     const std::string why = what_is_missing(error, world.memory(), launch);
     if (missing) *missing = why;
@@ -258,7 +269,8 @@ Comparison compare_backends(const Scene &scene, const ComparisonRequest &request
 {
   if (request.backends.size() < 2) throw InputError("comparing takes at least two backends: serial,tbb");
   BroadphaseChoice choice{request.settings.broadphase, "as asked"};
-  if (choice.name == "auto") choice = choose_broadphase(scene, request.backends.front()); /* each on its own choice would run other kernels */
+  if (choice.name == "auto")
+    choice = choose_broadphase(scene, request.backends.front()); /* each on its own choice would run other kernels */
   ComparisonRequest decided = request;
   decided.settings.broadphase = choice.name;
   Comparison comparison = Lockstep(scene, decided).run();

@@ -15,9 +15,10 @@
 #include <string>
 #include <vector>
 
+#include <tandem/world.h>
+
 #include "host/pipeline/broadphases/choice.h"
 #include "host/verify/buffer_place.h"
-#include <tandem/world.h>
 
 namespace tandem {
 
@@ -33,7 +34,8 @@ struct PlantedError {
   Buffer buffer{};
   size_t scalar = 0;
 };
-/* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the tamper. */
+/* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the
+ * tamper. */
 Tamper plant(const PlantedError &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
@@ -56,7 +58,7 @@ struct Difference {
   BufferPlace place{};
   BufferValue values[2];
   std::optional<uint64_t> ulps;
-  uint64_t differing = 0; /* numbers of this buffer that differ */
+  uint64_t differing = 0;       /* numbers of this buffer that differ */
   std::vector<uint32_t> bodies; /* of the scene: the item's body, or the two of its pair */
   std::string breakpoint;       /* for gdb on the serial backend: function and condition */
   std::string note;             /* what else there is to say; empty if nothing */
@@ -65,11 +67,11 @@ struct Difference {
 struct Comparison {
   bool equal = true;
   BroadphaseChoice broadphase; /* on every backend; `auto` is decided once, for the first */
-  uint64_t steps = 0; /* run on every backend; the last may have differed */
+  uint64_t steps = 0;          /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;
   std::optional<Difference> first_difference;
-  std::vector<Quarantine> quarantined;    /* on the first backend */
+  std::vector<Quarantine> quarantined;   /* on the first backend */
   std::optional<BatchFault> batch_fault; /* the first on any backend; only with Settings::check */
 };
 

@@ -9,10 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/runtime/launcher.h"
-#include "host/pipeline/primitives.h"
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
+
+#include "host/pipeline/primitives.h"
+#include "host/runtime/launcher.h"
 #include "shared/problem/residual.h"
 
 namespace tandem {
@@ -32,7 +33,8 @@ public:
     add_up(Reduction::sum, Buffer::problem_term_a, Buffer::problem_trace);
     add_up(Reduction::sum, Buffer::problem_term_b, Buffer::problem_sum);
     const double trace = memory_.read_reals(Buffer::problem_trace, 1)[0];
-    const double size = double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
+    const double size =
+        double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
     scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and found at once */
   }
   ~Solver() { backend_.finish(); }
@@ -41,14 +43,20 @@ public:
   {
     if (solver == "jacobi") return jacobi_sweep();
     for (uint32_t level = 0; level + 1 < levels_.start.size(); ++level)
-      launcher_.launch({Kernel::problem_sweep, {}, {}, COUNT_TOTAL + level, COUNT_TOTAL + level + 1,
+      launcher_.launch({Kernel::problem_sweep,
+                        {},
+                        {},
+                        COUNT_TOTAL + level,
+                        COUNT_TOTAL + level + 1,
                         levels_.start[level + 1] - levels_.start[level]});
     if (solver == "nncg") conjugate();
   }
 
   double natural_residual()
   {
-    run({Kernel::problem_residual, {impulse_, Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c}, {}});
+    run({Kernel::problem_residual,
+         {impulse_, Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c},
+         {}});
     return relative(Buffer::problem_term_a);
   }
 
@@ -95,11 +103,13 @@ private:
     upload(Buffer::problem_order, levels_.order);
     upload(Buffer::problem_block, blocks);
     upload(Buffer::problem_free, free);
-    for (const Buffer rows : {Buffer::problem_step, Buffer::problem_impulse, Buffer::problem_previous, Buffer::problem_direction})
+    for (const Buffer rows :
+         {Buffer::problem_step, Buffer::problem_impulse, Buffer::problem_previous, Buffer::problem_direction})
       memory_.resize(rows, size_of(Element::row) * contacts_);
     for (const Buffer terms : {Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c})
       memory_.resize(terms, size_of(Element::real) * contacts_);
-    for (const Buffer sum : {Buffer::problem_trace, Buffer::problem_change, Buffer::problem_change_other, Buffer::problem_sum})
+    for (const Buffer sum :
+         {Buffer::problem_trace, Buffer::problem_change, Buffer::problem_change_other, Buffer::problem_sum})
       memory_.resize(sum, size_of(Element::real));
     memory_.resize(Buffer::problem_partial, size_of(Element::real) * reduce_partial_words(contacts_));
   }
@@ -173,14 +183,16 @@ ContactLevels contact_levels(const ContactProblem &problem)
   ContactLevels result;
   result.order.resize(n);
   std::iota(result.order.begin(), result.order.end(), 0u);
-  std::stable_sort(result.order.begin(), result.order.end(), [&](uint32_t a, uint32_t b) { return level[a] < level[b]; });
+  std::stable_sort(result.order.begin(), result.order.end(),
+                   [&](uint32_t a, uint32_t b) { return level[a] < level[b]; });
   result.start.assign(levels + 1, 0);
   for (const uint32_t l : level) ++result.start[l + 1];
   std::partial_sum(result.start.begin(), result.start.end(), result.start.begin());
   return result;
 }
 
-ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings, Backend &backend)
+ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,
+                                      Backend &backend)
 {
   const auto &names = contact_solver_names();
   if (std::find(names.begin(), names.end(), settings.solver) == names.end())

@@ -1,6 +1,7 @@
 /* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
  *
- * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and shared/problem/sweep.h for the methods.
+ * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and
+ * shared/problem/sweep.h for the methods.
  */
 #pragma once
 
@@ -8,13 +9,14 @@
 #include <string>
 #include <vector>
 
-#include "host/runtime/interface/backend.h"
 #include "host/io/contact_problem_file.h"
+#include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 
 namespace tandem {
 
-/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision: on the backend `reference` wherever asked for. */
+/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision: on the backend `reference` wherever asked
+ * for. */
 const std::vector<std::string> &contact_solver_names();
 
 struct ContactSolverSettings {
@@ -37,9 +39,11 @@ struct ContactSolution {
   double milliseconds = 0; /* sweeps and residuals; without building kernels and the first moves */
 };
 
-ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings, Backend &backend);
+ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,
+                                      Backend &backend);
 
-/* Contacts in an order of levels in which a parallel pass equals the pass from 0 to the last: order, and where levels start. */
+/* Contacts in an order of levels in which a parallel pass equals the pass from 0 to the last: order, and where levels
+ * start. */
 struct ContactLevels {
   std::vector<uint32_t> order, start;
 };

@@ -6,11 +6,11 @@
 
 #include <Eigen/Geometry>
 
-#include "host/scene/specialise.h"
-#include "host/runtime/memory.h"
 #include "host/runtime/interface/kernel_list.h"
-#include "shared/platform.h"
+#include "host/runtime/memory.h"
+#include "host/scene/specialise.h"
 #include "shared/counts.h"
+#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -108,8 +108,14 @@ public:
   size_t count = 0;
 
 private:
-  std::vector<double> plane(Memory &memory, Buffer buffer, size_t k) const { return memory.read_reals(buffer, 4 * count, 4 * k * stride_); }
-  static Vector at(const std::vector<double> &rows, size_t i) { return {rows[4 * i], rows[4 * i + 1], rows[4 * i + 2]}; }
+  std::vector<double> plane(Memory &memory, Buffer buffer, size_t k) const
+  {
+    return memory.read_reals(buffer, 4 * count, 4 * k * stride_);
+  }
+  static Vector at(const std::vector<double> &rows, size_t i)
+  {
+    return {rows[4 * i], rows[4 * i + 1], rows[4 * i + 2]};
+  }
   Vector normal(size_t i) const { return at(normal_, i); }
   /* packed_friction of shared/setup/contact.h. */
   bool arms_stay(size_t i) const { return normal_[4 * i + 3] < 0; }
@@ -170,7 +176,8 @@ template <class V> V disc_natural_map(const V &impulse, const V &mass_speed, dou
   return impulse - projected;
 }
 
-/* |x + y - sqrt(x^2 + y^2)| with the products of Jordan on Lorentz's cone, x = (limit, impulse), y = (|mass_speed|, mass_speed). */
+/* |x + y - sqrt(x^2 + y^2)| with the products of Jordan on Lorentz's cone, x = (limit, impulse), y = (|mass_speed|,
+ * mass_speed). */
 template <class V> double disc_fischer_burmeister(const V &impulse, const V &mass_speed, double limit)
 {
   const double y0 = mass_speed.norm();
@@ -182,7 +189,8 @@ template <class V> double disc_fischer_burmeister(const V &impulse, const V &mas
 }
 
 struct Sums {
-  double natural_map = 0, fischer_burmeister = 0, impulses = 0, violation = 0, limit = 0; /* squares, but for the last two */
+  double natural_map = 0, fischer_burmeister = 0, impulses = 0, violation = 0,
+         limit = 0; /* squares, but for the last two */
 };
 
 void add_points(const StepContacts &problem, size_t i, Sums &sums)
@@ -237,8 +245,14 @@ void TrajectoryError::add(const Scene &scene, const PreciseBodies &states, const
   }
 }
 
-double TrajectoryError::position_rms() const { return count_ ? std::sqrt(position_squares_ / static_cast<double>(count_)) : 0; }
-double TrajectoryError::angle_rms() const { return count_ ? std::sqrt(angle_squares_ / static_cast<double>(count_)) : 0; }
+double TrajectoryError::position_rms() const
+{
+  return count_ ? std::sqrt(position_squares_ / static_cast<double>(count_)) : 0;
+}
+double TrajectoryError::angle_rms() const
+{
+  return count_ ? std::sqrt(angle_squares_ / static_cast<double>(count_)) : 0;
+}
 
 Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states)
 {
@@ -248,7 +262,8 @@ Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states)
     const Body &body = scene.bodies[i];
     if (body.motion != Motion::dynamic) continue;
     const double mass = body.mass;
-    const Vector x = vector_of(states[i].position), v = vector_of(states[i].linear_velocity), w = vector_of(states[i].angular_velocity);
+    const Vector x = vector_of(states[i].position), v = vector_of(states[i].linear_velocity),
+                 w = vector_of(states[i].angular_velocity);
     const Eigen::Matrix3d axes = quaternion_of(states[i].orientation).normalized().toRotationMatrix();
     const Vector spin = axes * moments_of(scene, body).cwiseProduct(axes.transpose() * w);
     momentum += mass * v;
@@ -273,7 +288,10 @@ double mean_height(const Scene &scene, const PreciseBodies &states)
 
 double natural_map_of(double impulse, double mass_speed) { return impulse - std::max(impulse - mass_speed, 0.0); }
 
-double fischer_burmeister_of(double impulse, double mass_speed) { return impulse + mass_speed - std::hypot(impulse, mass_speed); }
+double fischer_burmeister_of(double impulse, double mass_speed)
+{
+  return impulse + mass_speed - std::hypot(impulse, mass_speed);
+}
 
 StepResiduals step_residuals(World &world)
 {

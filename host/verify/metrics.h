@@ -34,7 +34,7 @@ private:
 
 /* Sums over dynamic bodies. Potential: -m g . x, 0 at the origin. Angular momentum: about the origin. */
 struct Conserved {
-  double kinetic = 0, potential = 0; /* J */
+  double kinetic = 0, potential = 0;                    /* J */
   std::array<double, 3> momentum{}, angular_momentum{}; /* kg m/s, kg m^2/s */
 
   double energy() const { return kinetic + potential; }
@@ -44,8 +44,8 @@ Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states);
 /* Mean height (against gravity; y without gravity) of the dynamic bodies, m. */
 double mean_height(const Scene &scene, const PreciseBodies &states);
 
-/* How far the impulses and velocities at the end of the last step are from solving its contact problem. All relative: to the
- * Euclidean norm of the impulses, the violation to the largest limit of friction. 0 without contacts. */
+/* How far the impulses and velocities at the end of the last step are from solving its contact problem. All relative:
+ * to the Euclidean norm of the impulses, the violation to the largest limit of friction. 0 without contacts. */
 struct StepResiduals {
   double natural_map = 0;
   double fischer_burmeister = 0;
@@ -53,7 +53,8 @@ struct StepResiduals {
 };
 StepResiduals step_residuals(World &world);
 
-/* One contact of a problem in impulses: normal p >= 0 and speed u, complementary. Both in N s: `mass_speed` is effective mass x speed. */
+/* One contact of a problem in impulses: normal p >= 0 and speed u, complementary. Both in N s: `mass_speed` is
+ * effective mass x speed. */
 double natural_map_of(double impulse, double mass_speed);
 double fischer_burmeister_of(double impulse, double mass_speed);
 

@@ -10,15 +10,16 @@
 #include <tuple>
 #include <utility>
 
-#include "host/verify/buffer_place.h"
-#include "host/world/carried.h"
-#include "host/verify/compare.h"
-#include "host/runtime/launcher.h"
 #include <tandem/round_to_float.h>
-#include "shared/platform.h"
-#include "shared/counts.h"
+
+#include "host/runtime/launcher.h"
 #include "host/runtime/make_backend.h"
 #include "host/runtime/memory.h"
+#include "host/verify/buffer_place.h"
+#include "host/verify/compare.h"
+#include "host/world/carried.h"
+#include "shared/counts.h"
+#include "shared/platform.h"
 
 namespace tandem {
 namespace {
@@ -83,7 +84,8 @@ public:
     if (ulps_.empty()) return row_;
     std::sort(ulps_.begin(), ulps_.end());
     row_.median_ulps = ulps_[ulps_.size() / 2];
-    row_.high_ulps = ulps_[std::min(ulps_.size() - 1, static_cast<size_t>(std::ceil(0.999 * static_cast<double>(ulps_.size()))))];
+    row_.high_ulps =
+        ulps_[std::min(ulps_.size() - 1, static_cast<size_t>(std::ceil(0.999 * static_cast<double>(ulps_.size()))))];
     row_.max_ulps = ulps_.back();
     return row_;
   }
@@ -136,7 +138,8 @@ public:
     const std::vector<Buffer> written = buffers_written(launch);
     if (launch.kernel == Kernel::commit_bodies) turn_carried(mirror_.memory()); /* as the step does just before */
     std::vector<std::vector<char>> before;
-    for (const Buffer buffer : written) before.push_back(mirror_.memory().read<char>(buffer, mirror_.memory().bytes(buffer)));
+    for (const Buffer buffer : written)
+      before.push_back(mirror_.memory().read<char>(buffer, mirror_.memory().bytes(buffer)));
     mirror_.run(launch);
     for (size_t k = 0; k < written.size(); ++k) {
       compare_buffer(launch.kernel, written[k], before[k]);
@@ -162,7 +165,8 @@ private:
     if (holds_reals(buffer)) return compare_reals(kernel, buffer, before);
     if (row_of(buffer).element == Element::Parameters) return;
     const size_t width = scalar_bytes(buffer), bytes = before.size();
-    const std::vector<char> value = world_.memory().read<char>(buffer, bytes), exact = mirror_.memory().read<char>(buffer, bytes);
+    const std::vector<char> value = world_.memory().read<char>(buffer, bytes),
+                            exact = mirror_.memory().read<char>(buffer, bytes);
     DecisionRow &row = decisions_.try_emplace({kernel, buffer}, DecisionRow{kernel, buffer}).first->second;
     for (size_t at = 0; at + width <= bytes; at += width) {
       const bool differs = std::memcmp(&value[at], &exact[at], width) != 0;
@@ -174,7 +178,8 @@ private:
   void compare_reals(Kernel kernel, Buffer buffer, const std::vector<char> &before)
   {
     const size_t count = before.size() / sizeof(float), capacity = pair_capacity();
-    const std::vector<double> value = numbers_of(buffer, world_.memory().read<char>(buffer, before.size())), old = numbers_of(buffer, before);
+    const std::vector<double> value = numbers_of(buffer, world_.memory().read<char>(buffer, before.size())),
+                              old = numbers_of(buffer, before);
     std::vector<double> exact = mirror_.memory().read_reals(buffer, count);
     if (buffer == Buffer::body_position) join_places(exact);
     std::set<Samples *> touched;
@@ -198,7 +203,10 @@ private:
 
 } // namespace
 
-double ulps_from(double value, double exact) { return std::abs(value - exact) / unit_of(std::max(std::abs(exact), std::abs(value))); }
+double ulps_from(double value, double exact)
+{
+  return std::abs(value - exact) / unit_of(std::max(std::abs(exact), std::abs(value)));
+}
 
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request)
 {

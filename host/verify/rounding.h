@@ -5,9 +5,9 @@
  *        v                                      v
  *     reference     --- launch k ---> outputs in double
  *
- * After each launch of a world that runs in float the same launch runs on the reference backend, on what the float launch
- * read. So each kernel's own error is seen, not what earlier ones handed on. Numbers that neither launch changed are left out:
- * a kernel writes a stretch of its buffers, and what lies around it would make every error look small.
+ * After each launch of a world that runs in float the same launch runs on the reference backend, on what the float
+ * launch read. So each kernel's own error is seen, not what earlier ones handed on. Numbers that neither launch changed
+ * are left out: a kernel writes a stretch of its buffers, and what lies around it would make every error look small.
  */
 #pragma once
 
@@ -34,11 +34,11 @@ struct RoundingRow {
   Buffer buffer;
   std::string field;
   uint64_t numbers = 0; /* compared */
-  /* Distance from the double result in units of the last place that a float has there; 0.5 is a perfect rounding, 2^24 means that no
-   * digit is right. */
+  /* Distance from the double result in units of the last place that a float has there; 0.5 is a perfect rounding, 2^24
+   * means that no digit is right. */
   double median_ulps = 0, high_ulps = 0 /* 99.9th percentile */, max_ulps = 0;
-  /* The same in units of the last place of the largest number of this field in the launch: what is a difference of large numbers is
-   * not held against a small result. */
+  /* The same in units of the last place of the largest number of this field in the launch: what is a difference of
+   * large numbers is not held against a small result. */
   double max_field_ulps = 0;
   double max_relative = 0; /* distance / |double result| */
   double max_absolute = 0; /* distance, in the field's unit */
@@ -53,7 +53,7 @@ struct DecisionRow {
 };
 
 struct RoundingTable {
-  std::vector<RoundingRow> rows;         /* pipeline order */
+  std::vector<RoundingRow> rows; /* pipeline order */
   std::vector<DecisionRow> decisions;
   uint64_t launches = 0; /* compared */
 };

@@ -17,8 +17,7 @@ public:
         b_(memory.read<uint32_t>(Buffer::pair_b, counts[COUNT_PAIRS])),
         pair_of_(memory.read<uint32_t>(Buffer::constraint_pair, counts[COUNT_CONSTRAINTS])),
         traits_(memory.read<uint32_t>(Buffer::body_traits, counts[COUNT_BODIES]))
-  {
-  }
+  {}
 
   BatchFault misbatched() const
   {
@@ -57,8 +56,8 @@ private:
 
 } // namespace
 
-std::optional<BatchFault> find_batch_fault(Memory &memory, const std::array<uint32_t, COUNT_TOTAL> &counts, const std::vector<uint32_t> &order,
-                                           uint64_t step)
+std::optional<BatchFault> find_batch_fault(Memory &memory, const std::array<uint32_t, COUNT_TOTAL> &counts,
+                                           const std::vector<uint32_t> &order, uint64_t step)
 {
   if (counts[COUNT_CONFLICTS] == 0 && counts[COUNT_MISBATCHED] == 0) return {};
   const Finder finder(memory, counts, order);
@@ -70,10 +69,13 @@ std::optional<BatchFault> find_batch_fault(Memory &memory, const std::array<uint
 std::string describe(const BatchFault &fault)
 {
   if (!fault.conflict)
-    return fmt::format("batches wrong in step {}: pair ({}, {}) does not stand in just as many batches as it should; {} such pairs", fault.step,
-                       fault.pair[0], fault.pair[1], fault.constraints);
-  return fmt::format("batches wrong in step {}: colour {} touches body {} twice, in pairs ({}, {}) and ({}, {}); {} constraints in conflict",
-                     fault.step, fault.color, fault.body, fault.pair[0], fault.pair[1], fault.other[0], fault.other[1], fault.constraints);
+    return fmt::format(
+        "batches wrong in step {}: pair ({}, {}) does not stand in just as many batches as it should; {} such pairs",
+        fault.step, fault.pair[0], fault.pair[1], fault.constraints);
+  return fmt::format("batches wrong in step {}: colour {} touches body {} twice, in pairs ({}, {}) and ({}, {}); {} "
+                     "constraints in conflict",
+                     fault.step, fault.color, fault.body, fault.pair[0], fault.pair[1], fault.other[0], fault.other[1],
+                     fault.constraints);
 }
 
 } // namespace tandem

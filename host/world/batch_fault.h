@@ -12,7 +12,7 @@
 namespace tandem {
 
 /* `order`: the scene's body of each index of the body buffers. */
-std::optional<BatchFault> find_batch_fault(Memory &memory, const std::array<uint32_t, COUNT_TOTAL> &counts, const std::vector<uint32_t> &order,
-                                           uint64_t step);
+std::optional<BatchFault> find_batch_fault(Memory &memory, const std::array<uint32_t, COUNT_TOTAL> &counts,
+                                           const std::vector<uint32_t> &order, uint64_t step);
 
 } // namespace tandem

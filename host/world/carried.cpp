@@ -48,7 +48,8 @@ uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features)
   for (const CarriedBuffer &carried : rows) {
     const BufferRow &row = row_of(carried.now);
     const bool needed = row.feature == 0 || (row.feature & features) != 0;
-    if (needed && memory.bytes(carried.now) > 0) hash = hash_buffers(memory, {carried.now}, items_of(row.capacity, bodies, pairs), hash);
+    if (needed && memory.bytes(carried.now) > 0)
+      hash = hash_buffers(memory, {carried.now}, items_of(row.capacity, bodies, pairs), hash);
   }
   return hash;
 }

@@ -1,7 +1,7 @@
 /* carried.h - what one step hands to the next: the rows of buffers.def that are CARRIED.
  *
- * Each has two sides. The commit reads the previous one and writes the other, so the host turns them when it begins, and turns them back
- * when the step fails: then the state is as it was, whatever the commit had written by then.
+ * Each has two sides. The commit reads the previous one and writes the other, so the host turns them when it begins,
+ * and turns them back when the step fails: then the state is as it was, whatever the commit had written by then.
  */
 #pragma once
 

@@ -1,4 +1,5 @@
-/* contact_events.cpp - see contact_events.h. The device lists pairs by its own indices, in which large bodies come first. */
+/* contact_events.cpp - see contact_events.h. The device lists pairs by its own indices, in which large bodies come
+ * first. */
 #include "host/world/contact_events.h"
 
 #include <algorithm>
@@ -10,11 +11,13 @@
 namespace tandem {
 namespace {
 
-static_assert(EVENT_BEGIN == static_cast<int>(ContactEvent::Kind::begin) && EVENT_PERSIST == static_cast<int>(ContactEvent::Kind::persist) &&
+static_assert(EVENT_BEGIN == static_cast<int>(ContactEvent::Kind::begin) &&
+              EVENT_PERSIST == static_cast<int>(ContactEvent::Kind::persist) &&
               EVENT_END == static_cast<int>(ContactEvent::Kind::end));
 
 /* The records of one event in event_bodies and event_contact. */
-ContactEvent event_of(const uint32_t *bodies, const row *contact, const Scene &scene, const std::vector<uint32_t> &order)
+ContactEvent event_of(const uint32_t *bodies, const row *contact, const Scene &scene,
+                      const std::vector<uint32_t> &order)
 {
   ContactEvent event{};
   event.kind = static_cast<ContactEvent::Kind>(bodies[0]);
@@ -22,7 +25,8 @@ ContactEvent event_of(const uint32_t *bodies, const row *contact, const Scene &s
   event.b = order[bodies[2]];
   event.trigger = scene.bodies[event.a].trigger || scene.bodies[event.b].trigger;
   event.points = bodies[3];
-  event.point = {double{contact[0].x} + contact[1].x, double{contact[0].y} + contact[1].y, double{contact[0].z} + contact[1].z};
+  event.point = {double{contact[0].x} + contact[1].x, double{contact[0].y} + contact[1].y,
+                 double{contact[0].z} + contact[1].z};
   event.impulse = contact[0].w;
   event.separation = contact[1].w;
   event.normal = {contact[2].x, contact[2].y, contact[2].z};
@@ -40,7 +44,8 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   const uint32_t n = memory.read<uint32_t>(Buffer::counts, 1, COUNT_EVENTS).front();
   const auto bodies = memory.read<uint32_t>(Buffer::event_bodies, 4 * size_t{n});
   const auto contacts = memory.read<row>(Buffer::event_contact, 3 * size_t{n});
-  std::vector<std::pair<uint64_t, uint32_t>> places(n); /* the two bodies as one number, and where: shorter to sort than events */
+  std::vector<std::pair<uint64_t, uint32_t>> places(
+      n); /* the two bodies as one number, and where: shorter to sort than events */
   for (uint32_t i = 0; i < n; ++i) {
     const auto [low, high] = std::minmax(order[bodies[4 * size_t{i} + 1]], order[bodies[4 * size_t{i} + 2]]);
     places[i] = {uint64_t{low} << 32 | high, i};
@@ -48,7 +53,8 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   std::sort(places.begin(), places.end());
   std::vector<ContactEvent> events;
   events.reserve(n);
-  for (const auto &[pair, i] : places) events.push_back(event_of(&bodies[4 * size_t{i}], &contacts[3 * size_t{i}], scene, order));
+  for (const auto &[pair, i] : places)
+    events.push_back(event_of(&bodies[4 * size_t{i}], &contacts[3 * size_t{i}], scene, order));
   return events;
 }
 
@@ -61,7 +67,8 @@ std::vector<PairEvent> download_pair_events(Memory &memory, const std::vector<ui
     const auto [low, high] = std::minmax(order[records[3 * i + 1]], order[records[3 * i + 2]]);
     events[i] = {static_cast<ContactEvent::Kind>(records[3 * i]), low, high};
   }
-  std::sort(events.begin(), events.end(), [](const PairEvent &p, const PairEvent &q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
+  std::sort(events.begin(), events.end(),
+            [](const PairEvent &p, const PairEvent &q) { return std::pair(p.a, p.b) < std::pair(q.a, q.b); });
   return events;
 }
 

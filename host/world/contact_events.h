@@ -1,10 +1,12 @@
-/* contact_events.h - from the lists that the events stage leaves on the device to what World::contact_events and World::pair_events give. */
+/* contact_events.h - from the lists that the events stage leaves on the device to what World::contact_events and
+ * World::pair_events give. */
 #pragma once
 
 #include <vector>
 
-#include "host/runtime/memory.h"
 #include <tandem/world.h>
+
+#include "host/runtime/memory.h"
 
 namespace tandem {
 

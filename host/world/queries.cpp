@@ -6,19 +6,22 @@
 
 #include <fmt/format.h>
 
-#include "host/scene/body_buffers.h"
-#include "host/pipeline/broadphases/broadphase.h"
 #include "host/base/finite_vector.h"
 #include "host/geometry/convex_hull.h"
-#include "host/scene/hull_strips.h"
+#include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/primitives.h"
+#include "host/scene/body_buffers.h"
+#include "host/scene/hull_strips.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/platform.h"
 
 namespace tandem {
 namespace {
 
-[[noreturn]] void refuse(const char *what, size_t index, const std::string &why) { throw InputError(fmt::format("{} {}: {}", what, index, why)); }
+[[noreturn]] void refuse(const char *what, size_t index, const std::string &why)
+{
+  throw InputError(fmt::format("{} {}: {}", what, index, why));
+}
 
 double length(const Vec3 &v) { return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]); }
 
@@ -31,10 +34,12 @@ template <class T> void upload(Memory &memory, Buffer buffer, const std::vector<
   memory.upload(buffer, values.data(), values.size() * sizeof(T));
 }
 
-void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order, const std::vector<uint32_t> &filters)
+void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order,
+                    const std::vector<uint32_t> &filters)
 {
   std::vector<uint32_t> bodies;
-  for (const uint32_t body : order) bodies.insert(bodies.end(), {body, scene.bodies[body].filter_group, scene.bodies[body].filter_mask, 0u});
+  for (const uint32_t body : order)
+    bodies.insert(bodies.end(), {body, scene.bodies[body].filter_group, scene.bodies[body].filter_mask, 0u});
   upload(memory, Buffer::query_body, bodies);
   upload(memory, Buffer::query_filter, filters);
 }
@@ -50,7 +55,8 @@ void set_length(Memory &memory, size_t queries)
 
 void check_number(size_t queries)
 {
-  if (queries > most_queries) throw InputError(fmt::format("{} queries in one batch; at most {} are possible", queries, most_queries));
+  if (queries > most_queries)
+    throw InputError(fmt::format("{} queries in one batch; at most {} are possible", queries, most_queries));
 }
 
 void make_room_for_hits(Memory &memory, size_t hits)
@@ -68,12 +74,16 @@ void launch(const QueryTarget &target, Kernel kernel, size_t queries, std::vecto
 
 QueryHit hit_of(uint32_t body, const row &hit, const row &point, const Point &from)
 {
-  return {body, hit.w, {from[0] + double{point.x}, from[1] + double{point.y}, from[2] + double{point.z}}, {hit.x, hit.y, hit.z}};
+  return {body,
+          hit.w,
+          {from[0] + double{point.x}, from[1] + double{point.y}, from[2] + double{point.z}},
+          {hit.x, hit.y, hit.z}};
 }
 
 template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t queries, Start &&start)
 {
-  const auto hits = memory.read<row>(Buffer::query_hit, queries), points = memory.read<row>(Buffer::query_point, queries);
+  const auto hits = memory.read<row>(Buffer::query_hit, queries),
+             points = memory.read<row>(Buffer::query_point, queries);
   const auto bodies = memory.read<uint32_t>(Buffer::query_hit_body, queries);
   std::vector<QueryHit> found(queries);
   for (size_t i = 0; i < queries; ++i)
@@ -87,7 +97,8 @@ std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel w
   Memory &memory = target.memory;
   const auto capacity = static_cast<uint32_t>(queries);
   memory.resize(Buffer::query_found, (queries + 1) * sizeof(uint32_t));
-  memory.resize(Buffer::scan_sums, std::max(memory.bytes(Buffer::scan_sums), scan_sum_words(queries + 1) * sizeof(uint32_t)));
+  memory.resize(Buffer::scan_sums,
+                std::max(memory.bytes(Buffer::scan_sums), scan_sum_words(queries + 1) * sizeof(uint32_t)));
   launch(target, count, queries);
   exclusive_scan(target.launcher, Buffer::query_found, Buffer::query_found, Buffer::scan_sums, COUNT_LENGTH, capacity);
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
@@ -99,7 +110,10 @@ std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel w
 }
 
 /* By place along the way, then by body. */
-template <class Hit> bool comes_before(const Hit &a, const Hit &b) { return a.fraction != b.fraction ? a.fraction < b.fraction : a.body < b.body; }
+template <class Hit> bool comes_before(const Hit &a, const Hit &b)
+{
+  return a.fraction != b.fraction ? a.fraction < b.fraction : a.body < b.body;
+}
 
 void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
 {
@@ -149,7 +163,8 @@ float radius_of(const Shape &shape)
 void check_swept_shape(const Shape &shape)
 {
   if (shape.type == ShapeType::half_space || shape.type >= ShapeType::mesh)
-    throw InputError("sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
+    throw InputError(
+        "sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
   Scene scene;
   scene.shapes = {shape};
   validate(scene, "sweep");
@@ -162,9 +177,12 @@ void check_rays(std::span<const Ray> rays)
   check_number(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
     const Ray &ray = rays[i];
-    if (!is_finite_vector(ray.origin)) refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", vector_text(ray.origin)));
+    if (!is_finite_vector(ray.origin))
+      refuse("ray", i, fmt::format("origin is {}; three finite numbers are needed", vector_text(ray.origin)));
     if (!is_finite_vector(ray.direction) || !(length(ray.direction) >= shortest && length(ray.direction) <= longest))
-      refuse("ray", i, fmt::format("direction is {}; a vector of a length from {} to {} is needed", vector_text(ray.direction), shortest, longest));
+      refuse("ray", i,
+             fmt::format("direction is {}; a vector of a length from {} to {} is needed", vector_text(ray.direction),
+                         shortest, longest));
     if (!(ray.reach >= 0)) refuse("ray", i, fmt::format("reach is {}; a number of at least 0 is needed", ray.reach));
   }
 }
@@ -174,11 +192,17 @@ void check_boxes(std::span<const QueryBox> boxes)
   check_number(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
     const QueryBox &box = boxes[i];
-    if (!is_finite_vector(box.center)) refuse("box", i, fmt::format("center is {}; three finite numbers are needed", vector_text(box.center)));
+    if (!is_finite_vector(box.center))
+      refuse("box", i, fmt::format("center is {}; three finite numbers are needed", vector_text(box.center)));
     const bool negative = box.half_extents[0] < 0 || box.half_extents[1] < 0 || box.half_extents[2] < 0;
-    if (!is_finite_vector(box.half_extents) || negative) refuse("box", i, fmt::format("half extents are {}; three finite numbers of at least 0 are needed", vector_text(box.half_extents)));
+    if (!is_finite_vector(box.half_extents) || negative)
+      refuse("box", i,
+             fmt::format("half extents are {}; three finite numbers of at least 0 are needed",
+                         vector_text(box.half_extents)));
     if (!is_finite_vector(box.displacement) || length(box.displacement) > longest)
-      refuse("box", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(box.displacement), longest));
+      refuse(
+          "box", i,
+          fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(box.displacement), longest));
   }
 }
 
@@ -187,15 +211,22 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
   check_swept_shape(shape);
   check_number(poses.size());
   if (poses.size() != displacements.size())
-    throw InputError(fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
+    throw InputError(
+        fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
-    if (!is_finite_vector(poses[i].position)) refuse("sweep", i, fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
+    if (!is_finite_vector(poses[i].position))
+      refuse("sweep", i,
+             fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
     if (!is_finite_vector(displacements[i]) || length(displacements[i]) > longest)
-      refuse("sweep", i, fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
+      refuse(
+          "sweep", i,
+          fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
     const Quat &q = poses[i].orientation;
     const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
     if (!(std::abs(square - 1) < 2e-3))
-      refuse("sweep", i, fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
+      refuse(
+          "sweep", i,
+          fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
   }
 }
 
@@ -230,11 +261,13 @@ std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, st
   if (rays.empty()) return {};
   upload_rays(target, rays);
   const std::vector<uint32_t> starts = find_all(target, Kernel::count_ray_hits, Kernel::write_ray_hits, rays.size());
-  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back()), points = target.memory.read<row>(Buffer::query_point, starts.back());
+  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back()),
+             points = target.memory.read<row>(Buffer::query_point, starts.back());
   const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
   std::vector<std::vector<RayHit>> found(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
-    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at) found[i].push_back(hit_of(bodies[at], hits[at], points[at], rays[i].origin));
+    for (uint32_t at = starts[i]; at < starts[i + 1]; ++at)
+      found[i].push_back(hit_of(bodies[at], hits[at], points[at], rays[i].origin));
     std::sort(found[i].begin(), found[i].end(), comes_before<RayHit>);
   }
   return found;
@@ -255,8 +288,8 @@ std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::spa
   return found;
 }
 
-std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
-                            const QueryFilter &filter)
+std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                            std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   if (poses.empty()) return {};
   Memory &memory = target.memory;
@@ -285,7 +318,8 @@ std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::
   upload(memory, Buffer::query_strip, strips);
   set_length(memory, poses.size());
   make_room_for_hits(memory, poses.size());
-  launch(target, Kernel::sweep_shape, poses.size(), {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
+  launch(target, Kernel::sweep_shape, poses.size(),
+         {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
   return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
 }
 

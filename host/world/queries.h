@@ -1,7 +1,7 @@
 /* queries.h - how the questions of <tandem/queries.h> are answered.
  *
- * Boxes around the bodies as they stand, and the structure of the broadphase over them, are made for the first query after a step; every
- * query walks it (shared/queries/body_walk.h).
+ * Boxes around the bodies as they stand, and the structure of the broadphase over them, are made for the first query
+ * after a step; every query walks it (shared/queries/body_walk.h).
  */
 #pragma once
 
@@ -24,7 +24,8 @@ void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<cons
 /* The launches that make a structure, QUERY_ of shared/body_codes.h. */
 void launch_query_structure(StepLaunches &step, uint32_t structure);
 
-/* Where the questions go. structure: the one that was made; order: body order[i] of the scene stands at i in the body buffers. */
+/* Where the questions go. structure: the one that was made; order: body order[i] of the scene stands at i in the body
+ * buffers. */
 struct QueryTarget {
   Memory &memory;
   Launcher &launcher;
@@ -37,6 +38,7 @@ std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> ra
 std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays);
 std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays);
 std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);
-std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter);
+std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                            std::span<const Vec3> displacements, const QueryFilter &filter);
 
 } // namespace tandem

@@ -1,6 +1,4 @@
 /* world.cpp - keeps a scene's buffers, runs steps until they are whole; see world.h. */
-#include <tandem/world.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,29 +8,31 @@
 
 #include <fmt/format.h>
 
-#include "host/world/batch_fault.h"
-#include "host/scene/body_buffers.h"
+#include <tandem/world.h>
+
+#include "host/base/hash.h"
+#include "host/base/out_of_memory.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/broadphases/choice.h"
-#include "host/world/carried.h"
-#include "host/world/contact_events.h"
-#include "host/runtime/interface/debug.h"
-#include "host/base/hash.h"
 #include "host/pipeline/host_stages.h"
 #include "host/pipeline/layout.h"
-#include "host/base/out_of_memory.h"
-#include "host/scene/parameters.h"
-#include "host/runtime/recorder.h"
 #include "host/pipeline/scene_counts.h"
-#include "host/scene/specialise.h"
 #include "host/pipeline/step.h"
+#include "host/runtime/interface/debug.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/runtime/launcher.h"
+#include "host/runtime/make_backend.h"
+#include "host/runtime/recorder.h"
+#include "host/scene/body_buffers.h"
+#include "host/scene/parameters.h"
+#include "host/scene/specialise.h"
+#include "host/world/batch_fault.h"
+#include "host/world/carried.h"
+#include "host/world/contact_events.h"
+#include "host/world/queries.h"
 #include "shared/batching/limits.h"
 #include "shared/broadphase/near_limits.h"
 #include "shared/platform.h"
-#include "host/runtime/make_backend.h"
-#include "host/world/queries.h"
-#include "host/runtime/launcher.h"
 
 namespace tandem {
 namespace {
@@ -46,7 +46,8 @@ constexpr uint32_t body_numbers = 1u << 28;
 void check_numbers(const Scene &scene)
 {
   if (scene.bodies.size() >= body_numbers)
-    throw InputError(fmt::format("scene '{}': {} bodies; kernels can number {}", scene.name, scene.bodies.size(), body_numbers - 1));
+    throw InputError(
+        fmt::format("scene '{}': {} bodies; kernels can number {}", scene.name, scene.bodies.size(), body_numbers - 1));
 }
 
 /* The pairs that there is room for at first; a step that finds more runs again. */
@@ -65,7 +66,8 @@ Settings resolved(Settings settings, const Scene &scene, const Placement &placem
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
-      : scene(given), settings(resolved(chosen, given, placement)), wanted(placement), special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
+      : scene(given), settings(resolved(chosen, given, placement)), wanted(placement),
+        special(specialise(given, chosen)), hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)),
         launcher(memory, [this](Kernel kernel) -> Backend & { return backend_of(kernel); })
   {
     launcher.set_on_commit([this] { turn(); });
@@ -93,8 +95,7 @@ struct World::Implementation {
   {
     try {
       backend.finish();
-    } catch (const std::exception &) {
-    }
+    } catch (const std::exception &) {}
   }
 
   Sizes sizes() const
@@ -167,12 +168,14 @@ struct World::Implementation {
     ready = false;
   }
 
-  /* Of the buffers that grow, those alone carry anything over to the next step that never lose it: they come last, when the others have
-   * let go of their room. */
+  /* Of the buffers that grow, those alone carry anything over to the next step that never lose it: they come last, when
+   * the others have let go of their room. */
   void allocate()
   {
     const Sizes now = sizes();
-    const auto wished = [&](Buffer buffer) { return touched[index_of(buffer)] || queried[index_of(buffer)] ? bytes_of(buffer, now) : 0; };
+    const auto wished = [&](Buffer buffer) {
+      return touched[index_of(buffer)] || queried[index_of(buffer)] ? bytes_of(buffer, now) : 0;
+    };
     for (size_t i = 0; i < buffer_count; ++i)
       if (touched[i] || queried[i]) check_size(buffer_at(i), now);
     for (size_t i = 0; i < buffer_count; ++i)
@@ -180,7 +183,8 @@ struct World::Implementation {
     for (const CarriedBuffer &carried : carried_buffers()) memory.grow(carried.now, wished(carried.now));
   }
 
-  /* Every buffer where its kernels run, before the first of them does: a step that has begun does not run out of memory. */
+  /* Every buffer where its kernels run, before the first of them does: a step that has begun does not run out of
+   * memory. */
   void make_ready()
   {
     if (ready) return;
@@ -199,7 +203,8 @@ struct World::Implementation {
     try {
       backend.finish();
     } catch (const std::runtime_error &error) {
-      throw OutOfMemory(fmt::format("out of memory: {} bytes of buffers do not fit: {}", memory.total_bytes(), error.what()));
+      throw OutOfMemory(
+          fmt::format("out of memory: {} bytes of buffers do not fit: {}", memory.total_bytes(), error.what()));
     }
   }
 
@@ -237,7 +242,8 @@ struct World::Implementation {
     known[COUNT_COMMIT_BODIES] = plan.bodies;
     known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
     known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
-    for (uint32_t color = 0; color <= COLOR_LIMIT; ++color) known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
+    for (uint32_t color = 0; color <= COLOR_LIMIT; ++color)
+      known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
   }
 
   void step()
@@ -260,7 +266,8 @@ struct World::Implementation {
   {
     bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
     /* One body is taken out by a repetition, so that it takes no other with it: those do not count. */
-    for (size_t repetition = 0; repetition < most_repetitions + std::min<size_t>(taken_out.size(), plan.bodies); ++repetition) {
+    for (size_t repetition = 0; repetition < most_repetitions + std::min<size_t>(taken_out.size(), plan.bodies);
+         ++repetition) {
       begin_launches();
       launch_step(launcher, plan, settings);
       memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
@@ -269,8 +276,9 @@ struct World::Implementation {
       turn_back();
       prepare_repetition(plan.known[COUNT_STATUS], may_forget);
     }
-    throw std::runtime_error(fmt::format("it did not complete in {} repetitions, {} of them for bodies that did not stay finite (status {})",
-                                         most_repetitions + taken_out.size(), taken_out.size(), plan.known[COUNT_STATUS]));
+    throw std::runtime_error(
+        fmt::format("it did not complete in {} repetitions, {} of them for bodies that did not stay finite (status {})",
+                    most_repetitions + taken_out.size(), taken_out.size(), plan.known[COUNT_STATUS]));
   }
 
   /* --- a step happens whole or not at all: host/world/carried.h ---------------------------------------------- */
@@ -311,15 +319,17 @@ struct World::Implementation {
   /* Bodies that were taken out by an attempt that failed later on. */
   void restore_bodies()
   {
-    for (; !taken_out.empty(); taken_out.pop_back()) write_body(memory, taken_out.back().first, taken_out.back().second);
+    for (; !taken_out.empty(); taken_out.pop_back())
+      write_body(memory, taken_out.back().first, taken_out.back().second);
   }
 
   /* Out of the handler of what went wrong. */
   [[noreturn]] void tell_why_step_failed() const
   {
     const auto told = [&](const char *why) {
-      return fmt::format("step {}: {}; of {} bodies, with room for {} pairs, in {} bytes of buffers; the state is that before the step", statistics.steps, why,
-                         plan.bodies, plan.capacity_pairs, memory.total_bytes());
+      return fmt::format("step {}: {}; of {} bodies, with room for {} pairs, in {} bytes of buffers; the state is that "
+                         "before the step",
+                         statistics.steps, why, plan.bodies, plan.capacity_pairs, memory.total_bytes());
     };
     try {
       throw;
@@ -339,7 +349,8 @@ struct World::Implementation {
     launches_ended = false;
   }
 
-  /* Some rounds and a colour of slack keep a growing scene from repeating every step. Nothing fails once the state has been accepted. */
+  /* Some rounds and a colour of slack keep a growing scene from repeating every step. Nothing fails once the state has
+   * been accepted. */
   void accept()
   {
     if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
@@ -366,15 +377,20 @@ struct World::Implementation {
   }
 
   /* The pairs among what did not fit are not known then. */
-  bool near_list_overflows() const { return plan.known[COUNT_NEAR_NEEDED] > uint64_t{NEAR_PER_PAIR} * plan.capacity_pairs; }
+  bool near_list_overflows() const
+  {
+    return plan.known[COUNT_NEAR_NEEDED] > uint64_t{NEAR_PER_PAIR} * plan.capacity_pairs;
+  }
 
-  /* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs none. */
+  /* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs
+   * none. */
   void grow_pairs(uint32_t needed, bool &may_forget)
   {
     if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
     if (needed > settings.max_pairs)
-      throw std::runtime_error(fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
-                                           needed == UINT32_MAX || near_list_overflows() ? "at least " : "", needed, settings.max_pairs));
+      throw std::runtime_error(
+          fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
+                      needed == UINT32_MAX || near_list_overflows() ? "at least " : "", needed, settings.max_pairs));
     ++statistics.overflow;
     enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
     guess_counts();
@@ -399,7 +415,8 @@ struct World::Implementation {
       memory.upload(Buffer::counts, &pairs, sizeof pairs, CAPACITY_PAIRS * sizeof pairs);
     } catch (const OutOfMemory &error) {
       give_up();
-      throw OutOfMemory(fmt::format("room for {} pairs and {} colours is needed: {}", pairs, plan.colors, error.what()));
+      throw OutOfMemory(
+          fmt::format("room for {} pairs and {} colours is needed: {}", pairs, plan.colors, error.what()));
     } catch (...) {
       give_up();
       throw;
@@ -462,7 +479,7 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
-  uint32_t scene_features = 0; /* what the scene needs, also where all is run */
+  uint32_t scene_features = 0;                              /* what the scene needs, also where all is run */
   std::map<std::string, std::unique_ptr<Backend>> backends; /* outlive the memory, which lives in their storage */
   Memory memory;
   PlacedLauncher launcher;
@@ -471,13 +488,14 @@ struct World::Implementation {
   std::vector<Kernel> kernels;
   std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
   std::set<std::pair<Kernel, Buffer>> uses; /* the same, by which */
-  bool ready = false;      /* there is room for all of these, where they run */
+  bool ready = false;                       /* there is room for all of these, where they run */
   std::array<bool, buffer_count> queried{}; /* by the structure that queries walk */
   uint64_t state = 1, structure_state = 0;  /* the state that is, and the one that this structure is of */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
   bool whole = true;   /* the last step was; after one that failed there is nothing to say of it */
-  std::vector<std::pair<uint32_t, BodyRecord>> taken_out; /* in an unfinished step, by their index in the buffers; as they were */
+  std::vector<std::pair<uint32_t, BodyRecord>>
+      taken_out; /* in an unfinished step, by their index in the buffers; as they were */
   std::array<Backend *, kernel_count> placed{};
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
@@ -490,7 +508,8 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
 {
   const minicl::ExactFloatingPoint environment; /* what is derived from the scene rounds alike too */
   const auto told = [&](const char *why) {
-    return fmt::format("scene '{}' of {} bodies, with room for {} pairs: {}", scene.name, scene.bodies.size(), first_room(scene, settings), why);
+    return fmt::format("scene '{}' of {} bodies, with room for {} pairs: {}", scene.name, scene.bodies.size(),
+                       first_room(scene, settings), why);
   };
   try {
     validate(scene, scene.name);
@@ -509,7 +528,12 @@ namespace {
 /* What was asked of a world of so many bodies, where there was no room for the answer. */
 template <class Work> auto answer(const char *what, size_t bodies, Work work)
 {
-  return naming_what_failed([&] { return fmt::format("out of memory: {} of a world of {} bodies: its lists need more than there is", what, bodies); }, work);
+  return naming_what_failed(
+      [&] {
+        return fmt::format("out of memory: {} of a world of {} bodies: its lists need more than there is", what,
+                           bodies);
+      },
+      work);
 }
 
 } // namespace
@@ -534,18 +558,21 @@ void World::set_observer(Observer observer) { implementation_->launcher.set_obse
 
 std::vector<BodyState> World::bodies()
 {
-  return answer("the bodies", implementation_->plan.bodies, [&] { return download_bodies(implementation_->memory, implementation_->special.order); });
+  return answer("the bodies", implementation_->plan.bodies,
+                [&] { return download_bodies(implementation_->memory, implementation_->special.order); });
 }
 
 std::vector<PreciseBodyState> World::precise_bodies()
 {
-  return answer("the bodies", implementation_->plan.bodies, [&] { return download_precise_bodies(implementation_->memory, implementation_->special.order); });
+  return answer("the bodies", implementation_->plan.bodies,
+                [&] { return download_precise_bodies(implementation_->memory, implementation_->special.order); });
 }
 
 void World::set_body(uint32_t body, const BodyState &state)
 {
   if (body >= implementation_->plan.bodies)
-    throw InputError(fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->plan.bodies));
+    throw InputError(
+        fmt::format("set_body: body {} does not exist; the scene has {}", body, implementation_->plan.bodies));
   if (!is_finite(state)) throw InputError(fmt::format("set_body: body {} would not be finite", body));
   set_body_unchecked(body, state);
 }
@@ -554,57 +581,67 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
   ++implementation_->state;
-  answer("a body", implementation_->plan.bodies, [&] { upload_body(implementation_->memory, implementation_->index_of_body.at(body), state); });
+  answer("a body", implementation_->plan.bodies,
+         [&] { upload_body(implementation_->memory, implementation_->index_of_body.at(body), state); });
 }
 
 std::vector<ContactEvent> World::contact_events()
 {
   if (!implementation_->settings.events) throw InputError("contact_events: there are none without Settings::events");
   if (!implementation_->whole) return {};
-  return answer("the contact events", implementation_->plan.bodies,
-                [&] { return download_events(implementation_->memory, implementation_->scene, implementation_->special.order); });
+  return answer("the contact events", implementation_->plan.bodies, [&] {
+    return download_events(implementation_->memory, implementation_->scene, implementation_->special.order);
+  });
 }
 
 std::vector<PairEvent> World::pair_events()
 {
-  if (!implementation_->settings.pair_events) throw InputError("pair_events: there are none without Settings::pair_events");
+  if (!implementation_->settings.pair_events)
+    throw InputError("pair_events: there are none without Settings::pair_events");
   if (!implementation_->whole) return {};
-  return answer("the pair events", implementation_->plan.bodies, [&] { return download_pair_events(implementation_->memory, implementation_->special.order); });
+  return answer("the pair events", implementation_->plan.bodies,
+                [&] { return download_pair_events(implementation_->memory, implementation_->special.order); });
 }
 
 std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
+  return answer("queries", implementation_->plan.bodies,
+                [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
 }
 
 std::vector<bool> World::find_blocked_rays(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] { return tandem::find_blocked_rays(implementation_->query_target(), rays); });
+  return answer("queries", implementation_->plan.bodies,
+                [&] { return tandem::find_blocked_rays(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<RayHit>> World::cast_rays_through(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] { return tandem::cast_rays_through(implementation_->query_target(), rays); });
+  return answer("queries", implementation_->plan.bodies,
+                [&] { return tandem::cast_rays_through(implementation_->query_target(), rays); });
 }
 
 std::vector<std::vector<BoxHit>> World::sweep_boxes(std::span<const QueryBox> boxes)
 {
   check_boxes(boxes);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] { return tandem::sweep_boxes(implementation_->query_target(), boxes); });
+  return answer("queries", implementation_->plan.bodies,
+                [&] { return tandem::sweep_boxes(implementation_->query_target(), boxes); });
 }
 
-std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter)
+std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
+                                   const QueryFilter &filter)
 {
   check_sweep(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies, [&] { return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter); });
+  return answer("queries", implementation_->plan.bodies,
+                [&] { return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter); });
 }
 
 Statistics World::statistics()
@@ -620,13 +657,16 @@ Statistics World::statistics()
 uint64_t World::body_hash()
 {
   const std::vector<Buffer> state{Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity};
-  return answer("the hash", implementation_->plan.bodies, [&] { return hash_buffers(implementation_->memory, state, implementation_->plan.bodies); });
+  return answer("the hash", implementation_->plan.bodies,
+                [&] { return hash_buffers(implementation_->memory, state, implementation_->plan.bodies); });
 }
 
 uint64_t World::state_hash()
 {
   const Implementation &world = *implementation_;
-  uint64_t hash = answer("the hash", world.plan.bodies, [&] { return hash_carried(implementation_->memory, world.plan.bodies, world.scene_features); });
+  uint64_t hash = answer("the hash", world.plan.bodies, [&] {
+    return hash_carried(implementation_->memory, world.plan.bodies, world.scene_features);
+  });
   for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
 }
@@ -651,7 +691,8 @@ std::vector<KernelTime> World::take_kernel_times()
   for (auto &[text, backend] : implementation_->backends) {
     const std::vector<Backend::Time> spent = backend->take_kernel_times();
     for (size_t k = 0; k < kernel_count; ++k)
-      if (spent[k].launches > 0) times.push_back({kernel_at(k), backend->name(), spent[k].nanoseconds * 1e-6, spent[k].launches});
+      if (spent[k].launches > 0)
+        times.push_back({kernel_at(k), backend->name(), spent[k].nanoseconds * 1e-6, spent[k].launches});
   }
   return times;
 }

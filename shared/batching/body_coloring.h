@@ -1,10 +1,11 @@
 /* body_coloring.h - deterministic parallel colouring of the bodies: no two of one colour share a constraint.
  *
  * A solver that moves whole bodies one after another moves those of one colour at once. Every body has a priority, a
- * bijective hash of its index; it takes the lowest colour that no neighbour of higher priority has, as soon as all of those
- * have theirs (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", 1993). So a body's colour is a function of
- * priorities alone, whatever the order of execution. A round reads the colours of the round before, kept apart from those it
- * writes. A body whose neighbours hold all colours goes to the tail, where bodies are solved in order.
+ * bijective hash of its index; it takes the lowest colour that no neighbour of higher priority has, as soon as all of
+ * those have theirs (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", 1993). So a body's colour is a
+ * function of priorities alone, whatever the order of execution. A round reads the colours of the round before, kept
+ * apart from those it writes. A body whose neighbours hold all colours goes to the tail, where bodies are solved in
+ * order.
  *
  *      body       5 --- 2 --- 9         each waits for those of higher priority beside it
  *      priority   .7    .9    .2
@@ -17,7 +18,8 @@
 #include "shared/parallel/search.h"
 
 /* Moving bodies that some constraint touches are to be coloured; the others take no part. */
-SHARED void body_color_begin_item(GLOBAL const uint *incidence_start, GLOBAL uint *counts, GLOBAL uint *body_color, uint i)
+SHARED void body_color_begin_item(GLOBAL const uint *incidence_start, GLOBAL uint *counts, GLOBAL uint *body_color,
+                                  uint i)
 {
   uint touched = incidence_start[i] != incidence_start[i + 1u] ? 1u : 0u;
   body_color[2u * i] = touched ? COLOR_NONE : COLOR_INACTIVE;
@@ -25,10 +27,13 @@ SHARED void body_color_begin_item(GLOBAL const uint *incidence_start, GLOBAL uin
 }
 
 /* The colours of the neighbours of higher priority; waits: one of them has none yet. */
-typedef struct { uint low, high, waits; } neighbor_colors;
+typedef struct {
+  uint low, high, waits;
+} neighbor_colors;
 
-SHARED neighbor_colors colors_around(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *incidence_start,
-                                     GLOBAL const uint *incidence, GLOBAL const uint *body_color, uint plane, uint body)
+SHARED neighbor_colors colors_around(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                     GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
+                                     GLOBAL const uint *body_color, uint plane, uint body)
 {
   neighbor_colors around = {0u, 0u, 0u};
   uint priority = bid_of(body);
@@ -44,8 +49,9 @@ SHARED neighbor_colors colors_around(GLOBAL const uint *constraint_a, GLOBAL con
   return around;
 }
 
-SHARED void body_color_round_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *incidence_start,
-                                  GLOBAL const uint *incidence, GLOBAL uint *counts, GLOBAL uint *body_color, uint round, uint i)
+SHARED void body_color_round_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                  GLOBAL const uint *incidence_start, GLOBAL const uint *incidence, GLOBAL uint *counts,
+                                  GLOBAL uint *body_color, uint round, uint i)
 {
   uint now = round & 1u, color = body_color[2u * i + now];
   if (color == COLOR_NONE) {
@@ -60,7 +66,8 @@ SHARED void body_color_round_item(GLOBAL const uint *constraint_a, GLOBAL const 
 }
 
 /* For a stable sort of the bodies by colour; rounds: how many there were. */
-SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint rounds, uint i)
+SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
+                                 uint rounds, uint i)
 {
   sort_key[i] = body_color[2u * i + (rounds & 1u)];
   sort_value[i] = i;
@@ -70,7 +77,8 @@ SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sor
 SHARED void body_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
   counts[BODY_COLOR_START + i] = lower_bound_of(sort_key, counts[COUNT_BODIES], i);
-  if (i == COLOR_TAIL) counts[BODY_COLOR_START + COLOR_TAIL + 1u] = lower_bound_of(sort_key, counts[COUNT_BODIES], i + 1u);
+  if (i == COLOR_TAIL)
+    counts[BODY_COLOR_START + COLOR_TAIL + 1u] = lower_bound_of(sort_key, counts[COUNT_BODIES], i + 1u);
 }
 
 #endif

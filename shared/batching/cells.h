@@ -9,10 +9,10 @@
  *      | 0 | 1 | 0 | 1 |        reaches over cell 1 touches contacts of both cells 0, and both groups write it.
  *      +---+---+---+---+
  *
- * Here each body notes, for each class, the lowest cell of that class that has a contact with it. A contact is worked on
- * in its cell only if its cell is the one noted at both of its moving bodies; then no body is touched by two cells of
- * one class, whatever the sizes. The contacts left over, none where cells are larger than bodies, are coloured by the
- * rounds of coloring.h after the cells.
+ * Here each body notes, for each class, the lowest cell of that class that has a contact with it. A contact is worked
+ * on in its cell only if its cell is the one noted at both of its moving bodies; then no body is touched by two cells
+ * of one class, whatever the sizes. The contacts left over, none where cells are larger than bodies, are coloured by
+ * the rounds of coloring.h after the cells.
  *
  * Space has no end, so a cell's number is a hash: cells that share it are worked on by one group, as one cell.
  */
@@ -25,22 +25,27 @@
 #include "shared/conversion.h"
 
 /* Never negative: floor_to_int saturates at 2^30. */
-SHARED uint place_along(real position, real inverse_cell) { return (uint)(floor_to_int(position * inverse_cell) + 1073741824); }
+SHARED uint place_along(real position, real inverse_cell)
+{
+  return (uint)(floor_to_int(position * inverse_cell) + 1073741824);
+}
 
 /* class * cells + cell, cells being a power of two. */
 SHARED uint cell_key(vec3 position, real inverse_cell, uint cells)
 {
-  uint x = place_along(position.x, inverse_cell), y = place_along(position.y, inverse_cell), z = place_along(position.z, inverse_cell);
+  uint x = place_along(position.x, inverse_cell), y = place_along(position.y, inverse_cell),
+       z = place_along(position.z, inverse_cell);
   uint parity = (x & 1u) | (y & 1u) << 1 | (z & 1u) << 2;
   uint hash = (x >> 1) * 0x9e3779b1u + (y >> 1) * 0x85ebca77u + (z >> 1) * 0xc2b2ae3du;
   return parity * cells + ((hash ^ hash >> 15) & (cells - 1u));
 }
 
-SHARED uint cell_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_position,
-                         GLOBAL const uint *counts, uint a, uint b)
+SHARED uint cell_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                         GLOBAL const row *body_position, GLOBAL const uint *counts, uint a, uint b)
 {
   uint body = is_moving(body_traits, a) ? a : b;
-  return cell_key(load_place(body_position, body).high, (real)parameters->inverse_batch_cell, counts[COUNT_BATCH_CELLS]);
+  return cell_key(load_place(body_position, body).high, (real)parameters->inverse_batch_cell,
+                  counts[COUNT_BATCH_CELLS]);
 }
 
 SHARED void clear_cells_item(GLOBAL uint *body_cells, uint i)
@@ -49,8 +54,8 @@ SHARED void clear_cells_item(GLOBAL uint *body_cells, uint i)
 }
 
 SHARED void claim_cells_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *body_traits, GLOBAL const row *body_position, GLOBAL const uint *pair_color,
-                             GLOBAL const uint *counts, GLOBAL uint *body_cells, uint i)
+                             GLOBAL const uint *body_traits, GLOBAL const row *body_position,
+                             GLOBAL const uint *pair_color, GLOBAL const uint *counts, GLOBAL uint *body_cells, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], key = cell_of_pair(parameters, body_traits, body_position, counts, a, b);
@@ -66,13 +71,15 @@ SHARED uint owns_body(GLOBAL const uint *body_traits, GLOBAL const uint *body_ce
 
 /* The cell of each contact that its cell alone can touch; all others behind the last cell. */
 SHARED void cell_keys_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                           GLOBAL const uint *body_traits, GLOBAL const row *body_position, GLOBAL const uint *pair_color,
-                           GLOBAL const uint *counts, GLOBAL const uint *body_cells, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+                           GLOBAL const uint *body_traits, GLOBAL const row *body_position,
+                           GLOBAL const uint *pair_color, GLOBAL const uint *counts, GLOBAL const uint *body_cells,
+                           GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint cells = counts[COUNT_BATCH_CELLS], behind = CELL_CLASSES * cells;
   uint a = pair_a[i], b = pair_b[i];
   uint key = pair_color[i] == COLOR_NONE ? cell_of_pair(parameters, body_traits, body_position, counts, a, b) : behind;
-  uint inside = key < behind && owns_body(body_traits, body_cells, a, key / cells, key) && owns_body(body_traits, body_cells, b, key / cells, key);
+  uint inside = key < behind && owns_body(body_traits, body_cells, a, key / cells, key) &&
+                owns_body(body_traits, body_cells, b, key / cells, key);
   sort_key[i] = inside ? key : behind;
   sort_value[i] = i;
 }
@@ -84,11 +91,12 @@ SHARED void clear_bids(GLOBAL const uint *body_traits, GLOBAL uint *body_bid, ui
   ATOMIC_MIN(body_bid + 2u * body + 1u, 0u);
 }
 
-/* One group a cell of the class `parity`: the rounds of coloring.h over its contacts alone. local_memory[round]: contacts
- * without a colour before the round. Bids are left cleared for whoever comes next. */
-SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *sort_key,
-                              GLOBAL const uint *sort_value, GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
-                              GLOBAL uint *body_bid, uint parity, LOCAL uint *local_memory, uint group)
+/* One group a cell of the class `parity`: the rounds of coloring.h over its contacts alone. local_memory[round]:
+ * contacts without a colour before the round. Bids are left cleared for whoever comes next. */
+SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                              GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL uint *counts,
+                              GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint parity,
+                              LOCAL uint *local_memory, uint group)
 {
   const uint pairs = counts[COUNT_PAIRS], key = parity * counts[COUNT_BATCH_CELLS] + group;
   const uint first = first_not_below(sort_key, pairs, key), count = first_not_below(sort_key, pairs, key + 1u) - first;

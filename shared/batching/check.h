@@ -6,7 +6,8 @@
  *
  *   mark_batches    each body: a bit for each colour that touches it, and a second where a colour does so again
  *   check_batches   each constraint: is its colour doubled at one of its bodies?
- *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and is no trigger's, else none?
+ *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and is no trigger's,
+ * else none?
  *
  * Sums, bits and minima: the verdict does not depend on order.
  */
@@ -39,8 +40,9 @@ SHARED void mark_body(GLOBAL uint *body_marks, uint body, uint color)
   if (ATOMIC_OR(body_marks + word, bit) & bit) ATOMIC_OR(body_marks + word + 2u, bit);
 }
 
-SHARED void mark_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *sort_value,
-                              GLOBAL const uint *counts, GLOBAL uint *body_marks, GLOBAL uint *pair_marks, uint i)
+SHARED void mark_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *body_marks,
+                              GLOBAL uint *pair_marks, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   ATOMIC_ADD(pair_marks + pair, 1u);
@@ -54,19 +56,22 @@ SHARED uint is_doubled(GLOBAL const uint *body_traits, GLOBAL const uint *body_m
   return is_moving(body_traits, body) ? body_marks[BODY_MARKS * body + 2u + (color >> 5)] >> (color & 31u) & 1u : 0u;
 }
 
-SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *sort_value,
-                               GLOBAL const uint *body_marks, GLOBAL uint *counts, uint i)
+SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                               GLOBAL const uint *sort_value, GLOBAL const uint *body_marks, GLOBAL uint *counts,
+                               uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   if (color == COLOR_TAIL) return;
-  if (!is_doubled(body_traits, body_marks, pair_a[pair], color) && !is_doubled(body_traits, body_marks, pair_b[pair], color)) return;
+  if (!is_doubled(body_traits, body_marks, pair_a[pair], color) &&
+      !is_doubled(body_traits, body_marks, pair_b[pair], color))
+    return;
   ATOMIC_ADD(counts + COUNT_CONFLICTS, 1u);
   ATOMIC_MIN(counts + COUNT_FIRST_CONFLICT, i);
 }
 
 SHARED void check_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits, GLOBAL const uint *pair_marks,
-                             GLOBAL uint *counts, uint i)
+                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
+                             GLOBAL const uint *pair_marks, GLOBAL uint *counts, uint i)
 {
   uint solved = manifold_count[i] > 0u && !has_trigger(parameters, body_traits, pair_a[i], pair_b[i]) ? 1u : 0u;
   if (pair_marks[i] == solved) return;

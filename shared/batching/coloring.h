@@ -24,7 +24,10 @@ SHARED uint bid_of(uint pair)
   return h;
 }
 
-SHARED uint is_moving(GLOBAL const uint *body_traits, uint body) { return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC; }
+SHARED uint is_moving(GLOBAL const uint *body_traits, uint body)
+{
+  return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC;
+}
 
 /* The lowest colour not in the two masks; COLOR_TAIL if all are taken. */
 SHARED uint lowest_free_color(uint low_used, uint high_used)
@@ -36,7 +39,10 @@ SHARED uint lowest_free_color(uint low_used, uint high_used)
   return COLOR_TAIL;
 }
 
-SHARED void take_color(GLOBAL uint *body_colors, uint body, uint color) { body_colors[2u * body + (color >> 5)] |= 1u << (color & 31u); }
+SHARED void take_color(GLOBAL uint *body_colors, uint body, uint color)
+{
+  body_colors[2u * body + (color >> 5)] |= 1u << (color & 31u);
+}
 
 SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, uint b, uint moving_b)
 {
@@ -46,8 +52,8 @@ SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, ui
 }
 
 /* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
-SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *pair_color,
-                      GLOBAL uint *body_bid, uint round, uint i)
+SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                      GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
@@ -55,11 +61,11 @@ SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOB
   if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
 
-/* A contact whose bodies have all colours in use between them goes to the tail at once: of ten thousand contacts of one body a
- * single one wins a round. */
+/* A contact whose bodies have all colours in use between them goes to the tail at once: of ten thousand contacts of one
+ * body a single one wins a round. */
 SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
-                           GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_bid, uint round,
-                           uint i)
+                           GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color,
+                           GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i];
@@ -72,7 +78,8 @@ SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* True if the pair holds the highest bid of the round at each of its moving bodies; clears the bids of the next round. */
+/* True if the pair holds the highest bid of the round at each of its moving bodies; clears the bids of the next
+ * round. */
 SHARED uint wins_round(GLOBAL uint *body_bid, uint a, uint moving_a, uint b, uint moving_b, uint bid, uint round)
 {
   uint now = round & 1u, next = now ^ 1u;
@@ -82,8 +89,9 @@ SHARED uint wins_round(GLOBAL uint *body_bid, uint a, uint moving_a, uint b, uin
 }
 
 /* Only the winner of a body reads or writes the body's colours in this round. */
-SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
-                              GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint round, uint i)
+SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                              GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
+                              GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
@@ -97,9 +105,10 @@ SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* A body of the tail alone shall not count as free: it takes the tail's bit, by itself so that no colouring reads it meanwhile. */
-SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *body_traits,
-                           GLOBAL uint *body_colors, uint i)
+/* A body of the tail alone shall not count as free: it takes the tail's bit, by itself so that no colouring reads it
+ * meanwhile. */
+SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                           GLOBAL const uint *body_traits, GLOBAL uint *body_colors, uint i)
 {
   uint a = constraint_a[i], b = constraint_b[i];
   if (is_moving(body_traits, a)) occupy_color(body_colors, a, COLOR_TAIL);
@@ -107,10 +116,10 @@ SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *c
 }
 
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
- * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier ones
- * bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */
-SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
-                                GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+ * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
+ * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */
+SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                                GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   (void)i;
   for (uint pair = 0; pair < counts[COUNT_PAIRS]; ++pair) {

@@ -5,9 +5,9 @@
  *     the contact that holds both joins the batch
  *
  * The talk reserves by atomics on local memory, and whichever thread comes first wins: other batches in every run. Here
- * the contacts of a round bid, the highest bid at both bodies wins (bid_of: a bijective hash, so no ties), and a maximum
- * does not depend on order. One round leaves gaps: a contact whose rival lost elsewhere could still join. So each batch
- * is filled in BATCH_ROUNDS rounds before the next one starts:
+ * the contacts of a round bid, the highest bid at both bodies wins (bid_of: a bijective hash, so no ties), and a
+ * maximum does not depend on order. One round leaves gaps: a contact whose rival lost elsewhere could still join. So
+ * each batch is filled in BATCH_ROUNDS rounds before the next one starts:
  *
  *   round 1     1 --- 2 --- 3 --- 4 --- 5        bids 3, 9, 5, 4: the 9 wins; 5 and 3 lose to it, 4 loses to 5
  *                  3     9     5     4
@@ -22,10 +22,14 @@
 /* Never 0: a contact that does not bid must not hold a body for which nobody bids. */
 SHARED uint batch_bid_of(uint pair) { return bid_of(pair + 1u); }
 
-SHARED uint is_reserved(GLOBAL const uint *body_colors, uint body, uint batch) { return body_colors[2u * body + (batch >> 5)] >> (batch & 31u) & 1u; }
+SHARED uint is_reserved(GLOBAL const uint *body_colors, uint body, uint batch)
+{
+  return body_colors[2u * body + (batch >> 5)] >> (batch & 31u) & 1u;
+}
 
-SHARED void batch_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL const uint *pair_color,
-                           GLOBAL const uint *body_colors, GLOBAL uint *body_bid, uint batch, uint round, uint i)
+SHARED void batch_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                           GLOBAL const uint *pair_color, GLOBAL const uint *body_colors, GLOBAL uint *body_bid,
+                           uint batch, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = batch_bid_of(i);
@@ -35,8 +39,9 @@ SHARED void batch_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
   if (moving_b) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
 
-SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
-                               GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint batch, uint round, uint i)
+SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                               GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
+                               GLOBAL uint *body_bid, uint batch, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i];
@@ -50,8 +55,8 @@ SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
 }
 
 /* After the last batch: what is left goes to the tail. */
-SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits, GLOBAL uint *counts,
-                            GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
+SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+                            GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   pair_color[i] = COLOR_TAIL;

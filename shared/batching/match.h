@@ -4,8 +4,8 @@
  * conflict among themselves still are, so only new contacts need colouring. Batchers whose batches follow from the
  * list of contacts alone (`keep` 0) take over the impulses and no colour.
  *
- * In scenes with trees two bodies may have several manifolds, now and then. Those are one another's whose normals agree best from
- * either side, so that none is taken twice:
+ * In scenes with trees two bodies may have several manifolds, now and then. Those are one another's whose normals agree
+ * best from either side, so that none is taken twice:
  *
  *      then  1 --------> 2         now 1 prefers then 1, then 1 prefers now 1: a match
  *            ^  \                   now 2 prefers then 1, which prefers another: new
@@ -31,12 +31,15 @@ SHARED uint find_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cach
 }
 
 /* Entries first .. end - 1 belong to two bodies. */
-typedef struct { uint first, end; } pair_run;
+typedef struct {
+  uint first, end;
+} pair_run;
 
 SHARED pair_run run_of_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint pairs, uint i)
 {
   pair_run run = {i, i + 1u};
-  while (run.first > 0u && pair_a[run.first - 1u] == pair_a[i] && pair_b[run.first - 1u] == pair_b[i]) run.first = run.first - 1u;
+  while (run.first > 0u && pair_a[run.first - 1u] == pair_a[i] && pair_b[run.first - 1u] == pair_b[i])
+    run.first = run.first - 1u;
   while (run.end < pairs && pair_a[run.end] == pair_a[i] && pair_b[run.end] == pair_b[i]) run.end = run.end + 1u;
   return run;
 }
@@ -62,7 +65,8 @@ SHARED uint nearest_normal(GLOBAL const row *normals, pair_run run, vec3 normal)
 }
 
 /* Where each of two bodies' manifolds now is sought among those then. found: the first of those. */
-SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL const row *cached_normals, pair_run then, uint i)
+SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL const row *cached_normals, pair_run then,
+                              uint i)
 {
   if (now.end - now.first == 1u && then.end - then.first == 1u) return then.first;
   uint best = nearest_normal(cached_normals, then, xyz(load_row(normals, i)));
@@ -76,13 +80,17 @@ SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return HAS_FEATURE(parameters, FEATURE_TRIGGER) ? is_trigger(body_traits[a] | body_traits[b]) : 0u;
 }
 
-SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color) { ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u)); }
+SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
+{
+  ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u));
+}
 
 SHARED void match_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const row *manifold_normal, GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
-                             GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, GLOBAL const row *cached_normal,
-                             GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached, GLOBAL uint *pair_color,
-                             GLOBAL uint *body_colors, uint keep, uint i)
+                             GLOBAL const row *manifold_normal, GLOBAL const uint *manifold_count,
+                             GLOBAL const uint *body_traits, GLOBAL const uint *cached_start,
+                             GLOBAL const uint *cached_b, GLOBAL const row *cached_normal,
+                             GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached,
+                             GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
 {
   uint a = pair_a[i], b = pair_b[i];
   uint cached = find_cached(cached_start, cached_b, a, b);

@@ -16,7 +16,8 @@
 /* Half extents of the axis-aligned box around a rotated shape; Arvo, Graphics Gems, 1990. */
 SHARED vec3 half_extents(natural shape, vec3 size, mat3 rotation)
 {
-  vec3 box = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size), inner(absolute(rotation.z), size));
+  vec3 box = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size),
+                       inner(absolute(rotation.z), size));
   vec3 sphere = make_vec3(size.x, size.x, size.x);
   vec3 everything = make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS);
   return choose3(shape == (natural)SHAPE_HALF_SPACE, everything, choose3(shape == (natural)SHAPE_SPHERE, sphere, box));
@@ -25,14 +26,16 @@ SHARED vec3 half_extents(natural shape, vec3 size, mat3 rotation)
 /* Of a shape that has a pose: as far on both sides of the body's centre as the box around the shape reaches on one. */
 SHARED vec3 posed_half_extents(GLOBAL const row *body_shape_pose, natural body, mat3 rotation)
 {
-  vec3 center = rotate(rotation, xyz(load_row(body_shape_pose, body * 4u + 2u))), size = xyz(load_row(body_shape_pose, body * 4u + 3u));
-  vec3 extent = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size), inner(absolute(rotation.z), size));
+  vec3 center = rotate(rotation, xyz(load_row(body_shape_pose, body * 4u + 2u))),
+       size = xyz(load_row(body_shape_pose, body * 4u + 3u));
+  vec3 extent = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size),
+                          inner(absolute(rotation.z), size));
   return add(absolute(center), extent);
 }
 
 /* Of a body as it stands. */
-SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape_pose, natural body, vec3 size,
-                                 mat3 rotation)
+SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                 GLOBAL const row *body_shape_pose, natural body, vec3 size, mat3 rotation)
 {
   natural shape = shape_of(load_natural(body_traits, body));
   vec3 extent = half_extents(shape, size, rotation);
@@ -49,13 +52,15 @@ SHARED real turned_extent(real extent, real radius, real turn)
 }
 SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
 {
-  return make_vec3(turned_extent(extent.x, radius, turn), turned_extent(extent.y, radius, turn), turned_extent(extent.z, radius, turn));
+  return make_vec3(turned_extent(extent.x, radius, turn), turned_extent(extent.y, radius, turn),
+                   turned_extent(extent.z, radius, turn));
 }
 
-/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius. Parameters are not
- * assigned to: rusticl passes both as one where the caller gives one vector twice. */
-SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_mass, GLOBAL row *bounds, natural i,
-                                 vec3 center, motion m, vec3 below, vec3 above, real radius)
+/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius.
+ * Parameters are not assigned to: rusticl passes both as one where the caller gives one vector twice. */
+SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                 GLOBAL const row *body_mass, GLOBAL row *bounds, natural i, vec3 center, motion m,
+                                 vec3 below, vec3 above, real radius)
 {
   real step = parameters->step, turn = length_of(m.angular) * step, margin = parameters->bounds_margin;
   vec3 spare = make_vec3(margin, margin, margin), rounding = rounding_of_bounds(center);
@@ -81,24 +86,29 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
   store_row(bounds, i * 2u + 1u, extend(add(add(center, reach_above), high), R(0.0)));
 }
 
-SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
-                                GLOBAL const row *body_shape_pose, GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
-                                GLOBAL const row *body_velocity, GLOBAL row *bounds, item_index i)
+SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                GLOBAL const row *body_shape, GLOBAL const row *body_shape_pose,
+                                GLOBAL const row *body_mass, GLOBAL const row *body_position,
+                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds,
+                                item_index i)
 {
   vec4 size = load_row(body_shape, i);
   mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
   vec3 extent = half_extents_of_body(parameters, body_traits, body_shape_pose, i, xyz(size), rotation);
-  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high, load_motion(body_velocity, i), extent, extent, size.w);
+  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high,
+                       load_motion(body_velocity, i), extent, extent, size.w);
 }
 
 /* The same without any motion or margin: what queries ask. */
-SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
-                                      GLOBAL const row *body_shape_pose, GLOBAL const row *body_position, GLOBAL const row *body_orientation, GLOBAL row *bounds,
-                                      item_index i)
+SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                      GLOBAL const row *body_shape, GLOBAL const row *body_shape_pose,
+                                      GLOBAL const row *body_position, GLOBAL const row *body_orientation,
+                                      GLOBAL row *bounds, item_index i)
 {
   vec3 center = load_place(body_position, i).high, size = xyz(load_row(body_shape, i));
   mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
-  vec3 extent = add(half_extents_of_body(parameters, body_traits, body_shape_pose, i, size, rotation), rounding_of_bounds(center));
+  vec3 extent = add(half_extents_of_body(parameters, body_traits, body_shape_pose, i, size, rotation),
+                    rounding_of_bounds(center));
   store_row(bounds, i * 2u, extend(subtract(center, extent), R(0.0)));
   store_row(bounds, i * 2u + 1u, extend(add(center, extent), R(0.0)));
 }

@@ -1,13 +1,12 @@
 /* box_pyramid.h - unions of the boxes of any stretch of a list, in as many loads as the stretch's length has bits.
  *
- *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node leaves + i.
- *           2         3             Behind the list: empty boxes, which overlap nothing.
- *         4   5     6   7
- *        8 9 10 11 12 . . .         Places 1 to 4 are the nodes 9, 5 and 12.
+ *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node
+ * leaves + i. 2         3             Behind the list: empty boxes, which overlap nothing. 4   5     6   7 8 9 10 11 12
+ * . . .         Places 1 to 4 are the nodes 9, 5 and 12.
  *
- * A tree over the list (hierarchy.h) takes the boxes of its nodes from here, all at once: no node waits for those below it, as it must
- * where boxes are joined from the leaves up with flags and fences, which OpenCL 1.2 does not promise to work across work-groups.
- * A box also knows the lowest number of a body in it.
+ * A tree over the list (hierarchy.h) takes the boxes of its nodes from here, all at once: no node waits for those below
+ * it, as it must where boxes are joined from the leaves up with flags and fences, which OpenCL 1.2 does not promise to
+ * work across work-groups. A box also knows the lowest number of a body in it.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
 #define TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
@@ -24,7 +23,8 @@ typedef struct {
 
 SHARED numbered_box empty_box(void)
 {
-  numbered_box empty = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)}, BOUNDLESS};
+  numbered_box empty = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)},
+                        BOUNDLESS};
   return empty;
 }
 SHARED numbered_box load_numbered_box(GLOBAL const row *boxes, uint i)
@@ -40,7 +40,8 @@ SHARED void store_numbered_box(GLOBAL row *boxes, uint i, numbered_box b)
 }
 SHARED numbered_box join_boxes(numbered_box a, numbered_box b)
 {
-  numbered_box joined = {{lower_of(a.box.lower, b.box.lower), upper_of(a.box.upper, b.box.upper)}, minimum(a.lowest, b.lowest)};
+  numbered_box joined = {{lower_of(a.box.lower, b.box.lower), upper_of(a.box.upper, b.box.upper)},
+                         minimum(a.lowest, b.lowest)};
   return joined;
 }
 
@@ -53,8 +54,8 @@ SHARED void store_leaf(GLOBAL row *pyramid, uint node, box_bounds box, uint body
 }
 
 /* All leaves; tiles of them that have changed are told to those who build upon them. */
-SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL row *pyramid,
-                                GLOBAL uint *tile_changed, uint i)
+SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
+                                GLOBAL row *pyramid, GLOBAL uint *tile_changed, uint i)
 {
   uint node = counts[COUNT_LEAVES] + i;
   if (i % TILE == 0u) tile_changed[i / TILE] = 1u;
@@ -62,9 +63,10 @@ SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf
   else store_numbered_box(pyramid, node, empty_box());
 }
 
-/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if they changed. */
-SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL row *pyramid, uint height, LOCAL uint *local_memory,
-                                 uint group)
+/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if
+ * they changed. */
+SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL row *pyramid,
+                                 uint height, LOCAL uint *local_memory, uint group)
 {
   (void)local_memory;
   uint level = counts[COUNT_LEAVES] >> height, first = group * TILE;
@@ -76,7 +78,8 @@ SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *t
     FOR_EACH_ITEM(item, width)
     {
       uint node = level + first + item;
-      store_numbered_box(pyramid, node, join_boxes(load_numbered_box(pyramid, 2u * node), load_numbered_box(pyramid, 2u * node + 1u)));
+      store_numbered_box(pyramid, node,
+                         join_boxes(load_numbered_box(pyramid, 2u * node), load_numbered_box(pyramid, 2u * node + 1u)));
     }
   }
 }

@@ -1,5 +1,6 @@
-/* curve.h - the order along a space-filling curve: Morton codes of the centres of bounds, after Lauterbach and others, "Fast BVH
- * construction on GPUs", 2009. What lies near on the curve lies near in space, so trees and sorted lists are built over it. */
+/* curve.h - the order along a space-filling curve: Morton codes of the centres of bounds, after Lauterbach and others,
+ * "Fast BVH construction on GPUs", 2009. What lies near on the curve lies near in space, so trees and sorted lists are
+ * built over it. */
 #ifndef TANDEM_SHARED_BROADPHASE_CURVE_H
 #define TANDEM_SHARED_BROADPHASE_CURVE_H
 
@@ -24,11 +25,13 @@ SHARED uint curve_key(GLOBAL const row *grid, box_bounds box)
 {
   vec4 frame = load_row(grid, 1u);
   vec3 offset = subtract(scale(add(box.lower, box.upper), R(0.5)), xyz(frame));
-  return spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 | spread_bits(curve_cell(offset.z, frame.w));
+  return spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 |
+         spread_bits(curve_cell(offset.z, frame.w));
 }
 
 /* Body i of finite size. */
-SHARED void curve_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+SHARED void curve_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_BOUNDLESS] + i;
   sort_key[i] = curve_key(grid, load_bounds(bounds, body));

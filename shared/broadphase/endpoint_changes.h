@@ -1,18 +1,21 @@
-/* endpoint_changes.h - the pairs that came to overlap or ceased to since the last launch: found by the ends that changed places.
+/* endpoint_changes.h - the pairs that came to overlap or ceased to since the last launch: found by the ends that
+ * changed places.
  *
- * A pair can change only if along some axis a lower end l of one body and an upper end u of the other stand in another order than they
- * did: their couple is inverted. Each end walks its way, from its old place to its new one, through the old list and the new list:
+ * A pair can change only if along some axis a lower end l of one body and an upper end u of the other stand in another
+ * order than they did: their couple is inverted. Each end walks its way, from its old place to its new one, through the
+ * old list and the new list:
  *
  *     place     4  5  6  7
- *     old   ..  l  x  u  y  ..        l goes from place 4 to 6: it meets x and u, in either list; u alone is an upper end that l
- *     new   ..  u  x  l  y  ..        stood before and stands behind, so the two bodies may have parted
+ *     old   ..  l  x  u  y  ..        l goes from place 4 to 6: it meets x and u, in either list; u alone is an upper
+ * end that l new   ..  u  x  l  y  ..        stood before and stands behind, so the two bodies may have parted
  *
- * One of the two meets the other. Let l stand before u at first, at a < b, and behind it afterwards, at a' > b'. If b, u's place in the
- * old list, is not on l's way, it lies behind a' too, and if b' is not on that way, it lies before a too. Then u's way from b to b' leads
- * past both a and a': u meets l in either list. With old and new exchanged this is the other inversion.
+ * One of the two meets the other. Let l stand before u at first, at a < b, and behind it afterwards, at a' > b'. If b,
+ * u's place in the old list, is not on l's way, it lies behind a' too, and if b' is not on that way, it lies before a
+ * too. Then u's way from b to b' leads past both a and a': u meets l in either list. With old and new exchanged this is
+ * the other inversion.
  *
- * So what the search costs is how far ends moved in the orders. Where nothing is kept, all pairs are changes: a plain sweep along the
- * first axis finds them.
+ * So what the search costs is how far ends moved in the orders. Where nothing is kept, all pairs are changes: a plain
+ * sweep along the first axis finds them.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_ENDPOINT_CHANGES_H
 #define TANDEM_SHARED_BROADPHASE_ENDPOINT_CHANGES_H
@@ -27,10 +30,15 @@ typedef struct {
 } end_tables;
 
 /* An end, where it stood along some axis, and where it stands. */
-typedef struct { uint end, was, is; } moved_end;
+typedef struct {
+  uint end, was, is;
+} moved_end;
 
 /* Keys from `at` on, as many as there is room for; without keys it is a counter. */
-typedef struct { GLOBAL ulong *keys; uint at, capacity; } key_list;
+typedef struct {
+  GLOBAL ulong *keys;
+  uint at, capacity;
+} key_list;
 
 SHARED void add_key(key_list *list, uint one, uint other)
 {
@@ -48,9 +56,13 @@ SHARED moved_end load_end(const end_tables *tables, uint axis, uint end)
   return m;
 }
 
-SHARED int is_on_way(moved_end m, uint place) { return m.was < m.is ? m.was <= place && place <= m.is : m.is <= place && place <= m.was; }
+SHARED int is_on_way(moved_end m, uint place)
+{
+  return m.was < m.is ? m.was <= place && place <= m.is : m.is <= place && place <= m.was;
+}
 
-/* Whether m has to tell of this couple. Of two ends that meet each other the lower one does, so that it is told once. */
+/* Whether m has to tell of this couple. Of two ends that meet each other the lower one does, so that it is told
+ * once. */
 SHARED int tells_couple(uint bodies, moved_end m, moved_end other)
 {
   int is_lower = m.end < bodies;
@@ -65,8 +77,8 @@ SHARED int overlap_along(box_bounds p, box_bounds q, uint axis)
   return i.start <= j.end && j.start <= i.end;
 }
 
-/* Whether two bodies came together or parted, and no axis before this one tells of it. Along an axis on which they overlap before and
- * after no couple of them is inverted, so the first axis with a change tells. */
+/* Whether two bodies came together or parted, and no axis before this one tells of it. Along an axis on which they
+ * overlap before and after no couple of them is inverted, so the first axis with a change tells. */
 SHARED int pair_changed(const end_tables *tables, uint axis, uint one, uint other)
 {
   box_bounds p = load_bounds(tables->bounds, one), q = load_bounds(tables->bounds, other);
@@ -87,7 +99,8 @@ SHARED void meet_end(const end_tables *tables, uint axis, moved_end m, moved_end
 SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, key_list *list)
 {
   uint plane = 2u * tables->bodies * axis, first = m.was < m.is ? m.was : m.is, last = m.was < m.is ? m.is : m.was;
-  for (uint at = first; at <= last; ++at) meet_end(tables, axis, m, load_end(tables, axis, tables->kept_order[plane + at]), list);
+  for (uint at = first; at <= last; ++at)
+    meet_end(tables, axis, m, load_end(tables, axis, tables->kept_order[plane + at]), list);
   for (uint at = first; at <= last; ++at) {
     moved_end other = load_end(tables, axis, tables->order[plane + at]);
     if (!is_on_way(m, other.was)) meet_end(tables, axis, m, other, list);
@@ -118,24 +131,28 @@ SHARED void find_changes(const end_tables *tables, uint is_kept, uint end, key_l
   }
 }
 
-SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place,
-                               GLOBAL const row *kept_bounds, GLOBAL const uint *kept_order, GLOBAL const uint *kept_place,
-                               GLOBAL const uint *counts, GLOBAL uint *share_start, uint i)
+SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const uint *axis_order,
+                               GLOBAL const uint *axis_place, GLOBAL const row *kept_bounds,
+                               GLOBAL const uint *kept_order, GLOBAL const uint *kept_place, GLOBAL const uint *counts,
+                               GLOBAL uint *share_start, uint i)
 {
-  end_tables tables = {parameters, body_traits, body_filter, axis_order, axis_place, kept_order, kept_place, bounds, kept_bounds, counts[COUNT_BODIES]};
+  end_tables tables = {parameters, body_traits, body_filter, axis_order,  axis_place,
+                       kept_order, kept_place,  bounds,      kept_bounds, counts[COUNT_BODIES]};
   key_list counter = {0, 0u, 0u};
   find_changes(&tables, counts[COUNT_KEPT], i, &counter);
   share_start[i] = counter.at;
 }
 
-SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place,
-                               GLOBAL const row *kept_bounds, GLOBAL const uint *kept_order, GLOBAL const uint *kept_place,
-                               GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
+SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const uint *axis_order,
+                               GLOBAL const uint *axis_place, GLOBAL const row *kept_bounds,
+                               GLOBAL const uint *kept_order, GLOBAL const uint *kept_place, GLOBAL const uint *counts,
+                               GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   if (share_start[i] == share_start[i + 1u]) return; /* most ends: they need not walk again */
-  end_tables tables = {parameters, body_traits, body_filter, axis_order, axis_place, kept_order, kept_place, bounds, kept_bounds, counts[COUNT_BODIES]};
+  end_tables tables = {parameters, body_traits, body_filter, axis_order,  axis_place,
+                       kept_order, kept_place,  bounds,      kept_bounds, counts[COUNT_BODIES]};
   key_list list = {pair_key, share_start[i], counts[CAPACITY_PAIRS]};
   find_changes(&tables, counts[COUNT_KEPT], i, &list);
 }

@@ -1,5 +1,5 @@
-/* endpoints.h - where boxes start and end along each axis, in sorted order: what the incremental sweep and prune compares with the
- * order of the launch before.
+/* endpoints.h - where boxes start and end along each axis, in sorted order: what the incremental sweep and prune
+ * compares with the order of the launch before.
  *
  * End e of so many bodies is the lower end of body e, or the upper end of body e - bodies:
  *
@@ -8,9 +8,9 @@
  *     order:      0    1    2  3        (2 bodies: ends 2 and 3 are upper ones)
  *     place:      0    1    2  3        of ends 0, 1, 2, 3
  *
- * Ends of equal value stay in the order of their numbers, since the sort is stable: lower ends come before upper ones, and boxes that
- * touch overlap. So for two bodies a and b "a.lower <= b.upper" is "a's lower end stands before b's upper end", exactly, in floats.
- * Orders and places are planes, one an axis, of all ends.
+ * Ends of equal value stay in the order of their numbers, since the sort is stable: lower ends come before upper ones,
+ * and boxes that touch overlap. So for two bodies a and b "a.lower <= b.upper" is "a's lower end stands before b's
+ * upper end", exactly, in floats. Orders and places are planes, one an axis, of all ends.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
 #define TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
@@ -27,15 +27,18 @@ SHARED uint end_key(interval along, int is_lower)
   return is_lower ? 0xffffffffu : 0u;
 }
 
-SHARED void axis_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint axis, uint i)
+SHARED void axis_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key,
+                           GLOBAL uint *sort_value, uint axis, uint i)
 {
   uint bodies = counts[COUNT_BODIES];
   sort_key[i] = end_key(interval_along_axis(load_bounds(bounds, body_of_end(i, bodies)), axis), i < bodies);
   sort_value[i] = i;
 }
 
-/* Both ways, since the sort's buffers are used again for the next axis: which end stands at a place, and the place of an end. */
-SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *axis_order, GLOBAL uint *axis_place, uint axis, uint i)
+/* Both ways, since the sort's buffers are used again for the next axis: which end stands at a place, and the place of
+ * an end. */
+SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *axis_order,
+                             GLOBAL uint *axis_place, uint axis, uint i)
 {
   uint plane = axis * counts[COUNT_HALVES], end = sort_value[i];
   axis_order[plane + i] = end;
@@ -43,8 +46,9 @@ SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *c
 }
 
 /* For the next launch: the orders, and the bounds, of which there are as many rows as ends. */
-SHARED void keep_ends_item(GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place, GLOBAL const uint *counts,
-                           GLOBAL row *kept_bounds, GLOBAL uint *kept_order, GLOBAL uint *kept_place, uint i)
+SHARED void keep_ends_item(GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place,
+                           GLOBAL const uint *counts, GLOBAL row *kept_bounds, GLOBAL uint *kept_order,
+                           GLOBAL uint *kept_place, uint i)
 {
   store_row(kept_bounds, i, load_row(bounds, i));
   for (uint axis = 0; axis < 3u; ++axis) {

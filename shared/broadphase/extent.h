@@ -17,19 +17,24 @@
 #define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
 
 /* Of the centres; products: y z, z x, x y. size: the longest side of any box. */
-typedef struct { vec3 lower, upper, sum, squares, products; real size; } extent;
+typedef struct {
+  vec3 lower, upper, sum, squares, products;
+  real size;
+} extent;
 
 SHARED extent empty_extent(void)
 {
-  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, {R(0.0), R(0.0), R(0.0)}, R(0.0)};
+  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS},
+              {R(0.0), R(0.0), R(0.0)},          {R(0.0), R(0.0), R(0.0)},
+              {R(0.0), R(0.0), R(0.0)},          R(0.0)};
   return e;
 }
 SHARED vec3 lower_of(vec3 a, vec3 b) { return make_vec3(minimum(a.x, b.x), minimum(a.y, b.y), minimum(a.z, b.z)); }
 SHARED vec3 upper_of(vec3 a, vec3 b) { return make_vec3(maximum(a.x, b.x), maximum(a.y, b.y), maximum(a.z, b.z)); }
 SHARED extent join_extents(extent a, extent b)
 {
-  extent e = {lower_of(a.lower, b.lower), upper_of(a.upper, b.upper), add(a.sum, b.sum), add(a.squares, b.squares),
-              add(a.products, b.products), maximum(a.size, b.size)};
+  extent e = {lower_of(a.lower, b.lower), upper_of(a.upper, b.upper),  add(a.sum, b.sum),
+              add(a.squares, b.squares),  add(a.products, b.products), maximum(a.size, b.size)};
   return e;
 }
 SHARED extent extent_of_body(box_bounds b)
@@ -49,7 +54,8 @@ SHARED void store_vec3_local(LOCAL real *to, uint plane, uint item, vec3 v)
 }
 SHARED vec3 load_vec3_local(LOCAL const real *from, uint plane, uint item)
 {
-  return make_vec3(from[plane * EXTENT_WIDTH + item], from[(plane + 1u) * EXTENT_WIDTH + item], from[(plane + 2u) * EXTENT_WIDTH + item]);
+  return make_vec3(from[plane * EXTENT_WIDTH + item], from[(plane + 1u) * EXTENT_WIDTH + item],
+                   from[(plane + 2u) * EXTENT_WIDTH + item]);
 }
 SHARED void store_extent_local(LOCAL real *to, uint item, extent e)
 {
@@ -62,17 +68,17 @@ SHARED void store_extent_local(LOCAL real *to, uint item, extent e)
 }
 SHARED extent load_extent_local(LOCAL const real *from, uint item)
 {
-  extent e = {load_vec3_local(from, 0u, item), load_vec3_local(from, 3u, item), load_vec3_local(from, 6u, item), load_vec3_local(from, 9u, item),
-              load_vec3_local(from, 12u, item), from[15u * EXTENT_WIDTH + item]};
+  extent e = {load_vec3_local(from, 0u, item), load_vec3_local(from, 3u, item),  load_vec3_local(from, 6u, item),
+              load_vec3_local(from, 9u, item), load_vec3_local(from, 12u, item), from[15u * EXTENT_WIDTH + item]};
   return e;
 }
 
 /* Joins EXTENT_WIDTH extents in local memory into the first. */
 SHARED void join_tree(LOCAL real *extents)
 {
-  for (uint reach = EXTENT_WIDTH / 2u; reach > 0u; reach /= 2u)
-    FOR_EACH_ITEM(item, reach)
-      store_extent_local(extents, item, join_extents(load_extent_local(extents, item), load_extent_local(extents, item + reach)));
+  for (uint reach = EXTENT_WIDTH / 2u; reach > 0u; reach /= 2u) FOR_EACH_ITEM(item, reach)
+  store_extent_local(extents, item,
+                     join_extents(load_extent_local(extents, item), load_extent_local(extents, item + reach)));
 }
 
 SHARED void store_extent_tile(GLOBAL row *bounds_sums, uint tile, extent e)
@@ -91,7 +97,8 @@ SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
 }
 
 /* One group over TILE small bodies -> EXTENT_ROWS rows of bounds_sums. */
-SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *bounds_sums, LOCAL uint *local_memory, uint group)
+SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *bounds_sums,
+                               LOCAL uint *local_memory, uint group)
 {
   LOCAL real *extents = (LOCAL real *)local_memory;
   uint small = counts[COUNT_SMALL], large = counts[COUNT_LARGE];
@@ -106,7 +113,8 @@ SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *coun
   }
   join_tree(extents);
   /* A device launches a group even where there is no tile. */
-  FOR_EACH_ITEM(first, group * TILE < small ? 1u : 0u) store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
+  FOR_EACH_ITEM(first, group * TILE < small ? 1u : 0u)
+  store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
 }
 
 /* Cells along one axis, at least 1 and at most what 30 bits of three axes allow. */
@@ -145,13 +153,16 @@ SHARED void lay_out_curve(extent whole, GLOBAL row *grid)
   store_row(grid, 1u, extend(whole.lower, (real)CURVE_CELLS / side));
 }
 
-typedef struct { vec3 squares, products; } covariance; /* products: y z, z x, x y */
+typedef struct {
+  vec3 squares, products;
+} covariance; /* products: y z, z x, x y */
 
 SHARED covariance covariance_of(extent whole, real bodies)
 {
   vec3 mean = scale(whole.sum, R(1.0) / bodies);
   vec3 products = make_vec3(mean.y * mean.z, mean.z * mean.x, mean.x * mean.y);
-  covariance c = {subtract(scale(whole.squares, R(1.0) / bodies), multiply(mean, mean)), subtract(scale(whole.products, R(1.0) / bodies), products)};
+  covariance c = {subtract(scale(whole.squares, R(1.0) / bodies), multiply(mean, mean)),
+                  subtract(scale(whole.products, R(1.0) / bodies), products)};
   return c;
 }
 
@@ -162,12 +173,14 @@ SHARED uint widest_axis(covariance c)
   return c.squares.y >= c.squares.z ? 1u : 2u;
 }
 
-/* The direction along which they spread most: the first principal component, by iteration. What a wrong one costs is time. */
+/* The direction along which they spread most: the first principal component, by iteration. What a wrong one costs is
+ * time. */
 SHARED vec3 principal_direction(covariance c)
 {
   vec3 d = make_vec3(R(1.0), R(0.75), R(0.5)); /* square to none of the axes */
   for (int k = 0; k < 32; ++k) {
-    vec3 next = make_vec3(c.squares.x * d.x + c.products.z * d.y + c.products.y * d.z, c.products.z * d.x + c.squares.y * d.y + c.products.x * d.z,
+    vec3 next = make_vec3(c.squares.x * d.x + c.products.z * d.y + c.products.y * d.z,
+                          c.products.z * d.x + c.squares.y * d.y + c.products.x * d.z,
                           c.products.y * d.x + c.products.x * d.y + c.squares.z * d.z);
     real most = maximum(magnitude(next.x), maximum(magnitude(next.y), magnitude(next.z)));
     if (!(most > R(0.0) && most < BOUNDLESS)) break;
@@ -199,16 +212,19 @@ SHARED covariance spread_of(extent whole, GLOBAL const uint *counts)
 }
 
 /* One item, for the sweep along it. */
-SHARED void find_principal_direction_item(GLOBAL const row *bounds_sums, GLOBAL const uint *counts, GLOBAL row *grid, uint i)
+SHARED void find_principal_direction_item(GLOBAL const row *bounds_sums, GLOBAL const uint *counts, GLOBAL row *grid,
+                                          uint i)
 {
   store_row(grid, 2u, extend(principal_direction(spread_of(load_extent_tile(bounds_sums, i), counts)), R(0.0)));
 }
 
 /* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
-SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid, GLOBAL uint *counts, uint hybrid, uint i)
+SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid,
+                         GLOBAL uint *counts, uint hybrid, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
-  if (counts[COUNT_SMALL] == 0u) whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
+  if (counts[COUNT_SMALL] == 0u)
+    whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
   lay_out_grid(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
   lay_out_curve(whole, grid);
   counts[COUNT_SWEEP_AXIS] = widest_axis(spread_of(whole, counts));

@@ -1,17 +1,19 @@
-/* fat_boxes.h - boxes with room to move in, filed in a moving and a standing tree: the dynamic AABB trees of CPU engines, in parallel.
+/* fat_boxes.h - boxes with room to move in, filed in a moving and a standing tree: the dynamic AABB trees of CPU
+ * engines, in parallel.
  *
  * After Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
  *
- *        +------------------+       A body keeps its fat box, the pairs that it makes with others, and its place in the tree, for as long
- *        | +----+           |       as its bounds stay inside. One that leaves gets a new one, with a margin on all sides and a piece of
- *        | |  o - - - >     |       the way ahead, and looks for pairs again: most steps, few do.
+ *        +------------------+       A body keeps its fat box, the pairs that it makes with others, and its place in the
+ * tree, for as long | +----+           |       as its bounds stay inside. One that leaves gets a new one, with a margin
+ * on all sides and a piece of | |  o - - - >     |       the way ahead, and looks for pairs again: most steps, few do.
  *        | +----+           |
  *        +------------------+
  *
- * Fixed bodies, and those that have not left their boxes for RESTING_STEPS, stand: their codes sort behind those of all others, so that
- * the root's children are the two trees. Those who leave look into both, in one walk. Boxes above a leaf are made anew where a leaf of
- * the same tile of the list changed: tiles of the standing tree hardly ever. Bodies change trees, and the order is made anew, as soon as
- * one leaf in sixteen has lost touch with the box that it was filed under (hierarchy.h).
+ * Fixed bodies, and those that have not left their boxes for RESTING_STEPS, stand: their codes sort behind those of all
+ * others, so that the root's children are the two trees. Those who leave look into both, in one walk. Boxes above a
+ * leaf are made anew where a leaf of the same tile of the list changed: tiles of the standing tree hardly ever. Bodies
+ * change trees, and the order is made anew, as soon as one leaf in sixteen has lost touch with the box that it was
+ * filed under (hierarchy.h).
  */
 #ifndef TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
 #define TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
@@ -23,16 +25,18 @@
 
 /* Beyond the bounds on each side, of a body's mean size. */
 #define FAT_MARGIN R(0.03125)
-/* Ahead, the way of FAT_STEPS to twice as many, not the same for all lest they leave together; at most so much of the body's mean size,
- * or of the cell that the hybrid's grid has: what is small beside others may go far before it meets more of them. */
+/* Ahead, the way of FAT_STEPS to twice as many, not the same for all lest they leave together; at most so much of the
+ * body's mean size, or of the cell that the hybrid's grid has: what is small beside others may go far before it meets
+ * more of them. */
 #define FAT_STEPS 8u
 #define FAT_WAY R(0.25)
 #define FAT_WAY_OF_CELL R(0.125)
 
 SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
 {
-  return outer_box.lower.x <= inner_box.lower.x && inner_box.upper.x <= outer_box.upper.x && outer_box.lower.y <= inner_box.lower.y &&
-         inner_box.upper.y <= outer_box.upper.y && outer_box.lower.z <= inner_box.lower.z && inner_box.upper.z <= outer_box.upper.z;
+  return outer_box.lower.x <= inner_box.lower.x && inner_box.upper.x <= outer_box.upper.x &&
+         outer_box.lower.y <= inner_box.lower.y && inner_box.upper.y <= outer_box.upper.y &&
+         outer_box.lower.z <= inner_box.lower.z && inner_box.upper.z <= outer_box.upper.z;
 }
 
 SHARED real fat_steps(uint body) { return to_real(FAT_STEPS + (body * 2654435761u >> 16) % FAT_STEPS); }
@@ -41,14 +45,18 @@ SHARED real fat_steps(uint body) { return to_real(FAT_STEPS + (body * 2654435761
 SHARED box_bounds fattened(box_bounds box, vec3 ahead, real cell)
 {
   vec3 extent = subtract(box.upper, box.lower), none = make_vec3(R(0.0), R(0.0), R(0.0));
-  real size = (extent.x + extent.y + extent.z) * R(0.33333334), margin = FAT_MARGIN * size, most = maximum(FAT_WAY * size, FAT_WAY_OF_CELL * cell);
-  vec3 room = make_vec3(margin, margin, margin), way = make_vec3(clamped(ahead.x, -most, most), clamped(ahead.y, -most, most), clamped(ahead.z, -most, most));
-  box_bounds fat = {add(subtract(box.lower, room), lower_of(way, none)), add(add(box.upper, room), upper_of(way, none))};
+  real size = (extent.x + extent.y + extent.z) * R(0.33333334), margin = FAT_MARGIN * size,
+       most = maximum(FAT_WAY * size, FAT_WAY_OF_CELL * cell);
+  vec3 room = make_vec3(margin, margin, margin),
+       way = make_vec3(clamped(ahead.x, -most, most), clamped(ahead.y, -most, most), clamped(ahead.z, -most, most));
+  box_bounds fat = {add(subtract(box.lower, room), lower_of(way, none)),
+                    add(add(box.upper, room), upper_of(way, none))};
   return fat;
 }
 
-SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds, GLOBAL const row *body_velocity, GLOBAL row *fat_bounds,
-                                 GLOBAL uint *body_rest, GLOBAL uint *body_left, GLOBAL uint *counts, uint i)
+SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds,
+                                 GLOBAL const row *body_velocity, GLOBAL row *fat_bounds, GLOBAL uint *body_rest,
+                                 GLOBAL uint *body_left, GLOBAL uint *counts, uint i)
 {
   box_bounds box = load_bounds(bounds, i);
   if (counts[COUNT_KEPT] != 0u && box_inside(box, load_bounds(fat_bounds, i))) {
@@ -66,8 +74,8 @@ SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL con
   ATOMIC_OR(&counts[COUNT_LEFT], i < counts[COUNT_LARGE] ? 3u : 1u);
 }
 
-/* What there is to do where any body left its box; nothing where none did. A query between steps takes the order of the trees for itself:
- * then they are raised anew. */
+/* What there is to do where any body left its box; nothing where none did. A query between steps takes the order of the
+ * trees for itself: then they are raised anew. */
 SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -79,8 +87,9 @@ SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
 }
 
 /* Leaf i, where the order of the last step may still hold: its box in the pyramid, and the tile that changed. */
-SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *body_left, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds,
-                              GLOBAL uint *tile_changed, GLOBAL row *box_pyramid, GLOBAL uint *counts, uint i)
+SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *body_left, GLOBAL const uint *leaf_body,
+                              GLOBAL const row *filed_bounds, GLOBAL uint *tile_changed, GLOBAL row *box_pyramid,
+                              GLOBAL uint *counts, uint i)
 {
   if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
   uint body = leaf_body[i];
@@ -91,8 +100,9 @@ SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *b
   store_leaf(box_pyramid, counts[COUNT_LEAVES] + i, fat, body);
 }
 
-SHARED void tree_keys_item(GLOBAL const uint *body_traits, GLOBAL const row *fat_bounds, GLOBAL const uint *body_rest, GLOBAL const row *grid,
-                           GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
+SHARED void tree_keys_item(GLOBAL const uint *body_traits, GLOBAL const row *fat_bounds, GLOBAL const uint *body_rest,
+                           GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key,
+                           GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_BOUNDLESS] + i;
   mask stands = motion_of(body_traits[body]) == (uint)MOTION_FIXED || body_rest[body] == RESTING_STEPS;

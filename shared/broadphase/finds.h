@@ -1,5 +1,5 @@
-/* finds.h - the first few that a search finds, kept from the kernel that counts them for the one that writes them: most bodies have few
- * neighbours, and need not look for them twice. */
+/* finds.h - the first few that a search finds, kept from the kernel that counts them for the one that writes them: most
+ * bodies have few neighbours, and need not look for them twice. */
 #ifndef TANDEM_SHARED_BROADPHASE_FINDS_H
 #define TANDEM_SHARED_BROADPHASE_FINDS_H
 

@@ -17,7 +17,9 @@
 #include "shared/broadphase/finds.h"
 #include "shared/parallel/search.h"
 
-typedef struct { int x, y, z; } grid_cell;
+typedef struct {
+  int x, y, z;
+} grid_cell;
 
 /* Bodies outside the region, which only rounding can cause, belong to the border cells. */
 SHARED int cell_along(real offset, real inverse_cell, uint cells)
@@ -31,7 +33,8 @@ SHARED grid_cell cell_of(GLOBAL const row *grid, GLOBAL const uint *counts, box_
 {
   vec4 layout = load_row(grid, 0u);
   vec3 offset = subtract(scale(add(b.lower, b.upper), R(0.5)), xyz(layout));
-  grid_cell c = {cell_along(offset.x, layout.w, counts[COUNT_GRID_X]), cell_along(offset.y, layout.w, counts[COUNT_GRID_Y]),
+  grid_cell c = {cell_along(offset.x, layout.w, counts[COUNT_GRID_X]),
+                 cell_along(offset.y, layout.w, counts[COUNT_GRID_Y]),
                  cell_along(offset.z, layout.w, counts[COUNT_GRID_Z])};
   return c;
 }
@@ -42,8 +45,8 @@ SHARED uint cell_number(GLOBAL const uint *counts, int x, int y, int z)
 }
 
 /* Small body i of the scene: its cell is the sort key. */
-SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key,
-                           GLOBAL uint *sort_value, uint i)
+SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+                           GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
   grid_cell c = cell_of(grid, counts, load_bounds(bounds, body));
@@ -51,16 +54,18 @@ SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLO
   sort_value[i] = body;
 }
 
-/* cell_start[cell] = the first sorted body of that cell or a later one. There are more cells than bodies: a group looks through the whole
- * list for every CELLS_PER_SAMPLE-th of its TILE cells, and for the others between the places of two of these. */
+/* cell_start[cell] = the first sorted body of that cell or a later one. There are more cells than bodies: a group looks
+ * through the whole list for every CELLS_PER_SAMPLE-th of its TILE cells, and for the others between the places of two
+ * of these. */
 #define CELLS_PER_SAMPLE 16u
-SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start, uint length, LOCAL uint *local_memory,
-                             uint group)
+SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start,
+                             uint length, LOCAL uint *local_memory, uint group)
 {
   uint cells = counts[COUNT_CELLS_PLUS_ONE], first = group * TILE;
   uint width = first >= cells ? 0u : cells - first < TILE ? cells - first : TILE;
   uint samples = width > 0u ? TILE / CELLS_PER_SAMPLE + 1u : 0u;
-  FOR_EACH_ITEM(sample, samples) local_memory[sample] = lower_bound_of(sort_key, counts[length], first + sample * CELLS_PER_SAMPLE);
+  FOR_EACH_ITEM(sample, samples)
+  local_memory[sample] = lower_bound_of(sort_key, counts[length], first + sample * CELLS_PER_SAMPLE);
   FOR_EACH_ITEM(item, width)
   {
     uint from = local_memory[item / CELLS_PER_SAMPLE], to = local_memory[item / CELLS_PER_SAMPLE + 1u];
@@ -69,13 +74,17 @@ SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *cou
 }
 
 /* A stretch of the sorted list: cells left .. right of the row (y, z). */
-typedef struct { uint at, end; } grid_row;
+typedef struct {
+  uint at, end;
+} grid_row;
 
-SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, int left, int y, int z)
+SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, int left, int y,
+                             int z)
 {
   grid_row stretch = {0u, 0u};
   int nx = (int)counts[COUNT_GRID_X], first = c.x + left > 0 ? c.x + left : 0, last = c.x + 1 < nx ? c.x + 1 : nx - 1;
-  if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z] || first > last) return stretch;
+  if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z] || first > last)
+    return stretch;
   stretch.at = cell_start[cell_number(counts, first, y, z)];
   stretch.end = cell_start[cell_number(counts, last, y, z) + 1u];
   return stretch;
@@ -87,14 +96,17 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
     box_bounds own = load_bounds(bounds, a);                                                                        \
     uint large = counts[COUNT_LARGE];                                                                               \
     for (uint b = 0; b < large && b < a; ++b)                                                                       \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
+      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))  \
+        VISIT(b)                                                                                                    \
     if (a >= large) {                                                                                               \
       grid_cell c = cell_of(grid, counts, own);                                                                     \
       for (int neighbour = 0; neighbour < 9; ++neighbour) {                                                         \
-        grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1);  \
+        grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1); \
         for (; cells.at < cells.end; ++cells.at) {                                                                  \
           uint b = sort_value[cells.at];                                                                            \
-          if (b < a && bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
+          if (b < a && bounds_overlap(own, load_bounds(bounds, b)) &&                                               \
+              pair_allowed(parameters, body_traits, body_filter, a, b))                                             \
+            VISIT(b)                                                                                                \
         }                                                                                                           \
       }                                                                                                             \
     }                                                                                                               \
@@ -106,9 +118,10 @@ SHARED uint grid_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, 
   return i < counts[COUNT_LARGE] ? i : sort_value[i - counts[COUNT_LARGE]];
 }
 
-SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                            GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
+SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                            GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+                            GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *counts,
+                            GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
 {
   uint a = grid_body(sort_value, counts, i), found = 0u;
 #define VISIT(b) keep_find(finds, i, found++, b);
@@ -117,12 +130,14 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   pair_start[a] = found;
 }
 
-SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                            GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                            GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
+SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                            GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+                            GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *finds,
+                            GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
                             GLOBAL uint *pair_b, uint i)
 {
-  uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
+  uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first,
+       capacity = counts[CAPACITY_PAIRS];
 #define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
   if (found <= FINDS_KEPT) {
     for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])

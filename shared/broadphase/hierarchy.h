@@ -1,21 +1,24 @@
-/* hierarchy.h - a tree of boxes over bodies of finite size along a space-filling curve: the linear BVH, built at once on the device.
+/* hierarchy.h - a tree of boxes over bodies of finite size along a space-filling curve: the linear BVH, built at once
+ * on the device.
  *
- * After the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees, and k-d trees", 2012.
- * Bodies are sorted by the Morton code of their centres (curve.h); every node holds a stretch of the list and splits it where the codes
- * first differ, so that it also splits space. Each node finds its stretch by itself:
+ * After the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees, and
+ * k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h); every node holds a stretch of the
+ * list and splits it where the codes first differ, so that it also splits space. Each node finds its stretch by itself:
  *
- *     code   00001 00010 00100 00101 10011 11000        stretch of inner node i: it starts or ends at place i, as far as codes share
- *     place    0     1     2     3     4     5          more with code i than the neighbour on the other side does
- *     inner  [0------------------------------5]         children of a node split between s and s + 1: whatever ends at s, and
+ *     code   00001 00010 00100 00101 10011 11000        stretch of inner node i: it starts or ends at place i, as far
+ * as codes share place    0     1     2     3     4     5          more with code i than the neighbour on the other
+ * side does inner  [0------------------------------5]         children of a node split between s and s + 1: whatever
+ * ends at s, and
  *            [------- 3 -------]      [--4---]          whatever starts at s + 1: leaf or inner node of that number
  *            [--1--]     [--2--]
  *
- * Leaf i stands in slot 2 i, inner node i in slot 2 i + 1: neighbours on the curve are neighbours in memory. Links of a slot: its
- * children, the slot after its subtree (the second child of whom it is the first child of), its parent.
+ * Leaf i stands in slot 2 i, inner node i in slot 2 i + 1: neighbours on the curve are neighbours in memory. Links of a
+ * slot: its children, the slot after its subtree (the second child of whom it is the first child of), its parent.
  *
- * The order and the links are kept from step to step, and only the boxes made anew, until one body in sixteen has left the box it was
- * filed under. A node also knows the lowest number of a body below it: a body looks for those before it alone, and passes over the
- * rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are tested against everything.
+ * The order and the links are kept from step to step, and only the boxes made anew, until one body in sixteen has left
+ * the box it was filed under. A node also knows the lowest number of a body below it: a body looks for those before it
+ * alone, and passes over the rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are
+ * tested against everything.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_H
@@ -41,10 +44,12 @@ SHARED uint root_slot(GLOBAL const uint *counts)
 #define STRAYS_PER_REBUILD 16u
 
 /* Leaf i, filed in some step before this. */
-SHARED void count_strays_item(GLOBAL const row *bounds, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds, GLOBAL uint *counts, uint i)
+SHARED void count_strays_item(GLOBAL const row *bounds, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds,
+                              GLOBAL uint *counts, uint i)
 {
   if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
-  if (!bounds_overlap(load_bounds(bounds, leaf_body[i]), load_bounds(filed_bounds, i))) ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+  if (!bounds_overlap(load_bounds(bounds, leaf_body[i]), load_bounds(filed_bounds, i)))
+    ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
 }
 
 /* A tree over the first `leaves` of the sorted list: how large its pyramid is. */
@@ -62,7 +67,8 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
 {
   (void)i;
   uint leaves = counts[COUNT_BOUNDED];
-  uint stands = keep != 0u && counts[COUNT_HIERARCHY_KEPT] != 0u && counts[COUNT_STRAYS] * STRAYS_PER_REBUILD <= leaves ? 1u : 0u;
+  uint stands =
+      keep != 0u && counts[COUNT_HIERARCHY_KEPT] != 0u && counts[COUNT_STRAYS] * STRAYS_PER_REBUILD <= leaves ? 1u : 0u;
   counts[COUNT_STRAYS] = 0u;
   counts[COUNT_FILED] = stands != 0u ? 0u : leaves;
   counts[COUNT_HIERARCHY_KEPT] = keep;
@@ -71,7 +77,8 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
 }
 
 /* boxes: those that the tree is of. */
-SHARED void file_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body, GLOBAL row *filed_bounds, uint i)
+SHARED void file_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body,
+                             GLOBAL row *filed_bounds, uint i)
 {
   uint body = sort_value[i];
   leaf_body[i] = body;
@@ -86,7 +93,8 @@ typedef struct {
   uint length;
 } sorted_codes;
 
-/* How many leading bits the codes of two places share; equal ones are told apart by their places. -1 outside the list. */
+/* How many leading bits the codes of two places share; equal ones are told apart by their places. -1 outside the
+ * list. */
 SHARED int shared_bits(const sorted_codes *codes, uint place, int other)
 {
   if (other < 0 || other >= (int)codes->length) return -1;
@@ -94,7 +102,8 @@ SHARED int shared_bits(const sorted_codes *codes, uint place, int other)
   return difference != 0u ? LEADING_ZEROS(difference) : 32 + LEADING_ZEROS(place ^ (uint)other);
 }
 
-/* How far from `place`, in steps of `direction` (1 or -1), at least `least` bits are shared; a power of two known to be too far. */
+/* How far from `place`, in steps of `direction` (1 or -1), at least `least` bits are shared; a power of two known to be
+ * too far. */
 SHARED int reach_of_bits(const sorted_codes *codes, uint place, int direction, int least, int too_far)
 {
   int reach = 0;
@@ -103,7 +112,9 @@ SHARED int reach_of_bits(const sorted_codes *codes, uint place, int direction, i
   return reach;
 }
 
-typedef struct { uint first, last, split; } stretch;
+typedef struct {
+  uint first, last, split;
+} stretch;
 
 /* Of inner node i. */
 SHARED stretch stretch_of_node(const sorted_codes *codes, uint i)
@@ -127,11 +138,13 @@ SHARED uint slot_after(const sorted_codes *codes, uint last)
 {
   uint next = last + 1u;
   if (next >= codes->length) return INDEX_NONE;
-  return shared_bits(codes, next, (int)next + 1) > shared_bits(codes, next, (int)last) ? inner_slot(next) : leaf_slot(next);
+  return shared_bits(codes, next, (int)next + 1) > shared_bits(codes, next, (int)last) ? inner_slot(next)
+                                                                                       : leaf_slot(next);
 }
 
 /* Leaf i, and inner node i unless i is the last place. A parent is written by whoever has the child. */
-SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *hierarchy_link, GLOBAL uint *hierarchy_stretch, uint i)
+SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *hierarchy_link,
+                            GLOBAL uint *hierarchy_stretch, uint i)
 {
   sorted_codes codes = {sort_key, counts[COUNT_HIERARCHY]};
   GLOBAL uint *leaf = hierarchy_link + LINKS * leaf_slot(i), *inner = leaf + LINKS;
@@ -151,11 +164,12 @@ SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *coun
 }
 
 /* The boxes of leaf i and of inner node i, unless the one tile that the node lies in is as it was. */
-SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch, GLOBAL const uint *tile_changed, GLOBAL const uint *counts,
-                            GLOBAL row *hierarchy, uint i)
+SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch,
+                            GLOBAL const uint *tile_changed, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i)
 {
   uint leaves = counts[COUNT_LEAVES];
-  if (tile_changed[i / TILE] != 0u) store_numbered_box(hierarchy, leaf_slot(i), load_numbered_box(box_pyramid, leaves + i));
+  if (tile_changed[i / TILE] != 0u)
+    store_numbered_box(hierarchy, leaf_slot(i), load_numbered_box(box_pyramid, leaves + i));
   if (i + 1u >= counts[COUNT_HIERARCHY]) return;
   uint first = hierarchy_stretch[2u * i], last = hierarchy_stretch[2u * i + 1u];
   if (first / TILE == last / TILE && tile_changed[first / TILE] == 0u) return;

@@ -1,10 +1,12 @@
-/* hierarchy_walks.h - three ways through the tree of hierarchy.h, and the pairs that they find: for the comparison that the talks make.
+/* hierarchy_walks.h - three ways through the tree of hierarchy.h, and the pairs that they find: for the comparison that
+ * the talks make.
  *
  *   skip      a box that is missed is passed over by the link behind its subtree: one number of state
  *   stack     the nodes still to come
  *   history   two bits a level: which children have been visited (2009 talk); up by the link to the parent
  *
- * Each finds the leaves that a box overlaps in the order of the curve; bodies sort what they find, so the list is the same.
+ * Each finds the leaves that a box overlaps in the order of the curve; bodies sort what they find, so the list is the
+ * same.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
@@ -12,7 +14,8 @@
 #include "shared/broadphase/finds.h"
 #include "shared/broadphase/hierarchy.h"
 
-/* The bits of a code tell CURVE_BITS levels apart, and one more in trees.cpp; those of the places of equal codes up to 31 more. */
+/* The bits of a code tell CURVE_BITS levels apart, and one more in trees.cpp; those of the places of equal codes up to
+ * 31 more. */
 #define HIERARCHY_LEVELS 64u
 
 typedef struct {
@@ -61,7 +64,8 @@ SHARED uint next_from_stack(const hierarchy_search *search, slot_stack *stack)
   return INDEX_NONE;
 }
 
-/* How many children of each node on the way down have been visited: that of the present one in the two lowest bits of `near`. */
+/* How many children of each node on the way down have been visited: that of the present one in the two lowest bits of
+ * `near`. */
 typedef struct {
   uint slot;
   ulong near, far;
@@ -101,35 +105,40 @@ SHARED uint hierarchy_body(GLOBAL const uint *leaf_body, GLOBAL const uint *coun
 /* Where numbers are rounded down the leaf itself decides. */
 SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
-/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of `search`. */
-#define VISIT_LEAVES(a, VISIT, NEXT)                                                         \
-  for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                                  \
-    uint b = leaf_body[leaf / 2u];                                                           \
-    if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b)          \
+/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of
+ * `search`. */
+#define VISIT_LEAVES(a, VISIT, NEXT)                                                \
+  for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                         \
+    uint b = leaf_body[leaf / 2u];                                                  \
+    if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
   }
-#define HIERARCHY_SEARCH(a, walk, VISIT)                                                     \
-  {                                                                                          \
-    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                       \
+#define HIERARCHY_SEARCH(a, walk, VISIT)                                                           \
+  {                                                                                                \
+    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                            \
     hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(bounds, a), before_body(a)}; \
-    for (uint b = 0u; b < boundless && b < a; ++b)                                           \
-      if (bounds_overlap(search.box, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
-    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                  \
-      uint next = root;                                                                      \
-      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                               \
-    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                              \
-      slot_stack stack;                                                                      \
-      stack.slot[0] = root;                                                                  \
-      stack.height = 1u;                                                                     \
-      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                               \
-    } else if (a >= boundless) {                                                             \
-      history past = {root, 0u, 0u};                                                         \
-      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                \
-    }                                                                                        \
+    for (uint b = 0u; b < boundless && b < a; ++b)                                                 \
+      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                    \
+          pair_allowed(parameters, body_traits, body_filter, a, b))                                \
+        VISIT(b)                                                                                   \
+    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                        \
+      uint next = root;                                                                            \
+      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                                     \
+    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                                    \
+      slot_stack stack;                                                                            \
+      stack.slot[0] = root;                                                                        \
+      stack.height = 1u;                                                                           \
+      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                                     \
+    } else if (a >= boundless) {                                                                   \
+      history past = {root, 0u, 0u};                                                               \
+      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                      \
+    }                                                                                              \
   }
 
-SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
+SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *hierarchy,
+                                 GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
+                                 GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk,
+                                 uint i)
 {
   uint a = hierarchy_body(leaf_body, counts, i), found = 0u;
 #define VISIT(b) keep_find(finds, i, found++, b);
@@ -138,12 +147,14 @@ SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL con
   pair_start[a] = found;
 }
 
-SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                                 GLOBAL const row *bounds, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
-                                 GLOBAL uint *pair_b, uint walk, uint i)
+SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *hierarchy,
+                                 GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
+                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start,
+                                 GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint walk, uint i)
 {
-  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
+  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first,
+       capacity = counts[CAPACITY_PAIRS];
 #define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
   if (found <= FINDS_KEPT) {
     for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])

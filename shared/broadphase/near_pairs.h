@@ -1,11 +1,13 @@
-/* near_pairs.h - the pairs whose fat boxes overlap, kept from step to step, and those of them whose bounds do: the list.
+/* near_pairs.h - the pairs whose fat boxes overlap, kept from step to step, and those of them whose bounds do: the
+ * list.
  *
- *     kept list  (neither of the two left its box)  +  what those who left find in both trees  ->  the other side of the kept list
- *     kept list  (bounds overlap)                                                              ->  pair_a, pair_b
+ *     kept list  (neither of the two left its box)  +  what those who left find in both trees  ->  the other side of
+ * the kept list kept list  (bounds overlap)                                                              ->  pair_a,
+ * pair_b
  *
- * Steps in which no body left do the second line alone. The kept list has two sides that change places; each owner's stretch is sorted,
- * as that of the pair list is. Of two who both left, the one with the higher number finds the pair. A body that the scene calls large
- * may meet thousands: it does not look for them, they look at it.
+ * Steps in which no body left do the second line alone. The kept list has two sides that change places; each owner's
+ * stretch is sorted, as that of the pair list is. Of two who both left, the one with the higher number finds the pair.
+ * A body that the scene calls large may meet thousands: it does not look for them, they look at it.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_NEAR_PAIRS_H
 #define TANDEM_SHARED_BROADPHASE_NEAR_PAIRS_H
@@ -28,9 +30,10 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
 }
 
 /* Calls VISIT(body, b) for all that body i finds, in whatever order of the two. */
-#define NEAR_MEETS(b) (bounds_overlap(search.box, load_bounds(fat_bounds, b)) && pair_allowed(parameters, body_traits, body_filter, i, b))
-#define NEAR_SEARCH(i, VISIT)                                                                                        \
-  {                                                                                                                  \
+#define NEAR_MEETS(b) \
+  (bounds_overlap(search.box, load_bounds(fat_bounds, b)) && pair_allowed(parameters, body_traits, body_filter, i, b))
+#define NEAR_SEARCH(i, VISIT)                                                                                         \
+  {                                                                                                                   \
     uint large = counts[COUNT_LARGE], looks = body_left[i] != 0u && i >= large ? 1u : 0u;                             \
     hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(fat_bounds, i), BOUNDLESS};                     \
     for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)                                                              \
@@ -45,9 +48,10 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
     }                                                                                                                 \
   }
 
-SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds,
-                            GLOBAL const uint *body_left, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                            GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                            GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds, GLOBAL const uint *body_left,
+                            GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                            GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
   uint finds = 0u;
 #define VISIT(a, b) ++finds;
@@ -56,13 +60,18 @@ SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   sweep_start[i] = finds;
 }
 
-SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds,
-                            GLOBAL const uint *body_left, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                            GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *near_key, uint i)
+SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                            GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds, GLOBAL const uint *body_left,
+                            GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+                            GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL const uint *sweep_start,
+                            GLOBAL ulong *near_key, uint i)
 {
   uint to = sweep_start[i], capacity = near_capacity(counts);
   if (to == sweep_start[i + 1u]) return; /* most: they need not look again */
-#define VISIT(a, b) { if (to < capacity) near_key[to++] = key_of_pair(a, b); }
+#define VISIT(a, b)                                        \
+  {                                                        \
+    if (to < capacity) near_key[to++] = key_of_pair(a, b); \
+  }
   NEAR_SEARCH(i, VISIT)
 #undef VISIT
 }
@@ -84,46 +93,62 @@ typedef struct {
 } near_list;
 
 SHARED uint near_side(GLOBAL const uint *counts) { return counts[COUNT_NEAR_SIDE]; }
-SHARED near_list near_list_of(GLOBAL const uint *near_start, GLOBAL const uint *near_b, GLOBAL const uint *counts, uint side)
+SHARED near_list near_list_of(GLOBAL const uint *near_start, GLOBAL const uint *near_b, GLOBAL const uint *counts,
+                              uint side)
 {
   near_list list = {near_start + side * (counts[COUNT_BODIES] + 1u), near_b + side * near_capacity(counts)};
   return list;
 }
 
 /* Calls VISIT(b), ascending, for the partners of body `a`: kept ones where neither left, and new ones. */
-#define MERGE_NEAR(a, VISIT)                                                                                        \
-  {                                                                                                                 \
-    near_list kept = near_list_of(near_start, near_b, counts, near_side(counts));                                   \
-    uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);                                      \
-    uint at = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a] : 0u;                                   \
-    uint end = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a + 1u] : 0u;                             \
-    for (; at < end; ++at) {                                                                                         \
-      uint stays = kept.b[at];                                                                                       \
-      if (body_left[stays] != 0u) continue;                                                                          \
-      for (; key < keys && near_key[key] < key_of_pair(a, stays); ++key) { uint b = (uint)near_key[key]; VISIT(b) }   \
-      VISIT(stays)                                                                                                   \
-    }                                                                                                                \
-    for (; key < keys && (uint)(near_key[key] >> 32) == a; ++key) { uint b = (uint)near_key[key]; VISIT(b) }          \
+#define MERGE_NEAR(a, VISIT)                                                             \
+  {                                                                                      \
+    near_list kept = near_list_of(near_start, near_b, counts, near_side(counts));        \
+    uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);          \
+    uint at = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a] : 0u;       \
+    uint end = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a + 1u] : 0u; \
+    for (; at < end; ++at) {                                                             \
+      uint stays = kept.b[at];                                                           \
+      if (body_left[stays] != 0u) continue;                                              \
+      for (; key < keys && near_key[key] < key_of_pair(a, stays); ++key) {               \
+        uint b = (uint)near_key[key];                                                    \
+        VISIT(b)                                                                         \
+      }                                                                                  \
+      VISIT(stays)                                                                       \
+    }                                                                                    \
+    for (; key < keys && (uint)(near_key[key] >> 32) == a; ++key) {                      \
+      uint b = (uint)near_key[key];                                                      \
+      VISIT(b)                                                                           \
+    }                                                                                    \
   }
 
-SHARED void merge_near_count_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, GLOBAL const uint *near_start, GLOBAL const uint *near_b,
-                                  GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint a)
+SHARED void merge_near_count_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key,
+                                  GLOBAL const uint *near_start, GLOBAL const uint *near_b, GLOBAL const uint *counts,
+                                  GLOBAL uint *sweep_start, uint a)
 {
   uint partners = 0u;
-#define VISIT(b) { (void)(b); ++partners; }
+#define VISIT(b) \
+  {              \
+    (void)(b);   \
+    ++partners;  \
+  }
   MERGE_NEAR(a, VISIT)
 #undef VISIT
   sweep_start[a] = partners;
 }
 
-SHARED void merge_near_write_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, GLOBAL const uint *sweep_start, GLOBAL const uint *counts,
-                                  GLOBAL uint *near_start, GLOBAL uint *near_b, uint a)
+SHARED void merge_near_write_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key,
+                                  GLOBAL const uint *sweep_start, GLOBAL const uint *counts, GLOBAL uint *near_start,
+                                  GLOBAL uint *near_b, uint a)
 {
   uint capacity = near_capacity(counts), other = 1u - near_side(counts), to = sweep_start[a];
   GLOBAL uint *start = near_start + other * (counts[COUNT_BODIES] + 1u), *partner = near_b + other * capacity;
   start[a] = to < capacity ? to : capacity;
   if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = sweep_start[a + 1u] < capacity ? sweep_start[a + 1u] : capacity;
-#define VISIT(b) { if (to < capacity) partner[to++] = b; }
+#define VISIT(b)                          \
+  {                                       \
+    if (to < capacity) partner[to++] = b; \
+  }
   MERGE_NEAR(a, VISIT)
 #undef VISIT
 }
@@ -141,8 +166,8 @@ SHARED void turn_near_list_item(GLOBAL const uint *sweep_start, GLOBAL uint *cou
 /* --- the pair list -------------------------------------------------------------------------------------- */
 
 /* The partners of body `a` whose bounds overlap its own, packed at the start of its stretch. */
-SHARED void filter_near_item(GLOBAL const row *bounds, GLOBAL const uint *near_start, GLOBAL const uint *near_b, GLOBAL const uint *counts,
-                             GLOBAL uint *near_found, GLOBAL uint *pair_start, uint a)
+SHARED void filter_near_item(GLOBAL const row *bounds, GLOBAL const uint *near_start, GLOBAL const uint *near_b,
+                             GLOBAL const uint *counts, GLOBAL uint *near_found, GLOBAL uint *pair_start, uint a)
 {
   near_list kept = near_list_of(near_start, near_b, counts, near_side(counts));
   uint first = kept.start[a], end = kept.start[a + 1u], to = first;
@@ -152,11 +177,13 @@ SHARED void filter_near_item(GLOBAL const row *bounds, GLOBAL const uint *near_s
   pair_start[a] = to - first;
 }
 
-SHARED void take_near_item(GLOBAL const uint *near_start, GLOBAL const uint *near_found, GLOBAL const uint *pair_start, GLOBAL const uint *counts,
-                           GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint a)
+SHARED void take_near_item(GLOBAL const uint *near_start, GLOBAL const uint *near_found, GLOBAL const uint *pair_start,
+                           GLOBAL const uint *counts, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint a)
 {
-  uint from = near_start[near_side(counts) * (counts[COUNT_BODIES] + 1u) + a], first = pair_start[a], used = 0u, found = pair_start[a + 1u] - first;
-  for (uint k = 0u; k < found; ++k) used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, near_found[from + k]);
+  uint from = near_start[near_side(counts) * (counts[COUNT_BODIES] + 1u) + a], first = pair_start[a], used = 0u,
+       found = pair_start[a + 1u] - first;
+  for (uint k = 0u; k < found; ++k)
+    used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, near_found[from + k]);
 }
 
 /* What found no room grows with the pairs, and all is looked for again. */

@@ -8,7 +8,9 @@
 
 #include "shared/records.h"
 
-typedef struct { vec3 lower, upper; } box_bounds;
+typedef struct {
+  vec3 lower, upper;
+} box_bounds;
 
 SHARED box_bounds load_bounds(GLOBAL const row *bounds, uint body)
 {
@@ -22,7 +24,8 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* A trigger meets whatever is none itself; one of the two must move, be it by its given velocities. Two half-spaces have no test. */
+/* A trigger meets whatever is none itself; one of the two must move, be it by its given velocities. Two half-spaces
+ * have no test. */
 SHARED int trigger_meets(uint traits_a, uint traits_b)
 {
   if (is_trigger(traits_a) == is_trigger(traits_b)) return 0;
@@ -33,7 +36,8 @@ SHARED int trigger_meets(uint traits_a, uint traits_b)
 /* Solids: one of them must be pushed to move. */
 SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint traits_b)
 {
-  if (HAS_FEATURE(parameters, FEATURE_TRIGGER) && is_trigger(traits_a | traits_b)) return trigger_meets(traits_a, traits_b);
+  if (HAS_FEATURE(parameters, FEATURE_TRIGGER) && is_trigger(traits_a | traits_b))
+    return trigger_meets(traits_a, traits_b);
   return motion_of(traits_a) == (uint)MOTION_DYNAMIC || motion_of(traits_b) == (uint)MOTION_DYNAMIC;
 }
 
@@ -41,11 +45,13 @@ SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint 
 SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint *body_filter, uint a, uint b)
 {
   if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
-  return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u && (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
+  return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u &&
+         (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }
 
 /* They must be able to meet, neither be quarantined, and each must accept the other's groups. */
-SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter, uint a, uint b)
+SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                        GLOBAL const uint *body_filter, uint a, uint b)
 {
   uint traits_a = body_traits[a], traits_b = body_traits[b];
   if (!bodies_meet(parameters, traits_a, traits_b)) return 0;
@@ -53,7 +59,8 @@ SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return filters_accept(parameters, body_filter, a, b);
 }
 
-/* Where a body's pairs go: its own stretch of the list, from pair_start[a], in the order found; sort_stretch closes it. */
+/* Where a body's pairs go: its own stretch of the list, from pair_start[a], in the order found; sort_stretch closes
+ * it. */
 SHARED uint append_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
 {
   uint at = first + used;

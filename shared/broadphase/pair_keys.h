@@ -1,4 +1,5 @@
-/* pair_keys.h - the pair list from keys (a, b) in any order: for broadphases whose bodies find pairs that another body owns.
+/* pair_keys.h - the pair list from keys (a, b) in any order: for broadphases whose bodies find pairs that another body
+ * owns.
  *
  * Once sorted, the keys are the list; where a body's stretch starts is found by the bodies themselves.
  */
@@ -28,7 +29,8 @@ SHARED uint first_key_of(GLOBAL const ulong *keys, uint length, uint body)
 }
 
 /* The finds of item i, which are few, as keys from place `first` to `end`. */
-SHARED void write_kept_finds(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end, uint capacity)
+SHARED void write_kept_finds(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end,
+                             uint capacity)
 {
   for (uint k = 0u; k < end - first; ++k)
     if (first + k < capacity) pair_key[first + k] = key_of_pair(body, finds[FINDS_KEPT * i + k]);

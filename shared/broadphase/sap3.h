@@ -1,7 +1,8 @@
-/* sap3.h - incremental sweep and prune along three axes: the list of pairs is kept, and only what changed is looked for.
+/* sap3.h - incremental sweep and prune along three axes: the list of pairs is kept, and only what changed is looked
+ * for.
  *
- * After the parallel one of Erwin Coumans in Bullet's OpenCL pipeline (GS-4150), of six sorted axes: three now, three as they were.
- * Where bodies move little from step to step, ends hardly change places, and next to nothing is searched:
+ * After the parallel one of Erwin Coumans in Bullet's OpenCL pipeline (GS-4150), of six sorted axes: three now, three
+ * as they were. Where bodies move little from step to step, ends hardly change places, and next to nothing is searched:
  *
  *     sort the ends along each axis                      endpoints.h
  *     the pairs of which two ends changed their order    endpoint_changes.h
@@ -9,9 +10,9 @@
  *     changes            (5,3) (6,4)                     in one of the two: a pair; in both: it is over
  *     pairs        (5,1)       (6,4) (7,2)               kept in turn
  *
- * There the changes are appended by atomics and the list is patched in place; here both lists are sorted, so each body merges its two
- * stretches, and the result is the brute-force list. What is kept describes the bounds of the last launch, whatever became of that
- * step: the next launch finds the difference to it, hence needs no commit.
+ * There the changes are appended by atomics and the list is patched in place; here both lists are sorted, so each body
+ * merges its two stretches, and the result is the brute-force list. What is kept describes the bounds of the last
+ * launch, whatever became of that step: the next launch finds the difference to it, hence needs no commit.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SAP3_H
 #define TANDEM_SHARED_BROADPHASE_SAP3_H
@@ -25,7 +26,8 @@ typedef struct {
   uint kept, kept_end, change, change_end;
 } merging;
 
-SHARED merging begin_merge(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b, GLOBAL const uint *counts, uint body)
+SHARED merging begin_merge(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b,
+                           GLOBAL const uint *counts, uint body)
 {
   uint changes = counts[COUNT_CHANGES];
   merging m = {kept_b, pair_key, 0u, 0u, first_key_of(pair_key, changes, body), changes};
@@ -52,8 +54,8 @@ SHARED uint next_partner(merging *m, uint body)
   }
 }
 
-SHARED void merge_count_item(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b, GLOBAL const uint *counts,
-                             GLOBAL uint *pair_start, uint body)
+SHARED void merge_count_item(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b,
+                             GLOBAL const uint *counts, GLOBAL uint *pair_start, uint body)
 {
   merging m = begin_merge(pair_key, kept_start, kept_b, counts, body);
   uint pairs = 0;
@@ -61,16 +63,19 @@ SHARED void merge_count_item(GLOBAL const ulong *pair_key, GLOBAL const uint *ke
   pair_start[body] = pairs;
 }
 
-SHARED void merge_write_item(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b, GLOBAL const uint *counts,
-                             GLOBAL const uint *pair_start, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint body)
+SHARED void merge_write_item(GLOBAL const ulong *pair_key, GLOBAL const uint *kept_start, GLOBAL const uint *kept_b,
+                             GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
+                             GLOBAL uint *pair_b, uint body)
 {
   merging m = begin_merge(pair_key, kept_start, kept_b, counts, body);
   uint first = pair_start[body], used = 0, capacity = counts[CAPACITY_PAIRS];
-  for (uint b = next_partner(&m, body); b != INDEX_NONE; b = next_partner(&m, body)) used = append_pair(pair_a, pair_b, first, used, capacity, body, b);
+  for (uint b = next_partner(&m, body); b != INDEX_NONE; b = next_partner(&m, body))
+    used = append_pair(pair_a, pair_b, first, used, capacity, body, b);
 }
 
-/* Changes that found no room make the list wrong: the step must run again with room for them, and from nothing. In double, too, nothing
- * is kept: places come from floats, so bodies may part within one of them without any end changing its place. */
+/* Changes that found no room make the list wrong: the step must run again with room for them, and from nothing. In
+ * double, too, nothing is kept: places come from floats, so bodies may part within one of them without any end changing
+ * its place. */
 SHARED void keep_or_forget_item(GLOBAL uint *counts, uint i)
 {
   (void)i;

@@ -1,15 +1,16 @@
-/* sweep.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and the plain sweep.
+/* sweep.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and the plain
+ * sweep.
  *
- * Small bodies are sorted by where they start along an axis, the one along which centres spread most or the principal direction of
- * their spread; each looks forward until a body starts behind its own end:
+ * Small bodies are sorted by where they start along an axis, the one along which centres spread most or the principal
+ * direction of their spread; each looks forward until a body starts behind its own end:
  *
  *     axis -->   |--- i ---|
  *                   |-- j --|          starts inside i: tested on all axes
  *                            |-- k --  starts behind i: the search ends
  *
  * Appending by atomics, as the talk does, has no order: here each body's finds are counted, scanned
- * and written, and the keys (a, b) sorted, so the list is the brute-force one. This is the form that the talk starts from, one
- * work-item a body; sweep_window.h is the one it ends with.
+ * and written, and the keys (a, b) sorted, so the list is the brute-force one. This is the form that the talk starts
+ * from, one work-item a body; sweep_window.h is the one it ends with.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_H
@@ -18,17 +19,26 @@
 #include "shared/broadphase/pair_keys.h"
 #include "shared/conversion.h"
 
-typedef struct { real start, end; } interval;
+typedef struct {
+  real start, end;
+} interval;
 
-/* Exact along an axis of the world. Along another the sums round: wider than that, so that no box that overlaps seems not to. */
+/* Exact along an axis of the world. Along another the sums round: wider than that, so that no box that overlaps seems
+ * not to. */
 SHARED interval interval_along_axis(box_bounds b, uint axis)
 {
-  interval i = {axis == 0u ? b.lower.x : axis == 1u ? b.lower.y : b.lower.z, axis == 0u ? b.upper.x : axis == 1u ? b.upper.y : b.upper.z};
+  interval i = {axis == 0u   ? b.lower.x
+                : axis == 1u ? b.lower.y
+                             : b.lower.z,
+                axis == 0u   ? b.upper.x
+                : axis == 1u ? b.upper.y
+                             : b.upper.z};
   return i;
 }
 SHARED interval interval_along_direction(box_bounds b, vec3 direction)
 {
-  vec3 center = scale(add(b.lower, b.upper), R(0.5)), extent = scale(subtract(b.upper, b.lower), R(0.5)), d = absolute(direction);
+  vec3 center = scale(add(b.lower, b.upper), R(0.5)), extent = scale(subtract(b.upper, b.lower), R(0.5)),
+       d = absolute(direction);
   real middle = inner(center, direction), reach = inner(extent, d);
   reach = reach + R(1e-6) * (inner(absolute(center), d) + reach);
   interval i = {middle - reach, middle + reach};
@@ -40,15 +50,16 @@ SHARED interval sweep_interval(box_bounds b, GLOBAL const row *grid, GLOBAL cons
   return interval_along_axis(b, counts[COUNT_SWEEP_AXIS]);
 }
 
-/* Of the same order as the numbers, both zeros alike. Rounding to float keeps the order too, so double misses nothing either. */
+/* Of the same order as the numbers, both zeros alike. Rounding to float keeps the order too, so double misses nothing
+ * either. */
 SHARED uint sweep_key(real x)
 {
   uint bits = real_bits(x);
   return ordered_bits(bits == 0x80000000u ? 0u : bits);
 }
 
-SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
-                            uint principal, uint i)
+SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint principal, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
   sort_key[i] = sweep_key(sweep_interval(load_bounds(bounds, body), grid, counts, principal).start);
@@ -62,25 +73,28 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
   store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
 }
 
-/* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the sorted list. */
-#define SWEEP_SEARCH(i, VISIT)                                                                                       \
-  {                                                                                                                  \
+/* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the
+ * sorted list. */
+#define SWEEP_SEARCH(i, VISIT)                                                                                        \
+  {                                                                                                                   \
     uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];                                                    \
-    uint body = i < large ? i : sort_value[i - large];                                                               \
-    box_bounds own = load_bounds(bounds, body);                                                                      \
-    for (uint b = 0; b < large && b < body; ++b)                                                                     \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b) \
-    uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                 \
-    for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                    \
-      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                             \
-      uint found = sort_value[at];                                                                                   \
-      if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                        \
-    }                                                                                                                \
+    uint body = i < large ? i : sort_value[i - large];                                                                \
+    box_bounds own = load_bounds(bounds, body);                                                                       \
+    for (uint b = 0; b < large && b < body; ++b)                                                                      \
+      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) \
+        VISIT(body, b)                                                                                                \
+    uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                  \
+    for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                     \
+      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                              \
+      uint found = sort_value[at];                                                                                    \
+      if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                         \
+    }                                                                                                                 \
   }
 
-SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
-                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                             GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+                             GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
+                             GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
   uint finds = 0;
 #define VISIT(a, b) ++finds;
@@ -89,12 +103,16 @@ SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
   sweep_start[i] = finds;
 }
 
-SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                             GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
-                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
+SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                             GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+                             GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
+                             GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
   uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(a, b) { if (to < capacity) pair_key[to++] = key_of_pair(a, b); }
+#define VISIT(a, b)                                        \
+  {                                                        \
+    if (to < capacity) pair_key[to++] = key_of_pair(a, b); \
+  }
   SWEEP_SEARCH(i, VISIT)
 #undef VISIT
 }

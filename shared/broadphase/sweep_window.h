@@ -1,11 +1,12 @@
-/* sweep_window.h - the sweep as the talk ends with it (GS-4150 slides 23-26): boxes in local memory, several work-items a body.
+/* sweep_window.h - the sweep as the talk ends with it (GS-4150 slides 23-26): boxes in local memory, several work-items
+ * a body.
  *
  *   sorted list   . . . . [ 128 bodies of a group ] . . . . . . . . . . . . . .
  *                         |<- window ->|<- window ->|<- window ->|   until the last of them ends
  *
- * A group loads the boxes of a window once for all its bodies; four work-items share each body, so that one with a long interval is
- * tested by four; a body whose interval ended sits a window out (local early-out). Where the talk appends to a private buffer and
- * then to the list, here the finds of each share are counted, scanned and written.
+ * A group loads the boxes of a window once for all its bodies; four work-items share each body, so that one with a long
+ * interval is tested by four; a body whose interval ended sits a window out (local early-out). Where the talk appends
+ * to a private buffer and then to the list, here the finds of each share are counted, scanned and written.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
@@ -17,8 +18,8 @@
 #define SWEEP_LOCAL_WORDS (SWEEP_BLOCK * SWEEP_SHARES + 6u * SWEEP_WINDOW)
 
 /* Where the interval of the body at place i ends: the first place that starts behind it. */
-SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *counts,
-                            GLOBAL uint *sweep_end, uint principal, uint i)
+SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
+                            GLOBAL const uint *counts, GLOBAL uint *sweep_end, uint principal, uint i)
 {
   uint end = sweep_key(sweep_interval(load_bounds(sweep_bounds, i), grid, counts, principal).end);
   sweep_end[i] = upper_bound_of(sort_key, counts[COUNT_SMALL], end);
@@ -40,8 +41,8 @@ typedef struct {
   GLOBAL const row *bounds, *sweep_bounds;
   GLOBAL const uint *sort_value, *sweep_end, *counts;
   GLOBAL ulong *pair_key;
-  LOCAL uint *tally;   /* of each share: pairs found so far, or where its next pair goes */
-  LOCAL real *window;  /* six planes */
+  LOCAL uint *tally;  /* of each share: pairs found so far, or where its next pair goes */
+  LOCAL real *window; /* six planes */
 } window_sweep;
 
 SHARED void found_pair(const window_sweep *sweep, uint share, uint first, uint second)
@@ -90,13 +91,15 @@ SHARED void sweep_in_window(const window_sweep *sweep, uint share, uint place, u
   if (end <= at || place + 1u >= end) return;
   box_bounds own = load_bounds(sweep->sweep_bounds, place);
   for (; at < end; at += SWEEP_SHARES)
-    if (at > place && bounds_overlap(own, box_in_window(sweep, at - start))) found_pair(sweep, share, sweep->sort_value[place], sweep->sort_value[at]);
+    if (at > place && bounds_overlap(own, box_in_window(sweep, at - start)))
+      found_pair(sweep, share, sweep->sort_value[place], sweep->sort_value[at]);
 }
 
 /* begin: where each share's pairs go, 0 to count from nought. */
 SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uint block_end, uint group)
 {
-  uint bodies = sweep->counts[COUNT_BODIES], large = sweep->counts[COUNT_LARGE], small = sweep->counts[COUNT_SMALL], first = group * SWEEP_BLOCK;
+  uint bodies = sweep->counts[COUNT_BODIES], large = sweep->counts[COUNT_LARGE], small = sweep->counts[COUNT_SMALL],
+       first = group * SWEEP_BLOCK;
   uint width = first >= bodies ? 0u : bodies - first < SWEEP_BLOCK ? bodies - first : SWEEP_BLOCK;
   FOR_EACH_ITEM(share, width * SWEEP_SHARES)
   {
@@ -114,11 +117,22 @@ SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uin
   }
 }
 
-SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
-                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL uint *share_start, LOCAL uint *local_memory, uint group)
+SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *sweep_bounds,
+                               GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
+                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL uint *share_start,
+                               LOCAL uint *local_memory, uint group)
 {
-  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end, counts, 0, local_memory,
+  window_sweep sweep = {parameters,
+                        body_traits,
+                        body_filter,
+                        bounds,
+                        sweep_bounds,
+                        sort_value,
+                        sweep_end,
+                        counts,
+                        0,
+                        local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
   uint first = group * SWEEP_BLOCK, bodies = counts[COUNT_BODIES];
   uint shares = first >= bodies ? 0u : (bodies - first < SWEEP_BLOCK ? bodies - first : SWEEP_BLOCK) * SWEEP_SHARES;
@@ -126,12 +140,23 @@ SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const
   FOR_EACH_ITEM(share, shares) share_start[first * SWEEP_SHARES + share] = sweep.tally[share];
 }
 
-SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const uint *body_filter,
-                               GLOBAL const row *bounds, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
-                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL const uint *share_start, GLOBAL ulong *pair_key,
-                               LOCAL uint *local_memory, uint group)
+SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *sweep_bounds,
+                               GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
+                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts,
+                               GLOBAL const uint *share_start, GLOBAL ulong *pair_key, LOCAL uint *local_memory,
+                               uint group)
 {
-  window_sweep sweep = {parameters, body_traits, body_filter, bounds, sweep_bounds, sort_value, sweep_end, counts, pair_key, local_memory,
+  window_sweep sweep = {parameters,
+                        body_traits,
+                        body_filter,
+                        bounds,
+                        sweep_bounds,
+                        sort_value,
+                        sweep_end,
+                        counts,
+                        pair_key,
+                        local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
   sweep_group(&sweep, share_start, group * SWEEP_BLOCK < counts[COUNT_BODIES] ? sweep_block[group] : 0u, group);
 }

@@ -1,10 +1,12 @@
-/* tight_bounds.h - bounds from the support map: the least box along the axes of the world that holds a shape as it stands.
+/* tight_bounds.h - bounds from the support map: the least box along the axes of the world that holds a shape as it
+ * stands.
  *
- *     +-------+ affine       The fast bound of bounds.h turns the box that stands around the shape in its own axes: six products. It holds
- *     | +---+ |              the shape, and corners that the shape does not have. Here the farthest point along each axis of the world
- *     | | o | | tight        is asked for, both ways (2013 talk): fewer pairs, for six searches a body.
- *     | +---+ |
- *     +-------+              `--bounds tight`. Spheres and boxes are tight as they are; meshes and compounds keep the fast bound.
+ *     +-------+ affine       The fast bound of bounds.h turns the box that stands around the shape in its own axes: six
+ * products. It holds | +---+ |              the shape, and corners that the shape does not have. Here the farthest
+ * point along each axis of the world | | o | | tight        is asked for, both ways (2013 talk): fewer pairs, for six
+ * searches a body. | +---+ |
+ *     +-------+              `--bounds tight`. Spheres and boxes are tight as they are; meshes and compounds keep the
+ * fast bound.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H
 #define TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H
@@ -13,23 +15,33 @@
 #include "shared/queries/nearest.h"
 
 /* How far the shape reaches along a unit direction from the centre of its body. */
-SHARED real reach_along(const convex *shape, vec3 direction) { return inner(support_of(shape, direction), direction) + core_radius(shape); }
+SHARED real reach_along(const convex *shape, vec3 direction)
+{
+  return inner(support_of(shape, direction), direction) + core_radius(shape);
+}
 
-SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, GLOBAL const row *body_shape,
-                                GLOBAL const uint *body_convex, GLOBAL const row *body_shape_pose, GLOBAL const uint *hull_header, GLOBAL const row *hull_vertex,
-                                GLOBAL const row *hull_strip, GLOBAL const row *body_mass, GLOBAL const row *body_position,
-                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds, uint i)
+SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                GLOBAL const row *body_shape, GLOBAL const uint *body_convex,
+                                GLOBAL const row *body_shape_pose, GLOBAL const uint *hull_header,
+                                GLOBAL const row *hull_vertex, GLOBAL const row *hull_strip,
+                                GLOBAL const row *body_mass, GLOBAL const row *body_position,
+                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds,
+                                uint i)
 {
   uint kind = shape_of(body_traits[i]) == (uint)SHAPE_OTHER ? body_convex[2u * i] : (uint)SHAPE_COMPOUND;
   if (kind == (uint)SHAPE_MESH || kind == (uint)SHAPE_COMPOUND) return;
   hull_tables tables = {hull_header, hull_vertex, 0, 0, 0, 0, hull_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), x = make_vec3(R(1.0), R(0.0), R(0.0)), y = make_vec3(R(0.0), R(1.0), R(0.0)), z = make_vec3(R(0.0), R(0.0), R(1.0));
-  convex shape = shape_of_body(body_traits, body_shape, body_convex, body_shape_pose, body_orientation, tables, none, i);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), x = make_vec3(R(1.0), R(0.0), R(0.0)),
+       y = make_vec3(R(0.0), R(1.0), R(0.0)), z = make_vec3(R(0.0), R(0.0), R(1.0));
+  convex shape =
+      shape_of_body(body_traits, body_shape, body_convex, body_shape_pose, body_orientation, tables, none, i);
   real radius = load_row(body_shape, i).w, rounding = R(1e-6) * radius;
   vec3 spare = make_vec3(rounding, rounding, rounding);
   vec3 above = add(make_vec3(reach_along(&shape, x), reach_along(&shape, y), reach_along(&shape, z)), spare);
-  vec3 below = add(make_vec3(reach_along(&shape, negate(x)), reach_along(&shape, negate(y)), reach_along(&shape, negate(z))), spare);
-  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high, load_motion(body_velocity, i), below, above, radius);
+  vec3 below = add(
+      make_vec3(reach_along(&shape, negate(x)), reach_along(&shape, negate(y)), reach_along(&shape, negate(z))), spare);
+  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high,
+                       load_motion(body_velocity, i), below, above, radius);
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* impulses.h - what each contact carried over the whole step, and which pairs touch.
  *
- * The impulse that a solver accumulates is that of one substep: the next one starts from it, and gives back what it does not need.
- * So a contact carried in the step the sum over its substeps, the last as restitution left it:
+ * The impulse that a solver accumulates is that of one substep: the next one starts from it, and gives back what it
+ * does not need. So a contact carried in the step the sum over its substeps, the last as restitution left it:
  *
  *   substep            0       1          2             3         bounce
  *   accumulated        p0      p1         p2            p3    ->  p3'
@@ -18,22 +18,24 @@
 SHARED vec4 sum_of_rows(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 
 /* At the start of each substep. */
-SHARED void sum_impulses_item(GLOBAL const row *constraint_normal_impulse, GLOBAL row *constraint_impulse, uint substep, item_index i)
+SHARED void sum_impulses_item(GLOBAL const row *constraint_normal_impulse, GLOBAL row *constraint_impulse, uint substep,
+                              item_index i)
 {
   vec4 sum = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   if (substep > 0u) sum = sum_of_rows(load_row(constraint_impulse, i), load_row(constraint_normal_impulse, i));
   store_row(constraint_impulse, i, sum);
 }
 
-SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_impulse, GLOBAL const row *constraint_normal_impulse,
-                               GLOBAL row *pair_impulse, item_index i)
+SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_impulse,
+                               GLOBAL const row *constraint_normal_impulse, GLOBAL row *pair_impulse, item_index i)
 {
-  store_row(pair_impulse, load_natural(constraint_pair, i), sum_of_rows(load_row(constraint_impulse, i), load_row(constraint_normal_impulse, i)));
+  store_row(pair_impulse, load_natural(constraint_pair, i),
+            sum_of_rows(load_row(constraint_impulse, i), load_row(constraint_normal_impulse, i)));
 }
 
-/* Touching: some point overlaps where the step starts, or carried an impulse in it. The first alone would miss what bounces between
- * two starts, and flicker where a body rests a rounding above another; the second alone would end the contact of a body that lies on
- * three of four supports, and never sees triggers, which carry nothing. */
+/* Touching: some point overlaps where the step starts, or carried an impulse in it. The first alone would miss what
+ * bounces between two starts, and flicker where a body rests a rounding above another; the second alone would end the
+ * contact of a body that lies on three of four supports, and never sees triggers, which carry nothing. */
 SHARED mask point_touches(vec4 point, real impulse) { return (point.w <= R(0.0)) | (impulse > R(0.0)); }
 
 /* Of a pair without a constraint pair_impulse holds what some step before left there. */
@@ -43,13 +45,15 @@ SHARED vec4 impulse_of_pair(GLOBAL const uint *pair_color, GLOBAL const row *pai
   return choose4(solved, load_row(pair_impulse, pair), make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
 }
 
-SHARED void find_touching_item(GLOBAL const uint *pair_color, GLOBAL const row *pair_impulse, GLOBAL const row *manifold_points,
-                               GLOBAL const uint *manifold_count, GLOBAL const uint *counts, GLOBAL uint *pair_touching, item_index i)
+SHARED void find_touching_item(GLOBAL const uint *pair_color, GLOBAL const row *pair_impulse,
+                               GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count,
+                               GLOBAL const uint *counts, GLOBAL uint *pair_touching, item_index i)
 {
   natural points = load_natural(manifold_count, i), touching = 0u;
   vec4 impulse = impulse_of_pair(pair_color, pair_impulse, i);
   for (uint k = 0; k < 4u; ++k) {
-    mask touches = (points > (natural)k) & point_touches(load_row(manifold_points, counts[CAPACITY_PAIRS] * k + i), component(impulse, (natural)k));
+    mask touches = (points > (natural)k) & point_touches(load_row(manifold_points, counts[CAPACITY_PAIRS] * k + i),
+                                                         component(impulse, (natural)k));
     touching = choose(touches, (natural)1u, touching);
   }
   store_natural(pair_touching, i, touching);

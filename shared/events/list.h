@@ -1,14 +1,15 @@
 /* list.h - the events of a step: which pairs began to touch, touch still, or ceased to.
  *
- * Both lists of pairs, this step's and that of the last committed one, are sorted by (a, b) and owned by a. So each body walks its two
- * stretches side by side, as a merge does, and every pair of bodies turns up once, also where it stands in one list alone:
+ * Both lists of pairs, this step's and that of the last committed one, are sorted by (a, b) and owned by a. So each
+ * body walks its two stretches side by side, as a merge does, and every pair of bodies turns up once, also where it
+ * stands in one list alone:
  *
  *   body a   now      2 .  5 5 7      touching   1 .  0 1 1
  *            before   2 3  . . 7                 0 1  . . 1        2 begins, 3 ends, 5 begins, 7 persists
  *
- * Entries with equal (a, b) stand next to one another and are one contact. Count, scan, write: the list is compact, sorted by (a, b)
- * and whole, since it can be no longer than both lists of pairs, for which there is room. It is made in the range of the commit, before
- * the cache is overwritten: a step that runs again tells nothing twice.
+ * Entries with equal (a, b) stand next to one another and are one contact. Count, scan, write: the list is compact,
+ * sorted by (a, b) and whole, since it can be no longer than both lists of pairs, for which there is room. It is made
+ * in the range of the commit, before the cache is overwritten: a step that runs again tells nothing twice.
  */
 #ifndef TANDEM_SHARED_EVENTS_LIST_H
 #define TANDEM_SHARED_EVENTS_LIST_H
@@ -17,10 +18,14 @@
 #include "shared/events/impulses.h"
 
 /* What is left of the two stretches of a body. */
-typedef struct { uint now, now_end, before, before_end; } pair_walk;
+typedef struct {
+  uint now, now_end, before, before_end;
+} pair_walk;
 
 /* One pair of bodies: its entries in this step's list (perhaps none), and what became of it. */
-typedef struct { uint b, first, end, kind; } pair_change;
+typedef struct {
+  uint b, first, end, kind;
+} pair_change;
 
 SHARED pair_walk walk_of(GLOBAL const uint *pair_start, GLOBAL const uint *cached_start, uint a)
 {
@@ -30,24 +35,26 @@ SHARED pair_walk walk_of(GLOBAL const uint *pair_start, GLOBAL const uint *cache
 
 SHARED int walk_goes_on(const pair_walk *walk) { return walk->now < walk->now_end || walk->before < walk->before_end; }
 
-SHARED pair_change next_change(pair_walk *walk, GLOBAL const uint *pair_b, GLOBAL const uint *pair_touching, GLOBAL const uint *cached_b,
-                               GLOBAL const uint *cached_touching)
+SHARED pair_change next_change(pair_walk *walk, GLOBAL const uint *pair_b, GLOBAL const uint *pair_touching,
+                               GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching)
 {
   uint b_now = walk->now < walk->now_end ? pair_b[walk->now] : INDEX_NONE;
   uint b_before = walk->before < walk->before_end ? cached_b[walk->before] : INDEX_NONE;
   pair_change change = {b_now < b_before ? b_now : b_before, walk->now, walk->now, EVENT_NONE};
   uint touches = 0u, touched = 0u;
   for (; walk->now < walk->now_end && pair_b[walk->now] == change.b; ++walk->now) touches |= pair_touching[walk->now];
-  for (; walk->before < walk->before_end && cached_b[walk->before] == change.b; ++walk->before) touched |= cached_touching[walk->before];
+  for (; walk->before < walk->before_end && cached_b[walk->before] == change.b; ++walk->before)
+    touched |= cached_touching[walk->before];
   change.end = walk->now;
   if (touches != 0u) change.kind = touched != 0u ? EVENT_PERSIST : EVENT_BEGIN;
   else if (touched != 0u) change.kind = EVENT_END;
   return change;
 }
 
-SHARED void count_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *pair_touching,
-                              GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching,
-                              GLOBAL uint *event_start, uint a)
+SHARED void count_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b,
+                              GLOBAL const uint *pair_touching, GLOBAL const uint *cached_start,
+                              GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching, GLOBAL uint *event_start,
+                              uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
   uint found = 0u;
@@ -65,8 +72,9 @@ typedef struct {
 } contact_sum;
 
 /* velocity: of body a, which has come nearer by the moment of an impact. */
-SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
-                         GLOBAL const uint *manifold_count, uint stride, uint pair, vec4 impulses)
+SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *manifold_normal,
+                         GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count, uint stride, uint pair,
+                         vec4 impulses)
 {
   real impulse = R(0.0), depth = BOUNDLESS;
   vec4 normal = load_row(manifold_normal, pair);
@@ -89,7 +97,8 @@ SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *mani
   sum->impulse = sum->impulse + impulse;
 }
 
-/* N s. An impulse that has faded below is none: its inverse, or its product with an offset, may leave the range of floats. */
+/* N s. An impulse that has faded below is none: its inverse, or its product with an offset, may leave the range of
+ * floats. */
 #define FADED_IMPULSE R(1e-25)
 
 /* From the centre of a: where the impulse acts; where there is none, the middle of the points. */
@@ -99,7 +108,8 @@ SHARED vec3 middle_of_contact(const contact_sum *sum)
   return sum->points > 0u ? scale(sum->overlapped, R(1.0) / to_real(sum->points)) : make_vec3(R(0.0), R(0.0), R(0.0));
 }
 
-SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint at, uint a, pair_change change, const contact_sum *sum, place where)
+SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint at, uint a, pair_change change,
+                        const contact_sum *sum, place where)
 {
   real separation = sum->points > 0u ? sum->deepest : R(0.0);
   event_bodies[4u * at] = change.kind;
@@ -111,12 +121,16 @@ SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, ui
   store_row(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
 }
 
-/* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet when this runs. */
-SHARED void write_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *pair_touching,
-                              GLOBAL const row *pair_impulse, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
-                              GLOBAL const uint *manifold_count, GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
-                              GLOBAL const uint *cached_touching, GLOBAL const row *body_position, GLOBAL const row *body_velocity,
-                              GLOBAL const uint *event_start, GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint a)
+/* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet
+ * when this runs. */
+SHARED void write_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *pair_color,
+                              GLOBAL const uint *pair_touching, GLOBAL const row *pair_impulse,
+                              GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
+                              GLOBAL const uint *manifold_count, GLOBAL const uint *cached_start,
+                              GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching,
+                              GLOBAL const row *body_position, GLOBAL const row *body_velocity,
+                              GLOBAL const uint *event_start, GLOBAL const uint *counts, GLOBAL uint *event_bodies,
+                              GLOBAL row *event_contact, uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
   uint at = event_start[a];

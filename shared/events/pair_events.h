@@ -1,7 +1,8 @@
-/* pair_events.h - which pairs of bodies came near in a step, are near still, or ceased to be: the persistence of the pair list.
+/* pair_events.h - which pairs of bodies came near in a step, are near still, or ceased to be: the persistence of the
+ * pair list.
  *
- * The walk of list.h over this step's pairs and those of the last committed one, by their presence alone: whether they touch is that
- * list's question. In scenes with trees a pair is near where some of its parts are.
+ * The walk of list.h over this step's pairs and those of the last committed one, by their presence alone: whether they
+ * touch is that list's question. In scenes with trees a pair is near where some of its parts are.
  */
 #ifndef TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
 #define TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
@@ -21,7 +22,8 @@ SHARED pair_change next_pair(pair_walk *walk, GLOBAL const uint *pair_b, GLOBAL 
   return change;
 }
 
-SHARED void count_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
+SHARED void count_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b,
+                                   GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
                                    GLOBAL uint *pair_event_start, uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);
@@ -30,7 +32,8 @@ SHARED void count_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const u
   pair_event_start[a] = found;
 }
 
-SHARED void write_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
+SHARED void write_pair_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b,
+                                   GLOBAL const uint *cached_start, GLOBAL const uint *cached_b,
                                    GLOBAL const uint *pair_event_start, GLOBAL uint *pair_event, uint a)
 {
   pair_walk walk = walk_of(pair_start, cached_start, a);

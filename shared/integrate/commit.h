@@ -30,13 +30,15 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
 }
 
-SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
-                              GLOBAL const row *solver_orientation, GLOBAL uint *counts, item_index i)
+SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity,
+                              GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation, GLOBAL uint *counts,
+                              item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
   vec3 position = moved_place(load_place(body_position, i), xyz(load_row(solver_delta, i * 2u))).high;
-  note_nonfinite(is_finite(position) & quaternion_is_finite(load_row(solver_orientation, i)), counts, i, NONFINITE_IN_INTEGRATE);
+  note_nonfinite(is_finite(position) & quaternion_is_finite(load_row(solver_orientation, i)), counts, i,
+                 NONFINITE_IN_INTEGRATE);
 }
 
 /* colors: how many the host launched. */
@@ -56,27 +58,33 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
   counts[COUNT_COMMIT_CONSTRAINTS] = whole * counts[COUNT_CONSTRAINTS];
 }
 
-SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation,
-                               GLOBAL const row *previous_body_position, GLOBAL const row *body_mass, GLOBAL row *body_position,
-                               GLOBAL row *body_orientation, GLOBAL row *body_velocity, item_index i)
+SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
+                               GLOBAL const row *solver_orientation, GLOBAL const row *previous_body_position,
+                               GLOBAL const row *body_mass, GLOBAL row *body_position, GLOBAL row *body_orientation,
+                               GLOBAL row *body_velocity, item_index i)
 {
-  store_place(body_position, i, moved_place(load_place(previous_body_position, i), xyz(load_row(solver_delta, i * 2u))));
+  store_place(body_position, i,
+              moved_place(load_place(previous_body_position, i), xyz(load_row(solver_delta, i * 2u))));
   store_row(body_orientation, i, load_row(solver_orientation, i));
   motion m = load_motion(solver_velocity, i);
   store_row(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
   store_row(body_velocity, i * 2u + 1u, extend(m.angular, load_row(body_mass, i * 2u).w));
 }
 
-SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i) { cached_start[i] = pair_start[i]; }
+SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i)
+{
+  cached_start[i] = pair_start[i];
+}
 
 SHARED void cache_normals_item(GLOBAL const row *manifold_normal, GLOBAL row *cached_normal, item_index i)
 {
   store_row(cached_normal, i, load_row(manifold_normal, i));
 }
 
-SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color, GLOBAL const uint *manifold_feature,
-                             GLOBAL uint *cached_b, GLOBAL uint *cached_color, GLOBAL uint *cached_feature,
-                             GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, item_index i)
+SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color,
+                             GLOBAL const uint *manifold_feature, GLOBAL uint *cached_b, GLOBAL uint *cached_color,
+                             GLOBAL uint *cached_feature, GLOBAL row *cached_normal_impulse,
+                             GLOBAL row *cached_friction_impulse, item_index i)
 {
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   store_natural(cached_b, i, load_natural(pair_b, i));
@@ -95,14 +103,16 @@ SHARED void clear_cached_item(GLOBAL row *rows, uint per_item, item_index i)
 /* Slots, not points, are what the next step looks for, but impulses stay with their points: slots tell them apart.
  * Friction is kept as a vector of the world, since its tangents turn with the normal. */
 SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_normal,
-                                GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                                GLOBAL row *cached_normal_impulse, GLOBAL row *cached_friction_impulse, item_index i)
+                                GLOBAL const row *constraint_normal_impulse,
+                                GLOBAL const row *constraint_friction_impulse, GLOBAL row *cached_normal_impulse,
+                                GLOBAL row *cached_friction_impulse, item_index i)
 {
   natural pair = load_natural(constraint_pair, i);
   vec4 friction = load_row(constraint_friction_impulse, i);
   tangents t = tangents_of(xyz(load_row(constraint_normal, i)));
   store_row(cached_normal_impulse, pair, load_row(constraint_normal_impulse, i));
-  store_row(cached_friction_impulse, pair, extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
+  store_row(cached_friction_impulse, pair,
+            extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
 }
 
 #endif

@@ -10,9 +10,9 @@
  *     L.L m / 2                     about L, the same for every orientation, so it commutes with the others
  *     Lk Lk (dk - m) / 2            about the body's axis k; one of the three is nothing, for a symmetric body two are
  *
- * composed symmetrically (McLachlan, "Explicit Lie-Poisson integration and the Euler equations", 1993; Dullweber, Leimkuhler
- * and McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997). So L is exact to rounding, the
- * energy swings within bounds and never drifts, and symmetric bodies are exact at any speed of spin.
+ * composed symmetrically (McLachlan, "Explicit Lie-Poisson integration and the Euler equations", 1993; Dullweber,
+ * Leimkuhler and McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997). So L is exact to
+ * rounding, the energy swings within bounds and never drifts, and symmetric bodies are exact at any speed of spin.
  */
 #ifndef TANDEM_SHARED_INTEGRATE_POSITIONS_H
 #define TANDEM_SHARED_INTEGRATE_POSITIONS_H
@@ -27,23 +27,29 @@ SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
   return rotate(r, multiply(inverse_moments, rotate_back(r, momentum)));
 }
 
-typedef struct { quat orientation; vec3 angular; } spin;
+typedef struct {
+  quat orientation;
+  vec3 angular;
+} spin;
 
 /* q turned about its own axis x, y or z: q times (sine, 0, 0, cosine) and so on, written out. */
 SHARED quat turned_about_x(quat q, real angle)
 {
   angle_functions f = sine_cosine(R(0.5) * angle);
-  return make_quat(q.x * f.cosine + q.w * f.sine, q.y * f.cosine + q.z * f.sine, q.z * f.cosine - q.y * f.sine, q.w * f.cosine - q.x * f.sine);
+  return make_quat(q.x * f.cosine + q.w * f.sine, q.y * f.cosine + q.z * f.sine, q.z * f.cosine - q.y * f.sine,
+                   q.w * f.cosine - q.x * f.sine);
 }
 SHARED quat turned_about_y(quat q, real angle)
 {
   angle_functions f = sine_cosine(R(0.5) * angle);
-  return make_quat(q.x * f.cosine - q.z * f.sine, q.y * f.cosine + q.w * f.sine, q.z * f.cosine + q.x * f.sine, q.w * f.cosine - q.y * f.sine);
+  return make_quat(q.x * f.cosine - q.z * f.sine, q.y * f.cosine + q.w * f.sine, q.z * f.cosine + q.x * f.sine,
+                   q.w * f.cosine - q.y * f.sine);
 }
 SHARED quat turned_about_z(quat q, real angle)
 {
   angle_functions f = sine_cosine(R(0.5) * angle);
-  return make_quat(q.x * f.cosine + q.y * f.sine, q.y * f.cosine - q.x * f.sine, q.z * f.cosine + q.w * f.sine, q.w * f.cosine - q.z * f.sine);
+  return make_quat(q.x * f.cosine + q.y * f.sine, q.y * f.cosine - q.x * f.sine, q.z * f.cosine + q.w * f.sine,
+                   q.w * f.cosine - q.z * f.sine);
 }
 
 /* Moment of momentum about the body's axes. */
@@ -72,14 +78,16 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   return s;
 }
 
-SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *body_colors,
-                                     GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
+SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
+                                     GLOBAL const uint *body_colors, GLOBAL row *solver_velocity,
+                                     GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
                                      GLOBAL row *solver_orientation, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;
   vec4 mass = load_row(body_mass, i * 2u);
-  mask free = ((load_natural(body_colors, i * 2u) | load_natural(body_colors, i * 2u + 1u)) == 0u) & (m.inverse_mass > R(0.0));
+  mask free =
+      ((load_natural(body_colors, i * 2u) | load_natural(body_colors, i * 2u + 1u)) == 0u) & (m.inverse_mass > R(0.0));
   real ahead = choose(free, R(-0.5) * h * h * mass.w, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
 

@@ -17,23 +17,26 @@ SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, natural body, uint 
 
 SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(make_vec3(q.w, q.w, q.w)); }
 
-SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *body_position, GLOBAL const row *body_orientation,
-                                GLOBAL const row *body_velocity, GLOBAL uint *counts, GLOBAL row *solver_velocity, GLOBAL row *solver_delta,
-                                GLOBAL row *solver_push, GLOBAL row *solver_inertia, GLOBAL row *solver_orientation, GLOBAL uint *body_colors,
-                                GLOBAL uint *body_bid, item_index i)
+SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *body_position,
+                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity,
+                                GLOBAL uint *counts, GLOBAL row *solver_velocity, GLOBAL row *solver_delta,
+                                GLOBAL row *solver_push, GLOBAL row *solver_inertia, GLOBAL row *solver_orientation,
+                                GLOBAL uint *body_colors, GLOBAL uint *body_bid, item_index i)
 {
   motion m = load_motion(body_velocity, i);
   vec4 orientation = load_row(body_orientation, i);
   place position = load_place(body_position, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) & quaternion_is_finite(orientation), counts, i,
-                 NONFINITE_AT_START);
+  note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) &
+                     quaternion_is_finite(orientation),
+                 counts, i, NONFINITE_AT_START);
   store_motion(solver_velocity, i, m);
   store_row(solver_delta, i * 2u, zero);
   store_row(solver_delta, i * 2u + 1u, zero);
   store_row(solver_push, i * 2u, zero);
   store_row(solver_push, i * 2u + 1u, zero);
-  store_inertia(solver_inertia, i, rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_row(body_mass, i * 2u))));
+  store_inertia(solver_inertia, i,
+                rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_row(body_mass, i * 2u))));
   store_row(solver_orientation, i, orientation);
   store_natural(body_colors, i * 2u, 0u);
   store_natural(body_colors, i * 2u + 1u, 0u);

@@ -5,8 +5,9 @@
 #include "shared/records.h"
 
 /* solver_push: what the constraints of the last substep pushed the body by, 0 in the first; taken here, and cleared. */
-SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const row *solver_inertia,
-                                      GLOBAL row *solver_velocity, GLOBAL row *solver_push, item_index i)
+SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
+                                      GLOBAL const row *solver_inertia, GLOBAL row *solver_velocity,
+                                      GLOBAL row *solver_push, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;

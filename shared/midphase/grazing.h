@@ -1,13 +1,14 @@
 /* grazing.h - contacts of two bodies that another of their contacts explains: the seams between children of compounds.
  *
- *      +------+------+        At rest the upper compound stands a little in the lower one. Child B and child C, which share no
- *      |  A   |  B   |        face, then overlap by that much, and their shortest way out is sideways (x): it would hold up
- *      +------x------+        whatever slides. All its points lie in the surface on which A stands; what is no thicker than
- *      |  C   |  D   |        the penetration that is left in place is no obstacle.
+ *      +------+------+        At rest the upper compound stands a little in the lower one. Child B and child C, which
+ * share no |  A   |  B   |        face, then overlap by that much, and their shortest way out is sideways (x): it would
+ * hold up
+ *      +------x------+        whatever slides. All its points lie in the surface on which A stands; what is no thicker
+ * than |  C   |  D   |        the penetration that is left in place is no obstacle.
  *      +------+------+
  *
- * For meshes triangle_contact.h knows better, by the neighbours of a triangle; children have none. Two kernels, as in merge.h:
- * first all manifolds are judged, then those that graze are dropped.
+ * For meshes triangle_contact.h knows better, by the neighbours of a triangle; children have none. Two kernels, as in
+ * merge.h: first all manifolds are judged, then those that graze are dropped.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_GRAZING_H
 #define TANDEM_SHARED_MIDPHASE_GRAZING_H
@@ -32,7 +33,8 @@ SHARED mask lies_in_plane_of(const manifold_list *list, uint i, uint j)
 {
   vec3 normal = xyz(load_row(list->normals, j)), origin = xyz(load_row(list->points, j));
   for (uint k = 0u; k < list->counts_of_points[i]; ++k)
-    if (magnitude(inner(subtract(xyz(load_row(list->points, list->stride * k + i)), origin), normal)) > list->thickness) return 0;
+    if (magnitude(inner(subtract(xyz(load_row(list->points, list->stride * k + i)), origin), normal)) > list->thickness)
+      return 0;
   return 1;
 }
 
@@ -52,9 +54,10 @@ SHARED mask explained_by(const manifold_list *list, uint i, uint j)
   return j < i || !presses(list, i) || !lies_in_plane_of(list, j, i);
 }
 
-SHARED void find_grazing_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes,
-                              GLOBAL const row *normals, GLOBAL const row *points, GLOBAL const uint *counts_of_points, GLOBAL const uint *counts,
-                              GLOBAL uint *grazing, uint i)
+SHARED void find_grazing_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                              GLOBAL const row *shapes, GLOBAL const row *normals, GLOBAL const row *points,
+                              GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *grazing,
+                              uint i)
 {
   grazing[i] = 0u;
   if (counts_of_points[i] == 0u) return;
@@ -66,12 +69,13 @@ SHARED void find_grazing_item(GLOBAL const Parameters *parameters, GLOBAL const 
     if (explained_by(&list, i, j)) grazing[i] = 1u;
 }
 
-SHARED void drop_grazing_item(GLOBAL const uint *grazing, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                              GLOBAL uint *features, uint i)
+SHARED void drop_grazing_item(GLOBAL const uint *grazing, GLOBAL const uint *counts, GLOBAL row *normals,
+                              GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   if (grazing[i] == 0u) return;
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_manifold_if(1, single_contact(none, none, R(0.0), 0), counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(1, single_contact(none, none, R(0.0), 0), counts[CAPACITY_PAIRS], normals, points, counts_of_points,
+                    features, i);
 }
 
 #endif

@@ -4,14 +4,14 @@
  *     (a, b)   a: mesh     /\     b: hull   --->   (a: triangle 7, b)
  *                         7  9                     (a: triangle 9, b)
  *
- * Stands between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts summed, then
- * written: the list has no gaps, its order is that of the trees, and where it outgrows its room the step runs again. A body
- * without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so that merge.h can join
- * their manifolds; a pair of bodies without any drops out.
+ * Stands between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts summed,
+ * then written: the list has no gaps, its order is that of the trees, and where it outgrows its room the step runs
+ * again. A body without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so
+ * that merge.h can join their manifolds; a pair of bodies without any drops out.
  *
- * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in tandem,
- * always the larger box of the two that are not leaves, so that the stack holds at most one entry a level of either (Ericson, 2005,
- * section 6.3.2).
+ * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in
+ * tandem, always the larger box of the two that are not leaves, so that the stack holds at most one entry a level of
+ * either (Ericson, 2005, section 6.3.2).
  */
 #ifndef TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
@@ -22,7 +22,8 @@
 /* One entry a level of either tree, and the one looked at. */
 #define TANDEM_STACK (2u * TREE_DEPTH_LIMIT + 1u)
 
-/* The bodies and trees of the scene. shapes: a shape's number is that of its body, or for children of compounds one behind. */
+/* The bodies and trees of the scene. shapes: a shape's number is that of its body, or for children of compounds one
+ * behind. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *traits, *filters, *body_trees;
@@ -38,7 +39,9 @@ typedef struct {
 } leaf_list;
 
 /* A part of a body: its shape, and of a mesh one triangle. */
-typedef struct { uint shape, triangle; } leaf;
+typedef struct {
+  uint shape, triangle;
+} leaf;
 
 /* One body of a pair: where its shape's axes stand, seen from the centre of the first body. */
 typedef struct {
@@ -66,19 +69,23 @@ SHARED real way_anywhere(const midphase_scene *scene, motion m)
   return step * (length_of(m.linear) + step * length_of(gravity_of(scene->parameters)));
 }
 
-/* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of manifold.h. */
+/* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of
+ * manifold.h. */
 SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
 {
   real radius_a = load_row(scene->shapes, a).w, radius_b = load_row(scene->shapes, b).w;
   motion motion_a = load_motion(scene->velocities, a), motion_b = load_motion(scene->velocities, b);
   real turn = length_of(motion_a.angular) * radius_a + length_of(motion_b.angular) * radius_b;
-  real margin = scene->parameters->speculative_distance + scene->parameters->step * turn + R(1e-6) * (length_of(offset) + radius_a + radius_b);
-  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) || !is_continuous(scene->traits[a] | scene->traits[b])) return margin;
+  real margin = scene->parameters->speculative_distance + scene->parameters->step * turn +
+                R(1e-6) * (length_of(offset) + radius_a + radius_b);
+  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) || !is_continuous(scene->traits[a] | scene->traits[b]))
+    return margin;
   return margin + way_anywhere(scene, motion_a) + way_anywhere(scene, motion_b);
 }
 SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
 {
-  return scale(subtract(load_motion(scene->velocities, of).linear, load_motion(scene->velocities, from).linear), scene->parameters->step);
+  return scale(subtract(load_motion(scene->velocities, of).linear, load_motion(scene->velocities, from).linear),
+               scene->parameters->step);
 }
 
 /* What a tree is asked for, in its axes: a box, or all below a plane. */
@@ -93,11 +100,13 @@ SHARED mask probe_hits(const tree_probe *probe, box_bounds box)
 {
   if (!probe->below_plane) return bounds_overlap(probe->box, box);
   vec3 n = probe->normal;
-  vec3 lowest = make_vec3(n.x > R(0.0) ? box.lower.x : box.upper.x, n.y > R(0.0) ? box.lower.y : box.upper.y, n.z > R(0.0) ? box.lower.z : box.upper.z);
+  vec3 lowest = make_vec3(n.x > R(0.0) ? box.lower.x : box.upper.x, n.y > R(0.0) ? box.lower.y : box.upper.y,
+                          n.z > R(0.0) ? box.lower.z : box.upper.z);
   return inner(n, lowest) <= probe->height;
 }
 
-/* A box of half extents along the columns of `rotation`, as a box along the axes that rotation leads to, swept by a motion. */
+/* A box of half extents along the columns of `rotation`, as a box along the axes that rotation leads to, swept by a
+ * motion. */
 SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion, real margin)
 {
   vec3 reach = make_vec3(inner(absolute(rotation.x), extent) + margin, inner(absolute(rotation.y), extent) + margin,
@@ -108,17 +117,21 @@ SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion
   return box;
 }
 
-/* What a tree is asked about a body that has none. to_single: the body's centre seen from the centre of the tree's body. */
-SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single, real margin)
+/* What a tree is asked about a body that has none. to_single: the body's centre seen from the centre of the tree's
+ * body. */
+SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single,
+                                   real margin)
 {
   mat3 turned = rotation_of(quat_from(load_row(scene->orientations, single)));
   vec3 motion = relative_motion(scene, owner->body, single);
   tree_probe probe;
   probe.below_plane = shape_of(scene->traits[single]) == (uint)SHAPE_HALF_SPACE;
   probe.normal = rotate_back(owner->rotation, axis_y(turned));
-  probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin + maximum(inner(axis_y(turned), motion), R(0.0));
+  probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin +
+                 maximum(inner(axis_y(turned), motion), R(0.0));
   vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->poses, single * 4u + 2u))));
-  probe.box = swept_box(relative_rotation(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
+  probe.box = swept_box(relative_rotation(owner->rotation, turned),
+                        rotate_back(owner->rotation, subtract(middle, owner->center)),
                         xyz(load_row(scene->poses, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
   return probe;
 }
@@ -156,7 +169,10 @@ typedef struct {
 } tree_pair;
 
 SHARED mask has_tree(const midphase_scene *scene, uint body) { return scene->body_trees[body * 2u] != INDEX_NONE; }
-SHARED mask one_has_tree(const midphase_scene *scene, uint a, uint b) { return has_tree(scene, a) != has_tree(scene, b); }
+SHARED mask one_has_tree(const midphase_scene *scene, uint a, uint b)
+{
+  return has_tree(scene, a) != has_tree(scene, b);
+}
 
 SHARED tree_pair load_tree_pair(const midphase_scene *scene, uint a, uint b)
 {
@@ -170,10 +186,12 @@ SHARED tree_probe probe_of_pair(const midphase_scene *scene, uint a, uint b, con
 {
   vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
   tree_body owner = load_tree_body(scene, pair->owner, none);
-  return probe_for_single(scene, &owner, pair->single, pair->tree_first ? offset : negate(offset), midphase_margin(scene, a, b, offset));
+  return probe_for_single(scene, &owner, pair->single, pair->tree_first ? offset : negate(offset),
+                          midphase_margin(scene, a, b, offset));
 }
 
-SHARED void add_leaf_of_tree(leaf_list *list, const midphase_scene *scene, const tree_pair *pair, const tree *t, uint number)
+SHARED void add_leaf_of_tree(leaf_list *list, const midphase_scene *scene, const tree_pair *pair, const tree *t,
+                             uint number)
 {
   leaf part = leaf_of_tree(scene, pair->owner, pair->first_child, t, number), other = single_leaf(pair->single);
   if (pair->tree_first) add_leaf_pair(list, scene, pair->owner, part, pair->single, other);
@@ -199,21 +217,28 @@ SHARED real size_of_box(box_bounds box)
   return maximum(size.x, maximum(size.y, size.z));
 }
 
-typedef struct { uint a, b; } node_pair;
+typedef struct {
+  uint a, b;
+} node_pair;
 
-SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const tree_body *a, const tree_body *b, real margin)
+SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const tree_body *a, const tree_body *b,
+                           real margin)
 {
   tree tree_a = load_tree(scene->trees, a->tree_number), tree_b = load_tree(scene->trees, b->tree_number);
   mat3 rotation = relative_rotation(b->rotation, a->rotation);
-  vec3 shift = rotate_back(b->rotation, subtract(a->center, b->center)), motion = rotate_back(b->rotation, relative_motion(scene, b->body, a->body));
+  vec3 shift = rotate_back(b->rotation, subtract(a->center, b->center)),
+       motion = rotate_back(b->rotation, relative_motion(scene, b->body, a->body));
   node_pair stack[TANDEM_STACK];
   uint height = 1u;
   stack[0].a = stack[0].b = 0u;
   while (height > 0u) {
     node_pair nodes = stack[--height];
-    box_bounds box_a = bounds_of_node(scene->trees, &tree_a, nodes.a), box_b = bounds_of_node(scene->trees, &tree_b, nodes.b);
-    vec3 middle = scale(add(box_a.lower, box_a.upper), R(0.5)), extent = scale(subtract(box_a.upper, box_a.lower), R(0.5));
-    if (!bounds_overlap(swept_box(rotation, add(shift, rotate(rotation, middle)), extent, motion, margin), box_b)) continue;
+    box_bounds box_a = bounds_of_node(scene->trees, &tree_a, nodes.a),
+               box_b = bounds_of_node(scene->trees, &tree_b, nodes.b);
+    vec3 middle = scale(add(box_a.lower, box_a.upper), R(0.5)),
+         extent = scale(subtract(box_a.upper, box_a.lower), R(0.5));
+    if (!bounds_overlap(swept_box(rotation, add(shift, rotate(rotation, middle)), extent, motion, margin), box_b))
+      continue;
     uint word_a = word_of_node(scene->trees, &tree_a, nodes.a), word_b = word_of_node(scene->trees, &tree_b, nodes.b);
     if (is_leaf(word_a) && is_leaf(word_b)) {
       add_leaf_pair(list, scene, a->body, leaf_of_tree(scene, a->body, a->first_child, &tree_a, word_a), b->body,
@@ -254,18 +279,23 @@ SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a
 
 /* --- kernels ------------------------------------------------------------------------------------------------ */
 
-SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                  GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
-                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
-                                  GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL uint *leaf_start, uint i)
+SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                  GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *filters,
+                                  GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
+                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
+                                  GLOBAL const uint *leaves, GLOBAL const row *positions,
+                                  GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL uint *leaf_start,
+                                  uint i)
 {
-  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
+                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
   leaf_list list = {0, 0, 0, 0, 0u, 0u, 0u};
   find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
   leaf_start[i] = list.found;
 }
 
-/* From here on a pair is one of leaves. Where the pairs of bodies already had no room for all, `needed` stays what they need. */
+/* From here on a pair is one of leaves. Where the pairs of bodies already had no room for all, `needed` stays what they
+ * need. */
 SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -275,20 +305,24 @@ SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint
   if (needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
 }
 
-SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                  GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
-                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
-                                  GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a, GLOBAL uint *leaf_pair_b,
-                                  GLOBAL uint *pair_leaf, uint i)
+SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                  GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *filters,
+                                  GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
+                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
+                                  GLOBAL const uint *leaves, GLOBAL const row *positions,
+                                  GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a,
+                                  GLOBAL uint *leaf_pair_b, GLOBAL uint *pair_leaf, uint i)
 {
-  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
+                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
   leaf_list list = {1, leaf_pair_a, leaf_pair_b, pair_leaf, leaf_start[i], counts[CAPACITY_PAIRS], 0u};
   find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
 }
 
 /* Where the pairs of each body start, now that they are pairs of leaves. */
-SHARED void start_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *pair_start, uint i)
+SHARED void start_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *pair_start,
+                                  uint i)
 {
   uint first = pair_start[i], last = counts[COUNT_BODY_PAIRS];
   pair_start[i] = leaf_start[first < last ? first : last];

@@ -1,12 +1,13 @@
 /* merge.h - the manifolds of one pair of bodies, joined where they press the same way.
  *
- *      +-----------+              A box on a mesh touches many triangles of one plane: each leaf gives a manifold, and sixteen
- *      |           |              points where four hold it. Leaves whose normals agree form a group; the first leaf of a group
+ *      +-----------+              A box on a mesh touches many triangles of one plane: each leaf gives a manifold, and
+ * sixteen |           |              points where four hold it. Leaves whose normals agree form a group; the first leaf
+ * of a group
  *    __*__*__*__*__*__            keeps its best four points (contact_points.h), the others are left with none.
  *     /\  |  /\  |  /\
  *
- * Two kernels, since a leaf's manifold must not change while another still reads it: group_manifolds names for each leaf the first
- * of its group, merge_manifolds joins. A group of one keeps its manifold to the bit.
+ * Two kernels, since a leaf's manifold must not change while another still reads it: group_manifolds names for each
+ * leaf the first of its group, merge_manifolds joins. A group of one keeps its manifold to the bit.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_MERGE_H
 #define TANDEM_SHARED_MIDPHASE_MERGE_H
@@ -23,13 +24,17 @@
 /* Feature code of a joined manifold: its points are known by the part they play in the reduction. */
 #define JOINED_CODE 0xffffffu
 
-SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint i, uint j) { return pair_a[i] == pair_a[j] && pair_b[i] == pair_b[j]; }
+SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint i, uint j)
+{
+  return pair_a[i] == pair_a[j] && pair_b[i] == pair_b[j];
+}
 
 /* Two normals with the moments of their impacts. approach: velocity of a against b. */
 SHARED mask press_alike(GLOBAL const Parameters *parameters, vec4 first, vec4 second, vec3 approach)
 {
   real nearer = magnitude(inner(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
-  return inner(xyz(first), xyz(second)) >= SAME_DIRECTION && nearer <= maximum(SAME_APPROACH * parameters->slop, R(1e-5)) &&
+  return inner(xyz(first), xyz(second)) >= SAME_DIRECTION &&
+         nearer <= maximum(SAME_APPROACH * parameters->slop, R(1e-5)) &&
          magnitude(first.w - second.w) <= SAME_MOMENT * parameters->step;
 }
 
@@ -40,9 +45,11 @@ SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_lea
 }
 
 /* The first leaf of a pair of bodies goes through all of them. */
-SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
-                                 GLOBAL const row *velocities, GLOBAL const row *normals, GLOBAL const uint *counts_of_points, GLOBAL const uint *counts,
-                                 GLOBAL uint *group, uint i)
+SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
+                                 GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
+                                 GLOBAL const row *velocities, GLOBAL const row *normals,
+                                 GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *group,
+                                 uint i)
 {
   if (i > 0u && same_bodies(pair_a, pair_b, i, i - 1u)) return;
   vec3 approach = subtract(load_motion(velocities, pair_a[i]).linear, load_motion(velocities, pair_b[i]).linear);
@@ -53,7 +60,8 @@ SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, GLOBAL con
     vec4 normal = load_row(normals, j);
     for (uint k = i; k < j; ++k) {
       if (group[k] != k || counts_of_points[k] == 0u) continue;
-      if (!press_alike(parameters, load_row(normals, k), normal, approach) || !same_material(traits, pair_leaf, j, k)) continue;
+      if (!press_alike(parameters, load_row(normals, k), normal, approach) || !same_material(traits, pair_leaf, j, k))
+        continue;
       group[j] = k;
       break;
     }
@@ -67,7 +75,8 @@ typedef struct {
   uint stride, first, end; /* leaves first .. end - 1 may belong to the group of `first` */
 } manifold_group;
 
-/* One pass over all points of the group. With `wanted` it is the last one: the offset of the point that has these coordinates. */
+/* One pass over all points of the group. With `wanted` it is the last one: the offset of the point that has these
+ * coordinates. */
 SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axes, const clip_point *wanted)
 {
   vec3 found = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -77,7 +86,8 @@ SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axe
       vec4 point = load_row(group->points, group->stride * k + j);
       clip_point candidate = {inner(axes.first, xyz(point)), inner(axes.second, xyz(point)), point.w, 1};
       if (!wanted) reduce_step(r, candidate);
-      else if (candidate.u == wanted->u && candidate.v == wanted->v && candidate.separation == wanted->separation) return xyz(point);
+      else if (candidate.u == wanted->u && candidate.v == wanted->v && candidate.separation == wanted->separation)
+        return xyz(point);
     }
   }
   return found;
@@ -105,12 +115,14 @@ SHARED manifold joined_manifold(const manifold_group *group, vec4 first, real si
   return m;
 }
 
-SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const uint *group, GLOBAL const uint *counts,
-                                 GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes,
+                                 GLOBAL const uint *group, GLOBAL const uint *counts, GLOBAL row *normals,
+                                 GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   if (group[i] != i || counts_of_points[i] == 0u) return;
   uint stride = counts[CAPACITY_PAIRS], end = i + 1u, members = 0u;
-  for (; end < counts[COUNT_PAIRS] && same_bodies(pair_a, pair_b, i, end); ++end) members = members + (group[end] == i ? 1u : 0u);
+  for (; end < counts[COUNT_PAIRS] && same_bodies(pair_a, pair_b, i, end); ++end)
+    members = members + (group[end] == i ? 1u : 0u);
   if (members == 0u) return;
   manifold_group all = {group, counts_of_points, points, stride, i, end};
   real radius_a = load_row(shapes, pair_a[i]).w, radius_b = load_row(shapes, pair_b[i]).w;

@@ -1,5 +1,5 @@
-/* pair_groups.h - how many pairs a work-group of subtree_pairs.h and of follow_boxes.h takes: known to kernels and to the host that
- * launches them.
+/* pair_groups.h - how many pairs a work-group of subtree_pairs.h and of follow_boxes.h takes: known to kernels and to
+ * the host that launches them.
  *
  * GROUP kernels run a group for each TILE items of their range, hence a range of its own: TILE times the groups. */
 #ifndef TANDEM_SHARED_MIDPHASE_PAIR_GROUPS_H

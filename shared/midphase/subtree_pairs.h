@@ -1,4 +1,5 @@
-/* subtree_pairs.h - the middle phase by work-groups: parts of a tree are read once into local memory, for all pairs of a group.
+/* subtree_pairs.h - the middle phase by work-groups: parts of a tree are read once into local memory, for all pairs of
+ * a group.
  *
  *     pairs of a group     (7, 0) (8, 0) (9, 0) .. (70, 0)      body 0 is a mesh: one tree, asked 64 times
  *     its tree                  .                               leaf_pairs.h: each pair reads the nodes on its way from
@@ -6,18 +7,19 @@
  *     subtrees of at most   /\  /\  /\  /\  ..                  here: WINDOW subtrees at a time, which all pairs of the
  *     128 nodes, 2 KiB each                                     group then walk in local memory
  *
- * The list is that of leaf_pairs.h, to the word: subtrees hold every leaf once, in the order of the nodes, and the boxes above
- * them contain theirs, so that nothing is lost or won by leaving them out. After Bullet's btQuantizedBvh, whose subtrees fit the
- * local memory of a PlayStation 3's processors, and its walk over their headers.
+ * The list is that of leaf_pairs.h, to the word: subtrees hold every leaf once, in the order of the nodes, and the
+ * boxes above them contain theirs, so that nothing is lost or won by leaving them out. After Bullet's btQuantizedBvh,
+ * whose subtrees fit the local memory of a PlayStation 3's processors, and its walk over their headers.
  *
  * A round of a group is one window of one tree, in four phases, of which those with nothing to do are empty:
  *
  *     load    boxes of the window's subtrees         test    each pair: which of these boxes does it hit?
  *     copy    nodes of those that some pair hits     walk    each pair: those it hits, by skips, without a stack
  *
- * A subtree beyond the reach of the group, the box around all that its pairs ask of the tree, is dropped as it is loaded. Rounds run
- * over all windows of the first tree that a pair of the group asks, then of the next: one loop, since PoCL 3.1 cannot nest them
- * around phases. Pairs of two trees, and of none, are found by leaf_pairs.h within one phase before.
+ * A subtree beyond the reach of the group, the box around all that its pairs ask of the tree, is dropped as it is
+ * loaded. Rounds run over all windows of the first tree that a pair of the group asks, then of the next: one loop,
+ * since PoCL 3.1 cannot nest them around phases. Pairs of two trees, and of none, are found by leaf_pairs.h within one
+ * phase before.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
@@ -28,22 +30,22 @@
 /* Subtrees in local memory at once. */
 #define WINDOW 8u
 
-/* Local memory, in words. Numbers come first, as they are wider in double precision: what each pair asks, the reach of all that ask
- * one tree (at the first of them), boxes of the window. */
+/* Local memory, in words. Numbers come first, as they are wider in double precision: what each pair asks, the reach of
+ * all that ask one tree (at the first of them), boxes of the window. */
 #define BOX_REALS 6u
 #define REACH_AT (BOX_REALS * GROUP_PAIRS)
 #define BOXES_AT (2u * BOX_REALS * GROUP_PAIRS)
 #define LOCAL_REALS (2u * BOX_REALS * GROUP_PAIRS + BOX_REALS * WINDOW)
-/* Of each pair: the tree it asks, whether for all below a plane, leaves found so far, subtrees of the window that it hits; where it is
- * the first that asks a tree, the rounds for it; the rounds up to the last of these. */
+/* Of each pair: the tree it asks, whether for all below a plane, leaves found so far, subtrees of the window that it
+ * hits; where it is the first that asks a tree, the rounds for it; the rounds up to the last of these. */
 #define ASKED_AT (LOCAL_REALS * (uint)(sizeof(real) / sizeof(uint)))
 #define PLANE_AT (ASKED_AT + GROUP_PAIRS)
 #define FOUND_AT (PLANE_AT + GROUP_PAIRS)
 #define HITS_AT (FOUND_AT + GROUP_PAIRS)
 #define ROUNDS_AT (HITS_AT + GROUP_PAIRS)
 #define LAST_ROUND_AT (ROUNDS_AT + GROUP_PAIRS)
-/* Of the window: its tree, how many pairs hit something; how many subtrees are within reach, in even and odd rounds. Of each subtree its
- * first node, nodes (0: none, or out of reach), how many pairs hit it; last the nodes. */
+/* Of the window: its tree, how many pairs hit something; how many subtrees are within reach, in even and odd rounds. Of
+ * each subtree its first node, nodes (0: none, or out of reach), how many pairs hit it; last the nodes. */
 #define TREE_AT (LAST_ROUND_AT + GROUP_PAIRS)
 #define ANY_HIT_AT (TREE_AT + 1u)
 #define IN_REACH_AT (TREE_AT + 2u)
@@ -58,7 +60,7 @@ typedef struct {
   midphase_scene scene;
   GLOBAL const uint *subtrees, *pair_a, *pair_b;
   uint first, pairs;
-  leaf_list list;               /* where the leaves of a pair go; at and found are those of the pair */
+  leaf_list list;                /* where the leaves of a pair go; at and found are those of the pair */
   GLOBAL const uint *leaf_start; /* where a list that is written starts */
 } pair_group;
 
@@ -70,7 +72,10 @@ SHARED leaf_list list_of_pair(const pair_group *group, uint k, uint found)
   return list;
 }
 
-SHARED uint windows_of_tree(const midphase_scene *scene, uint number) { return units_of(scene->trees.headers[number * TREE_HEADER + 5u], WINDOW); }
+SHARED uint windows_of_tree(const midphase_scene *scene, uint number)
+{
+  return units_of(scene->trees.headers[number * TREE_HEADER + 5u], WINDOW);
+}
 
 /* --- before the rounds --------------------------------------------------------------------------------------- */
 
@@ -113,7 +118,8 @@ SHARED void store_box(LOCAL uint *memory, uint at, uint stride, uint i, box_boun
 SHARED box_bounds load_box(LOCAL const uint *memory, uint at, uint stride, uint i)
 {
   LOCAL const real *from = (LOCAL const real *)memory + at + i;
-  box_bounds box = {make_vec3(from[0], from[stride], from[2u * stride]), make_vec3(from[3u * stride], from[4u * stride], from[5u * stride])};
+  box_bounds box = {make_vec3(from[0], from[stride], from[2u * stride]),
+                    make_vec3(from[3u * stride], from[4u * stride], from[5u * stride])};
   return box;
 }
 
@@ -155,8 +161,10 @@ SHARED box_bounds reach_of_tree(LOCAL const uint *memory, uint k)
     if (memory[ASKED_AT + j] != memory[ASKED_AT + k]) continue;
     box_bounds box = load_box(memory, 0u, GROUP_PAIRS, j);
     endless = endless || memory[PLANE_AT + j] != 0u;
-    reach.lower = make_vec3(minimum(reach.lower.x, box.lower.x), minimum(reach.lower.y, box.lower.y), minimum(reach.lower.z, box.lower.z));
-    reach.upper = make_vec3(maximum(reach.upper.x, box.upper.x), maximum(reach.upper.y, box.upper.y), maximum(reach.upper.z, box.upper.z));
+    reach.lower = make_vec3(minimum(reach.lower.x, box.lower.x), minimum(reach.lower.y, box.lower.y),
+                            minimum(reach.lower.z, box.lower.z));
+    reach.upper = make_vec3(maximum(reach.upper.x, box.upper.x), maximum(reach.upper.y, box.upper.y),
+                            maximum(reach.upper.z, box.upper.z));
   }
   box_bounds all = {make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS), make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS)};
   return endless ? all : reach;
@@ -176,7 +184,8 @@ SHARED void load_subtree(const pair_group *group, LOCAL uint *memory, uint round
 {
   uint k = 0u;
   while (memory[LAST_ROUND_AT + k] <= round) ++k;
-  uint number = memory[ASKED_AT + k], window = round + memory[ROUNDS_AT + k] - memory[LAST_ROUND_AT + k], place = window * WINDOW + slot;
+  uint number = memory[ASKED_AT + k], window = round + memory[ROUNDS_AT + k] - memory[LAST_ROUND_AT + k],
+       place = window * WINDOW + slot;
   GLOBAL const uint *header = group->scene.trees.headers + number * TREE_HEADER;
   memory[WANTED_AT + slot] = 0u;
   memory[SIZE_AT + slot] = 0u;
@@ -215,8 +224,8 @@ SHARED void copy_node(const pair_group *group, LOCAL uint *memory, uint i)
   for (uint word = 0u; word < 4u; ++word) memory[NODES_AT + i * 4u + word] = from[word];
 }
 
-SHARED void walk_subtree(leaf_list *list, const midphase_scene *scene, const tree_pair *pair, const tree_probe *probe, const tree *t,
-                         LOCAL const uint *nodes, uint size)
+SHARED void walk_subtree(leaf_list *list, const midphase_scene *scene, const tree_pair *pair, const tree_probe *probe,
+                         const tree *t, LOCAL const uint *nodes, uint size)
 {
   for (uint node = 0u; node < size;) {
     LOCAL const uint *words = nodes + node * 4u;
@@ -236,7 +245,8 @@ SHARED void walk_window(const pair_group *group, LOCAL uint *memory, uint k)
   tree t = load_tree(group->scene.trees, pair.tree_number);
   for (uint slot = 0u; slot < WINDOW; ++slot)
     if ((hits >> slot & 1u) != 0u)
-      walk_subtree(&list, &group->scene, &pair, &probe, &t, memory + NODES_AT + slot * 4u * SUBTREE_NODES, memory[SIZE_AT + slot]);
+      walk_subtree(&list, &group->scene, &pair, &probe, &t, memory + NODES_AT + slot * 4u * SUBTREE_NODES,
+                   memory[SIZE_AT + slot]);
   memory[FOUND_AT + k] = list.found;
 }
 
@@ -247,7 +257,8 @@ SHARED void find_leaf_pairs_of_group(const pair_group *group, LOCAL uint *memory
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[ROUNDS_AT + k] = rounds_of_pair(&group->scene, memory, k);
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[LAST_ROUND_AT + k] = rounds_up_to_pair(memory, k);
   FOR_EACH_ITEM(k, group->pairs) prepare_pair(group, memory, k);
-  FOR_EACH_ITEM(k, GROUP_PAIRS) if (memory[ROUNDS_AT + k] > 0u) store_box(memory, REACH_AT, GROUP_PAIRS, k, reach_of_tree(memory, k));
+  FOR_EACH_ITEM(k, GROUP_PAIRS)
+  if (memory[ROUNDS_AT + k] > 0u) store_box(memory, REACH_AT, GROUP_PAIRS, k, reach_of_tree(memory, k));
   const uint rounds = memory[LAST_ROUND_AT + GROUP_PAIRS - 1u];
   for (uint round = 0u; round < rounds; ++round) {
     FOR_EACH_ITEM(slot, WINDOW) load_subtree(group, memory, round, slot);
@@ -259,15 +270,16 @@ SHARED void find_leaf_pairs_of_group(const pair_group *group, LOCAL uint *memory
 
 /* --- kernels ------------------------------------------------------------------------------------------------- */
 
-SHARED void count_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                                              GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes,
-                                              GLOBAL const row *poses, GLOBAL const uint *body_trees, GLOBAL const uint *headers,
-                                              GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
-                                              GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
-                                              GLOBAL const row *velocities, GLOBAL const uint *counts, GLOBAL uint *leaf_start,
-                                              LOCAL uint *local_memory, uint group)
+SHARED void count_leaf_pairs_by_subtree_group(
+    GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+    GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses,
+    GLOBAL const uint *body_trees, GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
+    GLOBAL const uint *leaves, GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
+    GLOBAL const row *velocities, GLOBAL const uint *counts, GLOBAL uint *leaf_start, LOCAL uint *local_memory,
+    uint group)
 {
-  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
+                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
   leaf_list list = {0, 0, 0, 0, 0u, 0u, 0u};
   const uint first = group * GROUP_PAIRS, pairs = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
   pair_group work = {scene, subtrees, pair_a, pair_b, first, pairs, list, 0};
@@ -276,16 +288,16 @@ SHARED void count_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameter
   FOR_EACH_ITEM(k, pairs) leaf_start[first + k] = local_memory[FOUND_AT + k];
 }
 
-SHARED void write_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                                              GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes,
-                                              GLOBAL const row *poses, GLOBAL const uint *body_trees, GLOBAL const uint *headers,
-                                              GLOBAL const row *frames, GLOBAL const uint *nodes, GLOBAL const uint *leaves,
-                                              GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
-                                              GLOBAL const row *velocities, GLOBAL const uint *leaf_start, GLOBAL const uint *counts,
-                                              GLOBAL uint *leaf_pair_a, GLOBAL uint *leaf_pair_b, GLOBAL uint *pair_leaf,
-                                              LOCAL uint *local_memory, uint group)
+SHARED void write_leaf_pairs_by_subtree_group(
+    GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+    GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses,
+    GLOBAL const uint *body_trees, GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
+    GLOBAL const uint *leaves, GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
+    GLOBAL const row *velocities, GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a,
+    GLOBAL uint *leaf_pair_b, GLOBAL uint *pair_leaf, LOCAL uint *local_memory, uint group)
 {
-  midphase_scene scene = {parameters, traits, filters, body_trees, shapes, poses, positions, orientations, velocities, {headers, frames, nodes, leaves}};
+  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
+                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
   leaf_list list = {1, leaf_pair_a, leaf_pair_b, pair_leaf, 0u, counts[CAPACITY_PAIRS], 0u};
   const uint pairs = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
   pair_group work = {scene, subtrees, pair_a, pair_b, group * GROUP_PAIRS, pairs, list, leaf_start};

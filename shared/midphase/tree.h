@@ -1,11 +1,10 @@
 /* tree.h - the hierarchy of boxes over the parts of one body: triangles of a mesh, children of a compound.
  *
- *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the tree's frame, and
- *       /   \           word:  -7  -3   a   b  -3   c   d       the number of a leaf, or minus the nodes of the subtree.
- *      1     4
- *     / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is missed is passed over (by
- *    a   b c   d        the size of its subtree). Built by host/geometry/bvh.h; after Bullet's btQuantizedBvh and Ericson,
- *                       "Real-Time Collision Detection", 2005, chapter 6.
+ *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the
+ * tree's frame, and /   \           word:  -7  -3   a   b  -3   c   d       the number of a leaf, or minus the nodes of
+ * the subtree. 1     4 / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is
+ * missed is passed over (by a   b c   d        the size of its subtree). Built by host/geometry/bvh.h; after Bullet's
+ * btQuantizedBvh and Ericson, "Real-Time Collision Detection", 2005, chapter 6.
  *
  * Coordinates are those of the tree: the axes of the body's shape, not of the body.
  */
@@ -27,7 +26,8 @@ typedef struct {
   GLOBAL const uint *headers; /* TREE_HEADER a tree */
   GLOBAL const row *frames;   /* 2 a tree: origin and step of its 16-bit coordinates */
   GLOBAL const uint *nodes;   /* 4 a node */
-  GLOBAL const uint *leaves;  /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
+  GLOBAL const uint
+      *leaves; /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
 } tree_tables;
 
 typedef struct {
@@ -38,7 +38,8 @@ typedef struct {
 SHARED tree load_tree(tree_tables tables, uint number)
 {
   GLOBAL const uint *header = tables.headers + number * TREE_HEADER;
-  tree t = {header[0], header[1], header[2], xyz(load_row(tables.frames, number * 2u)), xyz(load_row(tables.frames, number * 2u + 1u))};
+  tree t = {header[0], header[1], header[2], xyz(load_row(tables.frames, number * 2u)),
+            xyz(load_row(tables.frames, number * 2u + 1u))};
   return t;
 }
 
@@ -49,7 +50,8 @@ SHARED vec3 dequantised(const tree *t, uint x, uint y, uint z)
 /* The first three words of a node. */
 SHARED box_bounds bounds_of_words(const tree *t, uint first, uint second, uint third)
 {
-  box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu), dequantised(t, second >> 16u, third & 0xffffu, third >> 16u)};
+  box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu),
+                    dequantised(t, second >> 16u, third & 0xffffu, third >> 16u)};
   return box;
 }
 SHARED box_bounds bounds_of_node(tree_tables tables, const tree *t, uint node)
@@ -58,7 +60,10 @@ SHARED box_bounds bounds_of_node(tree_tables tables, const tree *t, uint node)
   return bounds_of_words(t, words[0], words[1], words[2]);
 }
 
-SHARED uint word_of_node(tree_tables tables, const tree *t, uint node) { return tables.nodes[(t->first_node + node) * 4u + 3u]; }
+SHARED uint word_of_node(tree_tables tables, const tree *t, uint node)
+{
+  return tables.nodes[(t->first_node + node) * 4u + 3u];
+}
 SHARED mask is_leaf(uint word) { return (word & 0x80000000u) == 0u; }
 SHARED uint subtree_size(uint word) { return is_leaf(word) ? 1u : ~word + 1u; }
 

@@ -6,7 +6,7 @@
 
 typedef struct {
   vec3 x, y, z; /* unit axes, in world axes */
-  vec3 extent;    /* half extents along them */
+  vec3 extent;  /* half extents along them */
 } oriented_box;
 
 SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)

@@ -11,20 +11,22 @@
  * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
  * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
  *
- * For contacts the axis of two edges must also be inclined. Where faces meet at a small angle it is nearly that of the faces,
- * and leads by a little: its one point would stop one corner of a box that lands, which turns about it, and the next
- * contacts are found a step later, when the corners without a point have sunk in. Points of faces lie on both boxes all the same:
+ * For contacts the axis of two edges must also be inclined. Where faces meet at a small angle it is nearly that of the
+ * faces, and leads by a little: its one point would stop one corner of a box that lands, which turns about it, and the
+ * next contacts are found a step later, when the corners without a point have sunk in. Points of faces lie on both
+ * boxes all the same:
  *
  *      \-----________               What the box of b is above the face of a is measured at each point, so none is
  *       o            o-----\   b     made too early; the normal alone is off by that small angle.
  *      -----------------------  a
  *
- * Boxes rest in one another by the slop. So one that slides over a floor of tiles would meet the side of the next tile, and
- * one in a grid its neighbours' neighbours:
+ * Boxes rest in one another by the slop. So one that slides over a floor of tiles would meet the side of the next tile,
+ * and one in a grid its neighbours' neighbours:
  *
  *       +---------+ -->                    Where two boxes overlap by no more than the slop along one face axis of a
  *       |         |                        box, and are apart or overlap no more along another, only a bar that thin
- *    ---|--+------|-+---------  <- slop    of their edges can touch. Edges count as rounded off by that much: such boxes
+ *    ---|--+------|-+---------  <- slop    of their edges can touch. Edges count as rounded off by that much: such
+ * boxes
  *       +--|------+ |                      are apart. A ledge lower than the slop is slid over, in every direction.
  *     tile |   tile |   tile
  */
@@ -74,7 +76,8 @@ SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 exte
   real along_x = edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise);
   real along_y = edge_separation(offset.z, offset.x, edge.z, edge.x, extent.z, extent.x, across.y, noise);
   real along_z = edge_separation(offset.x, offset.y, edge.x, edge.y, extent.x, extent.y, across.z, noise);
-  return better_axis(better_axis(better_axis(best, along_x, code, noise), along_y, code + 3u, noise), along_z, code + 6u, noise);
+  return better_axis(better_axis(better_axis(best, along_x, code, noise), along_y, code + 3u, noise), along_z,
+                     code + 6u, noise);
 }
 
 SHARED vec3 in_axes_of(oriented_box box, vec3 v)
@@ -86,7 +89,8 @@ SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 /* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
 SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }
 
-/* Cosine of the angle up to which the axis of two edges counts as that of the faces, about 8 degrees; one that no angle has. */
+/* Cosine of the angle up to which the axis of two edges counts as that of the faces, about 8 degrees; one that no angle
+ * has. */
 #define NEARLY_ALONG R(0.99)
 #define NEVER_ALONG R(2.0)
 
@@ -126,9 +130,11 @@ SHARED mask is_inclined(natural edges, natural face, vec3 x, vec3 y, vec3 z, rea
   return along * along < cosine * cosine * length_squared(across);
 }
 
-/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of their edges
- * counts as rounded off. Metres. nearly_along: cosine of the angle up to which the axis of two edges counts as that of the faces. */
-SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded, real nearly_along)
+/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of
+ * their edges counts as rounded off. Metres. nearly_along: cosine of the angle up to which the axis of two edges counts
+ * as that of the faces. */
+SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded,
+                                          real nearly_along)
 {
   vec3 to_b = in_axes_of(a, offset);
   vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
@@ -156,10 +162,12 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   edges = edges_against(edges, to_b, y, a.extent, add_scaled(scale(size_x, b.extent.z), size_z, b.extent.x), 7u, noise);
   edges = edges_against(edges, to_b, z, a.extent, add_scaled(scale(size_y, b.extent.x), size_x, b.extent.y), 8u, noise);
   mask edges_lead = edges.separation - face.separation > lead;
-  mask rounded_off = (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
+  mask rounded_off =
+      (rounded > R(0.0)) & (only_edges_meet(gap_a, rounded, lead) | only_edges_meet(gap_b, rounded, lead));
   real separation = choose(edges_lead, edges.separation, face.separation);
   separating_axis axis = {choose(rounded_off, (real)FAR_APART, separation), face.code, edges.code, edges_lead};
-  if (any_of(edges_lead)) axis.code = choose(edges_lead & is_inclined(edges.code, face.code, x, y, z, nearly_along), edges.code, face.code);
+  if (any_of(edges_lead))
+    axis.code = choose(edges_lead & is_inclined(edges.code, face.code, x, y, z, nearly_along), edges.code, face.code);
   return axis;
 }
 

@@ -15,11 +15,12 @@
 /* Two boxes relative to a, and the axis between them. */
 typedef struct {
   oriented_box a, b;
-  vec3 offset; /* centre of b seen from the centre of a */
-  vec3 normal; /* unit, from a to b */
-  real gap; /* along it */
+  vec3 offset;  /* centre of b seen from the centre of a */
+  vec3 normal;  /* unit, from a to b */
+  real gap;     /* along it */
   natural code; /* of the axis: box_axes.h */
-  natural edges; /* code of the edges that will do where the axis is a face's (edges_lead) and no point lies on the face */
+  natural
+      edges; /* code of the edges that will do where the axis is a face's (edges_lead) and no point lies on the face */
   mask edges_lead;
 } box_pair;
 
@@ -131,7 +132,8 @@ SHARED manifold face_contacts(box_pair pair)
   return m;
 }
 
-/* Each kind of contact is computed only if some item of the group has it. none: without points, so those of the others may hold anything. */
+/* Each kind of contact is computed only if some item of the group has it. none: without points, so those of the others
+ * may hold anything. */
 SHARED manifold with_face_contacts(manifold none, mask wanted, box_pair pair, real reach)
 {
   if (!any_of(wanted)) return none;
@@ -145,7 +147,8 @@ SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair, real r
   return choose_manifold(wanted, kept_within(edge_contact(pair), reach), m);
 }
 
-/* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis must lead by. */
+/* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis
+ * must lead by. */
 SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natural b)
 {
   real little = least * R(0.001);
@@ -173,7 +176,8 @@ SHARED box_pair along_edges(mask wanted, box_pair pair)
   return result;
 }
 
-/* The manifold of two boxes as they stand. Seen along the normal of a face, edges that will meet may still pass beside each other. */
+/* The manifold of two boxes as they stand. Seen along the normal of a face, edges that will meet may still pass beside
+ * each other. */
 SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, pair_motion moves)
 {
   real reach = reach_of_pair(parameters, moves, pair.normal);
@@ -186,15 +190,22 @@ SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, 
 
 SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 {
-  box_pair then = {turned_box(pair.a, moves.a.angular, time), turned_box(pair.b, moves.b.angular, time), offset_after(pair.offset, moves, time),
-                   pair.normal, pair.gap, pair.code, pair.edges, pair.edges_lead};
+  box_pair then = {turned_box(pair.a, moves.a.angular, time),
+                   turned_box(pair.b, moves.b.angular, time),
+                   offset_after(pair.offset, moves, time),
+                   pair.normal,
+                   pair.gap,
+                   pair.code,
+                   pair.edges,
+                   pair.edges_lead};
   return then;
 }
 
 /* Along a unit normal from a to b. */
 SHARED real gap_of_boxes_along(box_pair pair, vec3 normal)
 {
-  return inner(pair.offset, normal) - inner(absolute(in_axes_of(pair.a, normal)), pair.a.extent) - inner(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
+  return inner(pair.offset, normal) - inner(absolute(in_axes_of(pair.a, normal)), pair.a.extent) -
+         inner(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
 }
 
 /* Two boxes as the step starts, whose best axis is not known yet. */
@@ -205,8 +216,8 @@ typedef struct {
   real least, rounded; /* the smallest half extent; how much of the edges counts as rounded off */
 } moving_boxes;
 
-SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                               GLOBAL const Parameters *parameters, natural a, natural b)
+SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
+                               GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a, natural b)
 {
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
   moving_boxes pair;
@@ -223,8 +234,8 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *posit
   return pair;
 }
 
-/* Boxes beside each other, whose faces do not lie above one another yet, make no contact where they stand, though fast ones may meet
- * within the step. Sharp edges: rounded ones may not meet at the start and will. */
+/* Boxes beside each other, whose faces do not lie above one another yet, make no contact where they stand, though fast
+ * ones may meet within the step. Sharp edges: rounded ones may not meet at the start and will. */
 SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m, moving_boxes pair, vec3 normal)
 {
   mask beside = pair.way.far & !has_points(m);
@@ -241,7 +252,8 @@ SHARED mask may_be_followed(manifold m, journey way)
 
 SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
 {
-  mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX, second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
+  mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX,
+       second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
   return first & second;
 }
 

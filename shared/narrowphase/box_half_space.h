@@ -34,8 +34,8 @@ SHARED manifold box_on_plane(oriented_box box, vec3 center, vec3 outward, vec3 o
   return m;
 }
 
-/* A box and a plane through the origin that it is seen from, with unit normal `outward`; seen from the plane's body, or as the
- * pair's first body is the box (box_first), from there. */
+/* A box and a plane through the origin that it is seen from, with unit normal `outward`; seen from the plane's body, or
+ * as the pair's first body is the box (box_first), from there. */
 typedef struct {
   oriented_box box;
   vec3 center, outward;
@@ -45,14 +45,16 @@ typedef struct {
 SHARED manifold box_plane_contact(box_and_plane pair, real reach)
 {
   vec3 here = make_vec3(R(0.0), R(0.0), R(0.0));
-  manifold m = box_on_plane(pair.box, pair.center, pair.outward, choose3(pair.box_first, here, negate(pair.center)), reach);
+  manifold m =
+      box_on_plane(pair.box, pair.center, pair.outward, choose3(pair.box_first, here, negate(pair.center)), reach);
   m.normal = choose3(pair.box_first, negate(pair.outward), pair.outward);
   return m;
 }
 
 SHARED real gap_to_plane(box_and_plane pair)
 {
-  vec3 along = make_vec3(inner(pair.box.x, pair.outward), inner(pair.box.y, pair.outward), inner(pair.box.z, pair.outward));
+  vec3 along =
+      make_vec3(inner(pair.box.x, pair.outward), inner(pair.box.y, pair.outward), inner(pair.box.z, pair.outward));
   return inner(pair.center, pair.outward) - inner(absolute(along), pair.box.extent);
 }
 
@@ -67,7 +69,8 @@ SHARED box_and_plane box_and_plane_after(box_and_plane start, pair_motion moves,
 
 SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3 normal, pair_motion moves, journey way)
 {
-  real closing = closing_speed(moves, normal), turning = length_of(choose3(pair.box_first, moves.a.angular, moves.b.angular));
+  real closing = closing_speed(moves, normal),
+       turning = length_of(choose3(pair.box_first, moves.a.angular, moves.b.angular));
   real acceleration = acceleration_seen(R(0.0), R(0.0), R(0.0), turning, moves.radius_a + moves.radius_b);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
@@ -95,19 +98,23 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   natural body = choose(box_first, a, b), plane = choose(box_first, b, a);
   vec4 shape = load_row(shapes, body);
   real zero = R(0.0), least = least_of(xyz(shape));
-  box_and_plane pair = {oriented_box_of(load_row(orientations, body), xyz(shape)), offset_between(positions, plane, body),
+  box_and_plane pair = {oriented_box_of(load_row(orientations, body), xyz(shape)),
+                        offset_between(positions, plane, body),
                         axis_y(rotation_of(quat_from(load_row(orientations, plane)))), box_first};
-  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(box_first, shape.w, zero), choose(box_first, zero, shape.w));
+  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(box_first, shape.w, zero),
+                                       choose(box_first, zero, shape.w));
   vec3 normal = choose3(box_first, negate(pair.outward), pair.outward);
   real reach = reach_of_pair(parameters, moves, normal);
   manifold m = box_plane_contact(pair, reach);
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
   journey way = journey_of_step(parameters, moves, least, shape.w);
-  speculation s = speculation_of(parameters, m, choose3(box_first, negate(pair.center), pair.center), moves, way, least);
+  speculation s =
+      speculation_of(parameters, m, choose3(box_first, negate(pair.center), pair.center), moves, way, least);
   s.asked = s.asked & (fastest_turning(moves) > zero);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(parameters, s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);
+    encounter met =
+        encounter_of(parameters, s, impact_of_box_on_plane(mine & s.reached, pair, normal, moves, way), way);
     box_and_plane then = box_and_plane_after(pair, moves, choose(met.at_impact, met.time, zero));
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);

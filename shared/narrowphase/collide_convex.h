@@ -4,8 +4,8 @@
  *   sphere     .      .       .         x        .  a header of its own (sphere_box.h ...)
  *   box               .       .         x        x  here
  *   half-space                -         x        -  neither moves
- *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its body's centre or continuous;
- *                                                 compound and mesh, of which a pair holds one child or triangle (midphase/leaf_pairs.h)
+ *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its
+ * body's centre or continuous; compound and mesh, of which a pair holds one child or triangle (midphase/leaf_pairs.h)
  *
  * Branches follow the data: shapes of one pair differ too much for lanes.
  */
@@ -17,10 +17,14 @@
 #include "shared/narrowphase/convex_half_space.h"
 #include "shared/narrowphase/triangle_contact.h"
 
-/* The part of a body that takes part in a pair. Without trees it is the body's only shape, whose number is that of the body. */
-typedef struct { uint body, shape, triangle; } body_part;
+/* The part of a body that takes part in a pair. Without trees it is the body's only shape, whose number is that of the
+ * body. */
+typedef struct {
+  uint body, shape, triangle;
+} body_part;
 
-SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, uint body, uint i, uint side)
+SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, uint body, uint i,
+                              uint side)
 {
   body_part part = {body, body, INDEX_NONE};
   if (!HAS_FEATURE(parameters, FEATURE_TREES)) return part;
@@ -29,16 +33,18 @@ SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const 
   return part;
 }
 
-/* What body_shape, body_convex and body_shape_pose say of a part. offset: the body's centre in the frame of the pair. */
-SHARED convex load_convex(GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const row *orientations,
-                          hull_tables tables, vec3 offset, body_part part)
+/* What body_shape, body_convex and body_shape_pose say of a part. offset: the body's centre in the frame of the
+ * pair. */
+SHARED convex load_convex(GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                          GLOBAL const row *orientations, hull_tables tables, vec3 offset, body_part part)
 {
   quat turned = quat_from(load_row(orientations, part.body)), own = quat_from(load_row(poses, part.shape * 4u + 1u));
   vec3 center = add(offset, rotate(rotation_of(turned), xyz(load_row(poses, part.shape * 4u))));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   mat3 rotation = rotation_of(quat_multiply(turned, own));
   if (part.triangle != INDEX_NONE) return triangle_of(tables, part.triangle, rotation, center);
-  return convex_of(convexes[part.shape * 2u], xyz(load_row(shapes, part.shape)), rotation, center, none, convexes[part.shape * 2u + 1u], tables);
+  return convex_of(convexes[part.shape * 2u], xyz(load_row(shapes, part.shape)), rotation, center, none,
+                   convexes[part.shape * 2u + 1u], tables);
 }
 
 SHARED int takes_part(uint shape) { return shape == SHAPE_SPHERE || shape == SHAPE_BOX || shape == SHAPE_OTHER; }
@@ -51,10 +57,12 @@ SHARED real widest_reach(GLOBAL const Parameters *parameters, pair_motion moves)
   return reach_of_pair(parameters, moves, scale(approach, R(1.0) / maximum(speed, R(1e-20))));
 }
 
-SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second, real reach, real thickness, uint method)
+SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const convex *first, const convex *second,
+                                 real reach, real thickness, uint method)
 {
   mask triangles = is_triangle(first) || is_triangle(second);
-  if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles) return triangle_contact(first, second, reach, thickness, parameters->slop);
+  if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles)
+    return triangle_contact(first, second, reach, thickness, parameters->slop);
   return convex_contact(first, second, reach, parameters->slop, method);
 }
 
@@ -62,34 +70,42 @@ SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const conv
 typedef struct {
   convex first, second;
   pair_motion moves;
-  vec3 offset;             /* centre of the second one's body */
-  real reach;              /* whatever the normal */
-  real thickness;          /* of the thinner body */
+  vec3 offset;    /* centre of the second one's body */
+  real reach;     /* whatever the normal */
+  real thickness; /* of the thinner body */
 } convex_query;
 
 enum { QUERY_OF_OTHERS = 0, QUERY_APART = 1, QUERY_NEAR = 2 };
 
-/* QUERY_APART: not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_ in its low
- * byte, SUPPORT_ in the next. */
-SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                             GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers,
-                             GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                             GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                             GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                             GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters, uint method, uint i)
+/* QUERY_APART: not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_
+ * in its low byte, SUPPORT_ in the next. */
+SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                             GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
+                             GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
+                             GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
+                             GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
+                             GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                             GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                             GLOBAL const row *orientations, GLOBAL const row *velocities,
+                             GLOBAL const Parameters *parameters, uint method, uint i)
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
-  if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER)) return QUERY_OF_OTHERS;
+  if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER))
+    return QUERY_OF_OTHERS;
   real around_a = load_row(shapes, a).w, around_b = load_row(shapes, b).w;
-  query->moves = load_pair_motion(velocities, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a), choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
+  query->moves = load_pair_motion(velocities, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
+                                  choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
   query->offset = offset_between(positions, a, b);
   real farthest = around_a + around_b + query->reach;
   if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return QUERY_APART;
   query->thickness = size_between(shapes, a, b);
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, method >> 8u};
-  query->first = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pair_leaf, a, i, 0u));
-  query->second = load_convex(shapes, convexes, poses, orientations, tables, query->offset, part_of_pair(parameters, pair_leaf, b, i, 1u));
+  hull_tables tables = {headers, vertices, planes,        face_starts,    corners,     edges,
+                        strips,  links,    mesh_vertices, mesh_triangles, method >> 8u};
+  query->first = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
+                             part_of_pair(parameters, pair_leaf, a, i, 0u));
+  query->second = load_convex(shapes, convexes, poses, orientations, tables, query->offset,
+                              part_of_pair(parameters, pair_leaf, b, i, 1u));
   return QUERY_NEAR;
 }
 
@@ -101,10 +117,15 @@ SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_q
 /* The manifold of the shapes as the query has them. */
 SHARED manifold contact_of_query(GLOBAL const Parameters *parameters, const convex_query *query, uint method)
 {
-  return within_reach(parameters, query, contact_of_parts(parameters, &query->first, &query->second, query->reach, query->thickness, method));
+  return within_reach(
+      parameters, query,
+      contact_of_parts(parameters, &query->first, &query->second, query->reach, query->thickness, method));
 }
 
-SHARED real least_of_query(const convex_query *query) { return minimum(least_size(&query->first), least_size(&query->second)); }
+SHARED real least_of_query(const convex_query *query)
+{
+  return minimum(least_size(&query->first), least_size(&query->second));
+}
 
 SHARED journey journey_of_query(GLOBAL const Parameters *parameters, const convex_query *query)
 {
@@ -112,7 +133,8 @@ SHARED journey journey_of_query(GLOBAL const Parameters *parameters, const conve
   return journey_of_step(parameters, query->moves, least_of_query(query), size);
 }
 
-/* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is approached. */
+/* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is
+ * approached. */
 SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_query *query)
 {
   mask of_a = is_triangle(&query->first);
@@ -125,54 +147,64 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
 /* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
-  if (has_points(m)) return speculation_of(parameters, m, query->offset, query->moves, journey_of_query(parameters, query), least_of_query(query)).asked;
+  if (has_points(m))
+    return speculation_of(parameters, m, query->offset, query->moves, journey_of_query(parameters, query),
+                          least_of_query(query))
+        .asked;
   return m.impact_time >= BESIDE && may_meet_triangle(parameters, query);
 }
 
-SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride, GLOBAL row *normals,
-                        GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride,
+                        GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features,
+                        uint i)
 {
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
   mark_to_follow_if(is_ahead(parameters, query, m), m, counts_of_points, i);
 }
 
-SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
-                                GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-                                GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                                GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
-                                GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
-                                GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
+SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                                GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                                GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                                GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
+                                GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                                GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
+                                GLOBAL const row *positions, GLOBAL const row *orientations,
+                                GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                                GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return; /* nothing then is left for a compiler of devices to do */
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
-                               links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
+  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
+                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
+                               positions, orientations, velocities, parameters, method, i);
   if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
   if (near != QUERY_NEAR) return;
-  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, normals, points, counts_of_points, features, i);
+  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, normals, points,
+              counts_of_points, features, i);
 }
 
-SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                           GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                           GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                           GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                           GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                                           GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                                           GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                           GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                           GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void collide_convex_half_space_item(
+    GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
+    GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
+    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
+    GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
+    GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
+    GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
   if (!HAS_FEATURE(parameters, FEATURE_CONVEX_HALF_SPACE)) return;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
+  hull_tables tables = {headers, vertices,      planes,         face_starts,        corners, edges, strips,
+                        links,   mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
   convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
                              part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
-  vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))), to_plane = offset_between(positions, body, plane);
+  vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))),
+       to_plane = offset_between(positions, body, plane);
   real radius = load_row(shapes, body).w, height = inner(up, to_plane), least = least_size(&shape);
   pair_motion moves = load_pair_motion(velocities, parameters, body, plane, radius, R(0.0));
   real reach = reach_of_pair(parameters, moves, negate(up));
@@ -189,7 +221,8 @@ SHARED void collide_convex_half_space_item(GLOBAL const uint *pair_a, GLOBAL con
   }
   if (!body_first) {
     m.normal = up;
-    for (int slot = 0; slot < 4; ++slot) m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
+    for (int slot = 0; slot < 4; ++slot)
+      m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
   store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
 }

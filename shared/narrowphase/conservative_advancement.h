@@ -1,14 +1,19 @@
-/* conservative_advancement.h - when any two moving convex shapes meet within the step, and where they are at that moment.
+/* conservative_advancement.h - when any two moving convex shapes meet within the step, and where they are at that
+ * moment.
  *
- *    start            impact          The bodies move with the velocities they start with. Along the direction of the closest
- *     .--.    v  |     .--.|          points no part of one nears the other faster than the bodies approach and their turning
- *    ( a  ) ---> |  - ( a  )| b       swings round: they are advanced by the time in which they cannot touch, again and again
- *     '--'       |     '--'|          (van den Bergen, "Ray Casting against General Convex Objects", 2004; Zhang, Lee, Kim,
+ *    start            impact          The bodies move with the velocities they start with. Along the direction of the
+ * closest
+ *     .--.    v  |     .--.|          points no part of one nears the other faster than the bodies approach and their
+ * turning ( a  ) ---> |  - ( a  )| b       swings round: they are advanced by the time in which they cannot touch,
+ * again and again
+ *     '--'       |     '--'|          (van den Bergen, "Ray Casting against General Convex Objects", 2004; Zhang, Lee,
+ * Kim,
  *      <-- gap -->                    "Interactive Continuous Collision Detection for Non-Convex Polyhedra", 2006).
  *
- * The manifold of that moment goes to the solver as one seen from the start of the step: its separations are larger by what the
- * points close until then, so the ordinary rows stop the bodies at the surface, without a substep of their own. Arms stay those of
- * the impact (setup/contact.h). Bodies that pass each other have no contact that could push them.
+ * The manifold of that moment goes to the solver as one seen from the start of the step: its separations are larger by
+ * what the points close until then, so the ordinary rows stop the bodies at the surface, without a substep of their
+ * own. Arms stay those of the impact (setup/contact.h). Bodies that pass each other have no contact that could push
+ * them.
  *
  * time_of_impact.h says which contacts are followed, and how far they are advanced.
  */
@@ -23,7 +28,7 @@ typedef struct {
   convex shape; /* at the start, world axes */
   vec3 pivot;   /* centre of the body */
   vec3 linear, angular;
-  real radius;  /* that turning swings round; 0 for a sphere in the middle of its body */
+  real radius; /* that turning swings round; 0 for a sphere in the middle of its body */
 } moving_convex;
 
 SHARED moving_convex moving_convex_of(const convex *shape, vec3 pivot, vec3 linear, vec3 angular, real radius)
@@ -33,11 +38,13 @@ SHARED moving_convex moving_convex_of(const convex *shape, vec3 pivot, vec3 line
   m.pivot = pivot;
   m.linear = linear;
   m.angular = angular;
-  m.radius = shape->kind == (uint)SHAPE_SPHERE && length_squared(subtract(shape->center, pivot)) <= R(0.0) ? R(0.0) : radius;
+  m.radius =
+      shape->kind == (uint)SHAPE_SPHERE && length_squared(subtract(shape->center, pivot)) <= R(0.0) ? R(0.0) : radius;
   return m;
 }
 
-/* Seen from a point that moves with the velocity `seen_from`: that of body a keeps the numbers near the impact small. */
+/* Seen from a point that moves with the velocity `seen_from`: that of body a keeps the numbers near the impact
+ * small. */
 SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
 {
   convex shape = m->shape;
@@ -49,7 +56,10 @@ SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
 }
 
 /* The speed at which turning brings some part of a shape forward along a unit direction, at most. */
-SHARED real swing_along(const moving_convex *m, vec3 direction) { return length_of(outer(m->angular, direction)) * m->radius; }
+SHARED real swing_along(const moving_convex *m, vec3 direction)
+{
+  return length_of(outer(m->angular, direction)) * m->radius;
+}
 SHARED real fastest_swing(const moving_convex *m) { return length_of(m->angular) * m->radius; }
 
 /* The first touch of two shapes, if they touch before the horizon. */
@@ -66,15 +76,19 @@ SHARED impact no_impact(void)
 }
 
 /* What is free by the chord along a normal that turns with one of the two. outward: the normal from it to the other. */
-SHARED real free_beside(const moving_convex *viewer, const moving_convex *other, vec3 seen_from, vec3 outward, real gap, advancement at, journey way)
+SHARED real free_beside(const moving_convex *viewer, const moving_convex *other, vec3 seen_from, vec3 outward, real gap,
+                        advancement at, journey way)
 {
   vec3 offset = subtract(other->pivot, viewer->pivot);
   real speed = length_of(subtract(other->linear, viewer->linear)), distance = length_of(offset) + speed * way.horizon;
-  real acceleration = acceleration_seen(length_of(viewer->angular), distance, speed, length_of(other->angular), other->radius);
+  real acceleration =
+      acceleration_seen(length_of(viewer->angular), distance, speed, length_of(other->angular), other->radius);
   real span = span_of(at, gap, acceleration, way);
-  convex viewer_then = shape_at(viewer, seen_from, at.time + span), other_then = shape_at(other, seen_from, at.time + span);
+  convex viewer_then = shape_at(viewer, seen_from, at.time + span),
+         other_then = shape_at(other, seen_from, at.time + span);
   vec3 outward_then = rotate(turn_within(viewer->angular, span), outward);
-  real gap_then = gap_along(&viewer_then, &other_then, outward_then) - core_radius(&viewer_then) - core_radius(&other_then);
+  real gap_then =
+      gap_along(&viewer_then, &other_then, outward_then) - core_radius(&viewer_then) - core_radius(&other_then);
   return free_by_chord(gap, gap_then, span, acceleration, way);
 }
 
@@ -86,7 +100,8 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
     convex shape_a = shape_at(a, a->linear, met.at.time), shape_b = shape_at(b, a->linear, met.at.time);
     convex_pair pair = pair_of(&shape_a, &shape_b);
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
-    vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center) : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
+    vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center)
+                             : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
     gap_wanted wanted = {way.fastest * (way.horizon - met.at.time) + radii, way.roughly, radii};
     gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
     vec3 along = rotate(pair.axes, near.contact.normal);
@@ -103,7 +118,8 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
   return met;
 }
 
-/* The same against all that lies below a plane. up: its unit normal; height: of the plane along it; rising: how fast it nears the body. */
+/* The same against all that lies below a plane. up: its unit normal; height: of the plane along it; rising: how fast it
+ * nears the body. */
 SHARED real gap_above_plane(const moving_convex *body, vec3 up, real height, real rising, real time)
 {
   convex shape = shape_at(body, body->linear, time);
@@ -119,15 +135,18 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
   met.normal = negate(up);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS && met.at.active; ++round) {
     met.gap = gap_above_plane(body, up, height, rising, met.at.time);
-    real span = span_of(met.at, met.gap, acceleration, way), gap_then = gap_above_plane(body, up, height, rising, met.at.time + span);
-    met.at = advanced(met.at, round, met.gap, rising + swing_along(body, up), free_by_chord(met.gap, gap_then, span, acceleration, way), way);
+    real span = span_of(met.at, met.gap, acceleration, way),
+         gap_then = gap_above_plane(body, up, height, rising, met.at.time + span);
+    met.at = advanced(met.at, round, met.gap, rising + swing_along(body, up),
+                      free_by_chord(met.gap, gap_then, span, acceleration, way), way);
   }
   return met;
 }
 
-/* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts are to be those
- * of that moment. */
-SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset, pair_motion moves, journey way, speculation s)
+/* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts
+ * are to be those of that moment. */
+SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset,
+                      pair_motion moves, journey way, speculation s)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex a = moving_convex_of(first, none, moves.a.linear, moves.a.angular, moves.radius_a);
@@ -141,11 +160,14 @@ SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex
 }
 
 /* The same for a body seen from its own centre above a plane; `height` becomes that of the plane then. */
-SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height, motion body, real radius, motion plane, journey way, speculation s)
+SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height, motion body,
+                            real radius, motion plane, journey way, speculation s)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex moving = moving_convex_of(shape, none, body.linear, body.angular, radius);
-  encounter met = encounter_of(parameters, s, s.reached ? first_impact_on_plane(&moving, up, *height, plane.linear, way).at : start_advancement(0), way);
+  encounter met = encounter_of(
+      parameters, s,
+      s.reached ? first_impact_on_plane(&moving, up, *height, plane.linear, way).at : start_advancement(0), way);
   if (met.at_impact) {
     *shape = shape_at(&moving, moving.linear, met.time);
     *height = *height - inner(up, subtract(body.linear, plane.linear)) * met.time;

@@ -1,4 +1,5 @@
-/* contact_patch.h - the points of a contact in its own axes: where two supporting features overlap, seen along its normal.
+/* contact_patch.h - the points of a contact in its own axes: where two supporting features overlap, seen along its
+ * normal.
  *
  * Used by all that find a normal first (convex_contact.h, triangle_contact.h, sat_split.h): the features are clipped
  * (polygon_clip.h), the points reduced to four (contact_points.h), and placed in the world.
@@ -33,8 +34,8 @@ typedef struct {
   mask b_moves;
 } feature_overlap;
 
-SHARED void start_overlap(feature_overlap *overlap, const convex *a, const support_face *face_a, const convex *b, const support_face *face_b,
-                          const contact_axes *axes, real reach)
+SHARED void start_overlap(feature_overlap *overlap, const convex *a, const support_face *face_a, const convex *b,
+                          const support_face *face_b, const contact_axes *axes, real reach)
 {
   make_outline(&overlap->a, a, face_a, axes);
   make_outline(&overlap->b, b, face_b, axes);
@@ -52,12 +53,16 @@ SHARED void start_overlap(feature_overlap *overlap, const convex *a, const suppo
 /* Height of the surface of b above a point. */
 SHARED real height_of_b(const feature_overlap *overlap, const convex *a, const convex *b, clip_point p)
 {
-  real on_a = height_of(&overlap->a, p.u, p.v) + core_radius(a), on_b = height_of(&overlap->b, p.u, p.v) - core_radius(b);
+  real on_a = height_of(&overlap->a, p.u, p.v) + core_radius(a),
+       on_b = height_of(&overlap->b, p.u, p.v) - core_radius(b);
   return overlap->b_moves ? on_a + p.separation : on_b;
 }
 
 /* The overlap misses the deepest point of the shapes: the contact then lies where no features meet face to face. */
-SHARED mask misses_deepest(const reduction *r, real gap) { return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead; }
+SHARED mask misses_deepest(const reduction *r, real gap)
+{
+  return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead;
+}
 SHARED natural code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
 
 /* Where the two supporting features overlap. False if there is no contact of that kind. */

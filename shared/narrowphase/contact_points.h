@@ -1,15 +1,16 @@
 /* contact_points.h - at most four points of a stream of any length, that span nearly all it spans, and its deepest.
  *
- * The choice of point_reduction.h for points that pass by instead of lying in an array. The first pass keeps them, and the
- * others read them there; a stream too long for that runs once a pass.
+ * The choice of point_reduction.h for points that pass by instead of lying in an array. The first pass keeps them, and
+ * the others read them there; a stream too long for that runs once a pass.
  *
  *   pass 0   the farthest along a fixed direction (slot 0), and the deepest
  *   pass 1   the farthest from slot 0 (slot 2)
  *   pass 2   the farthest to the right and left of the line between them (slots 1, 3)
  *   pass 3   if one side is empty: the farthest outside the triangle of the other three
  *
- * The deepest, if not among them, then replaces the nearest. Not the deepest first: at rest all are nearly as deep as each
- * other, noise would choose, and every slot would change its point from step to step. Ties go to the earlier point.
+ * The deepest, if not among them, then replaces the nearest. Not the deepest first: at rest all are nearly as deep as
+ * each other, noise would choose, and every slot would change its point from step to step. Ties go to the earlier
+ * point.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
 #define TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
@@ -57,7 +58,8 @@ SHARED void reduce_step(reduction *r, clip_point candidate)
     r->first = challenged(r->first, candidate, candidate.u * R(0.93) + candidate.v * R(0.37), r->lead);
     r->deepest = challenged(r->deepest, candidate, -candidate.separation, r->lead);
   } else if (r->pass == 1) {
-    r->second = challenged(r->second, candidate, squared_distance(candidate, r->first.point), r->second.score * R(1e-3));
+    r->second =
+        challenged(r->second, candidate, squared_distance(candidate, r->first.point), r->second.score * R(1e-3));
   } else if (r->pass == 2) {
     real across = area_left_of(r->first.point, r->second.point, candidate);
     r->left = challenged(r->left, candidate, across, r->left.score * R(1e-3));
@@ -95,7 +97,8 @@ SHARED mask next_pass(reduction *r)
 
 SHARED void finish_reduction(clip_point *four, const reduction *r)
 {
-  mask right_only = r->right.point.valid & (!r->left.point.valid), left_only = r->left.point.valid & (!r->right.point.valid);
+  mask right_only = r->right.point.valid & (!r->left.point.valid),
+       left_only = r->left.point.valid & (!r->right.point.valid);
   four[0] = r->first.point;
   four[1] = choose_point(left_only, r->outermost.point, r->right.point);
   four[2] = r->second.point;

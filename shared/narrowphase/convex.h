@@ -1,13 +1,14 @@
 /* convex.h - any convex shape as the narrowphase sees it: a point farthest in a direction, and a radius around it.
  *
- *      core, sharp            core + radius           Sphere: a point.  Capsule: a segment along Y.  Box, cylinder, hull:
- *      +---------+             .---------.            themselves, radius 0.  The tests work on the core and subtract the
- *      |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
+ *      core, sharp            core + radius           Sphere: a point.  Capsule: a segment along Y.  Box, cylinder,
+ * hull:
+ *      +---------+             .---------.            themselves, radius 0.  The tests work on the core and subtract
+ * the |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
  *      +---------+             `---------'            and keeps the full precision of its distance.
  *
- * A pair is moved into axes where precision lies (pair_of): those of the larger shape, whose faces are then exact, about
- * the middle of the smaller one, so that the numbers near the contact are small. Support mappings after G. van den
- * Bergen, "Collision Detection in Interactive 3D Environments", 2003.
+ * A pair is moved into axes where precision lies (pair_of): those of the larger shape, whose faces are then exact,
+ * about the middle of the smaller one, so that the numbers near the contact are small. Support mappings after G. van
+ * den Bergen, "Collision Detection in Interactive 3D Environments", 2003.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_H
@@ -34,9 +35,10 @@ SHARED mask is_cylinder(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) &
 SHARED mask is_capsule(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) && shape->kind == (uint)SHAPE_CAPSULE; }
 SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(FEATURE_TREES) && shape->kind == (uint)SHAPE_TRIANGLE; }
 
-/* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other than
- * 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
-SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, natural hull, hull_tables tables)
+/* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other
+ * than 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
+SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, natural hull,
+                        hull_tables tables)
 {
   convex shape;
   shape.kind = kind;
@@ -53,7 +55,10 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
   return shape;
 }
 
-SHARED vec3 mesh_vertex(hull_tables tables, uint triangle, uint corner) { return xyz(load_row(tables.mesh_vertices, tables.mesh_triangles[triangle * 6u + corner])); }
+SHARED vec3 mesh_vertex(hull_tables tables, uint triangle, uint corner)
+{
+  return xyz(load_row(tables.mesh_vertices, tables.mesh_triangles[triangle * 6u + corner]));
+}
 
 /* A triangle of a mesh whose axes have their origin at `offset`. */
 SHARED convex triangle_of(hull_tables tables, uint triangle, mat3 rotation, vec3 offset)
@@ -103,8 +108,8 @@ SHARED vec3 around_axis(vec3 v)
   return make_vec3(v.x / across, R(0.0), v.z / across);
 }
 
-/* The five supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom, to
- * the lowest vertex. Of a triangle: to its first corner. */
+/* The five supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom,
+ * to the lowest vertex. Of a triangle: to its first corner. */
 SHARED vec3 support_of_box(vec3 extent, vec3 direction)
 {
   return make_vec3(extent.x * sign_of(direction.x), extent.y * sign_of(direction.y), extent.z * sign_of(direction.z));
@@ -129,7 +134,10 @@ SHARED natural support_vertex(const convex *shape, vec3 direction)
 {
   return hull_support(&shape->tables, &shape->hull, direction, shape->size);
 }
-SHARED vec3 hull_vertex(const convex *shape, natural k) { return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k)); }
+SHARED vec3 hull_vertex(const convex *shape, natural k)
+{
+  return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k));
+}
 
 SHARED vec3 support_of_triangle(const convex *shape, vec3 direction)
 {
@@ -153,10 +161,10 @@ SHARED vec3 support_of(const convex *shape, vec3 direction)
 
 /* Two shapes in the axes of the larger one, about the middle of the smaller one. */
 typedef struct {
-  convex a, b; /* a: the larger */
-  mat3 axes;   /* from these axes to the world's */
-  vec3 origin; /* of these axes, seen from the centre of body a, world axes */
-  vec3 up;     /* where to part what has no direction of its own: body b goes up in the world */
+  convex a, b;  /* a: the larger */
+  mat3 axes;    /* from these axes to the world's */
+  vec3 origin;  /* of these axes, seen from the centre of body a, world axes */
+  vec3 up;      /* where to part what has no direction of its own: body b goes up in the world */
   mask swapped; /* a here is b of the caller */
 } convex_pair;
 
@@ -177,8 +185,8 @@ SHARED convex_pair pair_of(const convex *a, const convex *b)
   return pair;
 }
 
-/* The point of the Minkowski difference a - b farthest in a unit direction. Shapes overlap where the difference holds the
- * origin. */
+/* The point of the Minkowski difference a - b farthest in a unit direction. Shapes overlap where the difference holds
+ * the origin. */
 SHARED vec3 support_of_difference(const convex *a, const convex *b, vec3 direction)
 {
   return subtract(support_of(a, direction), support_of(b, negate(direction)));

@@ -3,8 +3,8 @@
  *   pair_of -> normal and gap by one of four methods -> a face's normal instead, if as good -> supporting features
  *           -> their overlap seen along the normal -> four points
  *
- * Where cores are apart gjk.h has both; a separating axis that is not that of the closest points would have no contact on
- * it. Where they overlap the method decides:
+ * Where cores are apart gjk.h has both; a separating axis that is not that of the closest points would have no contact
+ * on it. Where they overlap the method decides:
  *
  *   CONVEX_EXPANSION   epa.h: the least depth, 1.7 KiB private
  *   CONVEX_SAMPLED     sampled_depth.h: near the least depth, little memory
@@ -58,9 +58,9 @@ SHARED core_contact prefer_faces(core_contact contact, const convex *a, const co
   return contact;
 }
 
-/* Depth and normal of two cores that overlap. hint: as sampled_penetration; tolerance: how much deeper than the least depth the
- * answer may be. Round shapes outlast the room of the polytope, and fixed directions miss the least depth: distance queries then
- * give what is lacking. */
+/* Depth and normal of two cores that overlap. hint: as sampled_penetration; tolerance: how much deeper than the least
+ * depth the answer may be. Round shapes outlast the room of the polytope, and fixed directions miss the least depth:
+ * distance queries then give what is lacking. */
 SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 hint, real tolerance, natural method)
 {
   core_contact found = {up, R(-1e30)};
@@ -70,7 +70,8 @@ SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 
   } else if (MAY_OCCUR(FEATURE_EXPANSION)) {
     epa_result expanded = penetration_by_expansion(a, b, up, tolerance);
     found = expanded.contact;
-    rough = expanded.error > tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) + R(1e-5) * magnitude(found.gap);
+    rough = expanded.error > tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) +
+                                 R(1e-5) * magnitude(found.gap);
   }
   return rough ? refined_by_distance(found, a, b) : found;
 }
@@ -82,14 +83,16 @@ typedef struct {
   vec3 on_b;
 } core_meeting;
 
-/* by_axes: the contact is the best axis of two polytopes; their closest points are only wanted where it parts them. limit: cores
- * farther apart than this make no contact. */
-SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, natural method, mask by_axes, core_contact axis)
+/* by_axes: the contact is the best axis of two polytopes; their closest points are only wanted where it parts them.
+ * limit: cores farther apart than this make no contact. */
+SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, natural method, mask by_axes,
+                                    core_contact axis)
 {
   const convex *a = &pair->a, *b = &pair->b;
   core_meeting met = {axis, 0, b->center};
   if (by_axes && axis.gap <= R(0.0)) return met;
-  gjk_result near = closest_points_from(a, b, whole_gap(limit), by_axes ? negate(axis.normal) : subtract(a->center, b->center));
+  gjk_result near =
+      closest_points_from(a, b, whole_gap(limit), by_axes ? negate(axis.normal) : subtract(a->center, b->center));
   met.apart = !near.overlapping;
   if (met.apart) {
     met.contact = near.contact;
@@ -108,13 +111,14 @@ SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
   return single_contact(pair->swapped ? negate(placed) : placed, pair->origin, gap, 0);
 }
 
-/* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made. slop:
- * penetration left in place. */
+/* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made.
+ * slop: penetration left in place. */
 SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, natural method)
 {
   convex_pair pair = pair_of(first, second);
   const convex *a = &pair.a, *b = &pair.b;
-  real radii = core_radius(a) + core_radius(b), noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
+  real radii = core_radius(a) + core_radius(b),
+       noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
   real lead = lead_of_faces(a, b, slop);
   mask by_axes = MAY_OCCUR(FEATURE_AXES) && method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b);
   core_contact contact = {pair.up, R(-1e30)};
@@ -122,14 +126,17 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
     contact = separating_hull_axis(a, b, lead, reach).contact;
     if (contact.gap >= reach) return no_contact(&pair, contact.normal, contact.gap);
   }
-  /* Where features meet: along the axis found, along a face's normal that is nearly as good, along one equal but for rounding. */
+  /* Where features meet: along the axis found, along a face's normal that is nearly as good, along one equal but for
+   * rounding. */
   core_meeting met = {contact, 0, b->center};
   contact_patch patch;
-  mask found = MAY_OCCUR(FEATURE_FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) && field_patch(&patch, a, b, reach, minimum(reach, lead));
+  mask found = MAY_OCCUR(FEATURE_FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) &&
+               field_patch(&patch, a, b, reach, minimum(reach, lead));
   if (found) return kept_within(placed_manifold(&pair, &patch), reach);
   for (int attempt = by_axes ? 0 : 1; attempt < 3 && !found; ++attempt) {
     if (attempt == 1) met = core_meeting_of(&pair, reach + radii, lead, method, by_axes, contact);
-    if (attempt == 1 && met.contact.gap - radii >= reach) return no_contact(&pair, met.contact.normal, met.contact.gap - radii);
+    if (attempt == 1 && met.contact.gap - radii >= reach)
+      return no_contact(&pair, met.contact.normal, met.contact.gap - radii);
     contact = attempt == 0 ? contact : prefer_faces(met.contact, a, b, attempt == 1 ? lead : noise);
     found = overlap_patch(&patch, a, b, contact, reach);
   }

@@ -1,8 +1,10 @@
 /* convex_half_space.h - the manifold of any convex shape on a half-space: its supporting feature, corner by corner.
  *
  *         .-----.
- *        /       \       The face, edge or point turned to the plane; of its corners those within reach, reduced to four
- *       '----+----'      as in contact_points.h. The farthest point of the shape counts for the deepest, so a rounded or
+ *        /       \       The face, edge or point turned to the plane; of its corners those within reach, reduced to
+ * four
+ *       '----+----'      as in contact_points.h. The farthest point of the shape counts for the deepest, so a rounded
+ * or
  *    ------------------  steep shape loses nothing.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_HALF_SPACE_H
@@ -22,8 +24,8 @@ SHARED clip_point corner_above_plane(vec3 corner, tangents axes, vec3 up, real h
   return point;
 }
 
-/* The shape's centre must be near the origin it is seen from (its own body's centre). The normal points from the shape into
- * the half-space; points are offsets from the same origin, midway between the surfaces. */
+/* The shape's centre must be near the origin it is seen from (its own body's centre). The normal points from the shape
+ * into the half-space; points are offsets from the same origin, midway between the surfaces. */
 SHARED manifold convex_on_half_space(const convex *shape, vec3 up, real height, real reach)
 {
   tangents axes = tangents_of(up);

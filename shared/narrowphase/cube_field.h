@@ -1,8 +1,9 @@
-/* cube_field.h - contacts of two polytopes from their surfaces twice told: as points, and as a field of heights over a cube.
+/* cube_field.h - contacts of two polytopes from their surfaces twice told: as points, and as a field of heights over a
+ * cube.
  *
- *   Each shape holds the points of its surface (corners, and three along each edge) and its field: a cube around its middle, each
- *   cell of which names the face that lies in the direction of the cell's middle. A point of one shape is looked up in the field
- *   of the other; the plane of the face named there tells how high above the surface the point is.
+ *   Each shape holds the points of its surface (corners, and three along each edge) and its field: a cube around its
+ * middle, each cell of which names the face that lies in the direction of the cell's middle. A point of one shape is
+ * looked up in the field of the other; the plane of the face named there tells how high above the surface the point is.
  *
  *        .---.---.---.        points of a (o) over the field of b and points of b over the field of a; the deepest of
  *        |   | \ |   |        all names the normal, those over faces of the same normal are the contact
@@ -10,10 +11,10 @@
  *          ____|__o_____      The "dual surface / height field" contact of the talks (E. Coumans, 2011 and 2013;
  *         |    b        |     R. Sathe, "Collision detection shader using cube-maps", ShaderX5, 2006)
  *
- * Approximate: a cell names one face, and an edge is four stretches long. Four cells around the direction are asked, each face no
- * farther out than the surface is, so a height is never too large (docs/pipeline.md has the errors). Where no point of either
- * touches the other, as where two long edges cross, or one lies deep in it, convex_contact() goes on as for other shapes: nothing
- * passes through.
+ * Approximate: a cell names one face, and an edge is four stretches long. Four cells around the direction are asked,
+ * each face no farther out than the surface is, so a height is never too large (docs/pipeline.md has the errors). Where
+ * no point of either touches the other, as where two long edges cross, or one lies deep in it, convex_contact() goes on
+ * as for other shapes: nothing passes through.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CUBE_FIELD_H
 #define TANDEM_SHARED_NARROWPHASE_CUBE_FIELD_H
@@ -37,14 +38,20 @@ SHARED vec3 middle_of_field(const convex *shape)
 /* --- the surface as points ---------------------------------------------------------------------------- */
 
 SHARED uint corners_of_polytope(const convex *shape) { return is_hull(shape) ? shape->hull.vertices : 8u; }
-SHARED uint surface_points_of(const convex *shape) { return corners_of_polytope(shape) + edges_of(shape) * EDGE_POINTS; }
+SHARED uint surface_points_of(const convex *shape)
+{
+  return corners_of_polytope(shape) + edges_of(shape) * EDGE_POINTS;
+}
 
 /* In the shape's axes. */
 SHARED vec3 surface_point(const convex *shape, uint k)
 {
   uint corners = corners_of_polytope(shape);
   if (k < corners && is_hull(shape)) return hull_vertex(shape, k);
-  if (k < corners) return multiply(make_vec3((k & 1u) == 1u ? R(1.0) : R(-1.0), (k & 2u) == 2u ? R(1.0) : R(-1.0), (k & 4u) == 4u ? R(1.0) : R(-1.0)), shape->size);
+  if (k < corners)
+    return multiply(make_vec3((k & 1u) == 1u ? R(1.0) : R(-1.0), (k & 2u) == 2u ? R(1.0) : R(-1.0),
+                              (k & 4u) == 4u ? R(1.0) : R(-1.0)),
+                    shape->size);
   polytope_edge edge = edge_of(shape, (k - corners) / EDGE_POINTS);
   return add_scaled(edge.start, edge.along, to_real((k - corners) % EDGE_POINTS + 1u) / R(4.0));
 }
@@ -74,9 +81,11 @@ SHARED field_height height_above_field(const convex *shape, vec3 own)
   cube_place at = place_on_cube(subtract(own, middle_of_field(shape)));
   uint cells = shape->hull.map_side;
   real half_cell = R(1.0) / to_real(cells);
-  GLOBAL const uint *faces = shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u + 2u * shape->hull.corners + 6u * cells * cells;
+  GLOBAL const uint *faces = shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u +
+                             2u * shape->hull.corners + 6u * cells * cells;
   for (uint k = 0u; k < 4u; ++k) {
-    cube_place near = {at.side, at.u + ((k & 1u) == 1u ? half_cell : -half_cell), at.v + ((k & 2u) == 2u ? half_cell : -half_cell)};
+    cube_place near = {at.side, at.u + ((k & 1u) == 1u ? half_cell : -half_cell),
+                       at.v + ((k & 2u) == 2u ? half_cell : -half_cell)};
     best = higher_face(best, shape, own, faces[cell_of_place(near, cells)]);
   }
   return best;
@@ -99,7 +108,9 @@ typedef struct {
 SHARED void take_height(contact_patch *patch, clip_point point, real height)
 {
   for (int slot = 0; slot < 4; ++slot)
-    if (patch->point[slot].u == point.u && patch->point[slot].v == point.v && patch->point[slot].separation == point.separation) patch->height[slot] = height;
+    if (patch->point[slot].u == point.u && patch->point[slot].v == point.v &&
+        patch->point[slot].separation == point.separation)
+      patch->height[slot] = height;
 }
 
 /* sense: 1 for points of a in the field of b, -1 for the other way round. */

@@ -1,19 +1,21 @@
 /* epa.h - how deep two convex cores overlap, and along which normal: the expanding polytope algorithm.
  *
- *        .-----.        A polytope inside a - b grows where it is nearest to the origin, until the face found there is a
+ *        .-----.        A polytope inside a - b grows where it is nearest to the origin, until the face found there is
+ * a
  *      .'   o   '.      face of a - b itself, or the support beyond it no farther than rounding (G. van den Bergen,
  *      |    |----*      "Proximity queries and penetration depth computation on 3D game objects", GDC 2001).
  *      '.       .'
  *        '-----'        Every normal tried gives a true upper bound of the depth; the least of them is the answer,
  *                       whatever became of the polytope.
  *
- * It starts from the points of a - b farthest apart rather than from the simplex of gjk.h: that simplex is flat just where
- * shapes touch. For the same reason distances are signed: an origin outside the polytope, by rounding or because the shapes
- * are a little apart, only makes the nearest face the one it is farthest outside of. Where a - b itself is flat (segments,
- * points) its plane gives the normal.
+ * It starts from the points of a - b farthest apart rather than from the simplex of gjk.h: that simplex is flat just
+ * where shapes touch. For the same reason distances are signed: an origin outside the polytope, by rounding or because
+ * the shapes are a little apart, only makes the nearest face the one it is farthest outside of. Where a - b itself is
+ * flat (segments, points) its plane gives the normal.
  *
- * The faces that a new point sees are removed. Which ones they are is a matter of rounding, so the hole is closed edge by
- * edge: each edge of a removed face whose other face stays gets a new face. The surface stays closed whatever was removed.
+ * The faces that a new point sees are removed. Which ones they are is a matter of rounding, so the hole is closed edge
+ * by edge: each edge of a removed face whose other face stays gets a new face. The surface stays closed whatever was
+ * removed.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_EPA_H
 #define TANDEM_SHARED_NARROWPHASE_EPA_H
@@ -30,7 +32,8 @@ typedef struct {
   vec3 w[EPA_VERTICES];
   vec3 normal[EPA_FACES]; /* outward; 0 for a face without area, which is never nearest and never seen */
   real distance[EPA_FACES];
-  uint corners[EPA_FACES]; /* three vertices of 8 bits, counter-clockwise seen from outside; EPA_TRIED: no point lies beyond */
+  uint corners[EPA_FACES]; /* three vertices of 8 bits, counter-clockwise seen from outside; EPA_TRIED: no point lies
+                              beyond */
   int vertices, faces;
 } polytope;
 
@@ -41,7 +44,8 @@ typedef struct {
 
 SHARED uint corner_of(uint corners, uint k) { return (corners >> (k * 8u)) & 255u; }
 
-/* The normal from the two shorter edges, whose product is the most accurate; 0 if the triangle is flatter than rounding. */
+/* The normal from the two shorter edges, whose product is the most accurate; 0 if the triangle is flatter than
+ * rounding. */
 SHARED vec3 triangle_normal(vec3 p, vec3 q, vec3 r, real noise)
 {
   vec3 pq = subtract(q, p), qr = subtract(r, q), rp = subtract(p, r);
@@ -141,7 +145,9 @@ SHARED mask has_vertex(const polytope *hull, vec3 w)
 }
 
 /* The supports along a direction and against it. */
-typedef struct { vec3 ahead, behind; } difference_span;
+typedef struct {
+  vec3 ahead, behind;
+} difference_span;
 
 SHARED difference_span span_of_difference(const convex *a, const convex *b, vec3 direction)
 {
@@ -158,7 +164,8 @@ SHARED difference_span span_of_difference(const convex *a, const convex *b, vec3
 SHARED vec3 farther_support(const convex *a, const convex *b, vec3 direction, vec3 from)
 {
   difference_span span = span_of_difference(a, b, direction);
-  return inner(subtract(from, span.behind), direction) > inner(subtract(span.ahead, from), direction) ? span.behind : span.ahead;
+  return inner(subtract(from, span.behind), direction) > inner(subtract(span.ahead, from), direction) ? span.behind
+                                                                                                      : span.ahead;
 }
 
 SHARED vec3 unit_or(vec3 v, vec3 otherwise)
@@ -168,7 +175,8 @@ SHARED vec3 unit_or(vec3 v, vec3 otherwise)
   return scale(v, R(1.0) / length);
 }
 
-/* Points of a - b far apart, as many as its dimension and one more. Returns how many; spans are compared with `flat`. */
+/* Points of a - b far apart, as many as its dimension and one more. Returns how many; spans are compared with
+ * `flat`. */
 SHARED int spread_points(vec3 *point, const convex *a, const convex *b, real flat)
 {
   real widest = R(-1.0);
@@ -231,9 +239,10 @@ SHARED void start_polytope(polytope *hull, const vec3 *point, real noise)
   add_face(hull, q, 0u, 3u, noise);
 }
 
-/* Until no face is left that could lie nearer than the best support found. A face beyond which nothing lies is set aside, not
- * the end of it all: by rounding it may be one that is hardly a face. */
-SHARED void expand_to_depth(epa_result *result, polytope *hull, const convex *a, const convex *b, real tolerance, real noise)
+/* Until no face is left that could lie nearer than the best support found. A face beyond which nothing lies is set
+ * aside, not the end of it all: by rounding it may be one that is hardly a face. */
+SHARED void expand_to_depth(epa_result *result, polytope *hull, const convex *a, const convex *b, real tolerance,
+                            real noise)
 {
   real enough = tolerance + R(2.0) * ROUNDING * bounding_radius_of(b);
   result->contact = contact_along(a, b, hull->normal[0]);
@@ -255,7 +264,8 @@ SHARED void expand_to_depth(epa_result *result, polytope *hull, const convex *a,
   }
 }
 
-/* up: where to part shapes that have no better direction. tolerance: how much deeper than the least depth the answer may be. */
+/* up: where to part shapes that have no better direction. tolerance: how much deeper than the least depth the answer
+ * may be. */
 SHARED epa_result penetration_by_expansion(const convex *a, const convex *b, vec3 up, real tolerance)
 {
   real size = bounding_radius_of(a) + bounding_radius_of(b), noise = R(4.0) * ROUNDING * size;

@@ -6,8 +6,9 @@
  *             |         |               |
  *            [0]       [1]             [2]               the items of a group take them one after another
  *
- * A kernel of its own: it takes twice the registers of collide_box_box, for which all pairs would pay. Few pairs are marked, so a group
- * gathers those of FOLLOW_PAIRS: were each item to look at its own pair, a device would spend more on starting items than on pairs.
+ * A kernel of its own: it takes twice the registers of collide_box_box, for which all pairs would pay. Few pairs are
+ * marked, so a group gathers those of FOLLOW_PAIRS: were each item to look at its own pair, a device would spend more
+ * on starting items than on pairs.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
@@ -16,17 +17,19 @@
 #include "shared/narrowphase/box_box.h"
 #include "shared/narrowphase/middle_ball.h"
 
-/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would meet. The axis
- * turns with the box whose face it is square to. */
+/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would
+ * meet. The axis turns with the box whose face it is square to. */
 SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
 {
   real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
-  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(start.offset) + speed * way.horizon;
+  real speed = length_of(subtract(moves.a.linear, moves.b.linear)),
+       distance = length_of(start.offset) + speed * way.horizon;
   real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
   real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
-    box_pair then = boxes_after(start, moves, at.time), now = along_best_axis(then, then.offset, slop, R(0.0), NEVER_ALONG);
+    box_pair then = boxes_after(start, moves, at.time),
+             now = along_best_axis(then, then.offset, slop, R(0.0), NEVER_ALONG);
     mask face_of_b = (now.code >= 3u) & (now.code < 6u);
     real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
     vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
@@ -38,17 +41,20 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
   return at;
 }
 
-/* With the ball in the middle of a box that hits a face of the other from before it. then: the boxes at the moment of the impact. */
+/* With the ball in the middle of a box that hits a face of the other from before it. then: the boxes at the moment of
+ * the impact. */
 SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
 {
   ball_owner owner = owner_of_ball(moves);
   if (!owner.in_a && !owner.in_b) return m;
-  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : then.offset, outward = owner.in_a ? negate(m.normal) : m.normal;
+  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : then.offset,
+       outward = owner.in_a ? negate(m.normal) : m.normal;
   vec3 from_wall = owner.in_a ? negate(then.offset) : then.offset;
   oriented_box wall = owner.in_a ? then.b : then.a, box = owner.in_a ? then.a : then.b;
   box_frame face = frame_of(wall, most_parallel_axis(wall, outward));
   real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, from_wall) - face.extent;
-  if (magnitude(inner(face.u, from_wall)) >= face.extent_u || magnitude(inner(face.v, from_wall)) >= face.extent_v) return m;
+  if (magnitude(inner(face.u, from_wall)) >= face.extent_u || magnitude(inner(face.v, from_wall)) >= face.extent_v)
+    return m;
   if (side * inner(face.axis, outward) < WITH_FACE) return m;
   return with_middle_ball(m, middle, outward, height, CORE_SHARE * least_of(box.extent));
 }
@@ -63,8 +69,8 @@ SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, man
   return s;
 }
 
-/* A pair that does not come far and overlaps at the end of its way has met on it, and keeps its contacts (encounter_of): so does nearly
- * all that comes to rest. */
+/* A pair that does not come far and overlaps at the end of its way has met on it, and keeps its contacts
+ * (encounter_of): so does nearly all that comes to rest. */
 SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes *pair, manifold start)
 {
   if (pair->way.far || !has_points(start)) return 0;
@@ -72,9 +78,10 @@ SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes 
   return along_best_axis(end, end.offset, parameters->slop, R(0.0), NEVER_ALONG).gap <= pair->way.touching;
 }
 
-/* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little later, when more
- * overlaps. met.time becomes that of the manifold, then the boxes of that moment. */
-SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const moving_boxes *pair, encounter *met, box_pair *then)
+/* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little
+ * later, when more overlaps. met.time becomes that of the manifold, then the boxes of that moment. */
+SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const moving_boxes *pair, encounter *met,
+                                  box_pair *then)
 {
   manifold m;
   for (uint attempt = 0u; attempt < 2u; ++attempt) {
@@ -88,10 +95,11 @@ SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const mov
   return m;
 }
 
-SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes, GLOBAL const row *positions,
-                                 GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                                 GLOBAL uint *features, uint i)
+SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes,
+                                 GLOBAL const row *positions, GLOBAL const row *orientations,
+                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, pair_a[i], pair_b[i]);
@@ -101,7 +109,8 @@ SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *p
     return;
   }
   speculation s = speculation_of_boxes(parameters, start, &pair);
-  encounter met = encounter_of(parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
+  encounter met = encounter_of(
+      parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
   box_pair then;
   manifold m = contact_at_impact(parameters, &pair, &met, &then);
   met.at_impact = met.at_impact && has_points(m);
@@ -110,28 +119,32 @@ SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *p
   store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
 }
 
-SHARED mask is_marked_box_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *counts_of_points, uint i)
+SHARED mask is_marked_box_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                               GLOBAL const uint *counts_of_points, uint i)
 {
   return counts_of_points[i] >= TO_FOLLOW && both_boxes(traits, pair_a[i], pair_b[i]);
 }
 
 /* local_memory: how many are marked; their numbers, in any order. */
-SHARED void follow_boxes_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
-                               GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                               GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                               GLOBAL uint *counts_of_points, GLOBAL uint *features, LOCAL uint *local_memory, uint group)
+SHARED void follow_boxes_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                               GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
+                               GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                               GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                               GLOBAL uint *counts_of_points, GLOBAL uint *features, LOCAL uint *local_memory,
+                               uint group)
 {
   const uint first = group * FOLLOW_PAIRS, pairs = counts[COUNT_PAIRS];
   const uint count = first < pairs ? (pairs - first < FOLLOW_PAIRS ? pairs - first : FOLLOW_PAIRS) : 0u;
   FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
   FOR_EACH_ITEM(k, count)
   {
-    if (is_marked_box_pair(pair_a, pair_b, traits, counts_of_points, first + k)) local_memory[1u + LOCAL_ADD(local_memory, 1u)] = first + k;
+    if (is_marked_box_pair(pair_a, pair_b, traits, counts_of_points, first + k))
+      local_memory[1u + LOCAL_ADD(local_memory, 1u)] = first + k;
   }
   FOR_EACH_ITEM(k, local_memory[0])
   {
-    follow_pair_of_boxes(pair_a, pair_b, shapes, positions, orientations, velocities, parameters, counts, normals, points, counts_of_points, features,
-                         local_memory[1u + k]);
+    follow_pair_of_boxes(pair_a, pair_b, shapes, positions, orientations, velocities, parameters, counts, normals,
+                         points, counts_of_points, features, local_memory[1u + k]);
   }
 }
 

@@ -2,8 +2,8 @@
  *
  *   collide_convex or reduce_contacts -> follow_convexes: contacts of the impact, those of the start, or none
  *
- * A kernel of its own: few pairs are followed, and in one kernel with the manifolds of all a device would wait for the slowest of
- * them, with the registers of both. The bodies are advanced as conservative_advancement.h says.
+ * A kernel of its own: few pairs are followed, and in one kernel with the manifolds of all a device would wait for the
+ * slowest of them, with the registers of both. The bodies are advanced as conservative_advancement.h says.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
@@ -12,7 +12,8 @@
 #include "shared/narrowphase/middle_ball.h"
 
 /* Shapes without a contact at the start are followed only because one of them is a triangle. */
-SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, const convex_query *query, manifold start, journey way)
+SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, const convex_query *query, manifold start,
+                                        journey way)
 {
   speculation s = speculation_of(parameters, start, query->offset, query->moves, way, least_of_query(query));
   if (!has_points(start)) s.asked = s.reached = 1;
@@ -32,14 +33,15 @@ SHARED mask is_before_face(const convex *shape, const support_face *face, vec3 p
   return 1;
 }
 
-/* With the ball in the middle of a body that hits a face of the other from before it, as the query has them at the impact. A shape
- * beside its body's centre leaves less room for the ball. */
+/* With the ball in the middle of a body that hits a face of the other from before it, as the query has them at the
+ * impact. A shape beside its body's centre leaves less room for the ball. */
 SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec3 offset)
 {
   ball_owner owner = owner_of_ball(query->moves);
   if (!owner.in_a && !owner.in_b) return m;
   const convex *body = owner.in_a ? &query->first : &query->second, *wall = owner.in_a ? &query->second : &query->first;
-  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : offset, outward = owner.in_a ? negate(m.normal) : m.normal;
+  vec3 middle = owner.in_a ? make_vec3(R(0.0), R(0.0), R(0.0)) : offset,
+       outward = owner.in_a ? negate(m.normal) : m.normal;
   real radius = CORE_SHARE * least_size(body) - length_of(subtract(body->center, middle));
   support_face face = support_face_of(wall, outward);
   if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < WITH_FACE) return m;
@@ -67,22 +69,27 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
-SHARED void follow_convexes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
-                                 GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-                                 GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                 GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                                 GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
-                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
-                                 GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
+SHARED void follow_convexes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
+                                 GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                                 GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                                 GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
+                                 GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                                 GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
+                                 GLOBAL const row *positions, GLOBAL const row *orientations,
+                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
+                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || counts_of_points[i] < TO_FOLLOW) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges, strips,
-                               links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
+  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
+                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
+                               positions, orientations, velocities, parameters, method, i);
   if (near != QUERY_NEAR) return;
   manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
-  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, normals, points, counts_of_points, features, i);
+  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, normals, points,
+                    counts_of_points, features, i);
 }
 
 #endif

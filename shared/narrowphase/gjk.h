@@ -1,7 +1,7 @@
 /* gjk.h - the distance of two convex cores, their closest points, or the verdict that they overlap.
  *
- * Gilbert, Johnson, Keerthi (1988): walk a simplex of points of a - b toward the origin, each new point being the support
- * against the point v of the simplex that lies nearest.
+ * Gilbert, Johnson, Keerthi (1988): walk a simplex of points of a - b toward the origin, each new point being the
+ * support against the point v of the simplex that lies nearest.
  *
  *        w2 ---- w1            v: nearest point of the simplex, |v| an upper bound of the distance
  *          \    /              w . v / |v|: the gap along v, a lower bound
@@ -9,11 +9,11 @@
  *            \/                largest gap seen and its direction are then the answer, still a true lower bound.
  *            o origin
  *
- * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005, section 9.5)
- * from differences of its points, never from determinants of their coordinates: these cancel for tiny against huge. Every
- * face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no case of its own
- * (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable distance queries
- * between convex objects", ACM TOG 36(3), 2017).
+ * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005,
+ * section 9.5) from differences of its points, never from determinants of their coordinates: these cancel for tiny
+ * against huge. Every face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no
+ * case of its own (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable
+ * distance queries between convex objects", ACM TOG 36(3), 2017).
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_GJK_H
 #define TANDEM_SHARED_NARROWPHASE_GJK_H
@@ -25,7 +25,9 @@
 #define GJK_STALLS 4
 
 /* A point of a - b, and the point of b it came from. */
-typedef struct { vec3 w, b; } difference_point;
+typedef struct {
+  vec3 w, b;
+} difference_point;
 
 typedef struct {
   difference_point point[4];
@@ -116,8 +118,8 @@ SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size
   return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
 }
 
-/* Of a triangle, or of the faces of a tetrahedron; squared < 0: that holds the origin. size: of its coordinates. Every function here is
- * called from one place, since compilers of devices copy it to each. */
+/* Of a triangle, or of the faces of a tetrahedron; squared < 0: that holds the origin. size: of its coordinates. Every
+ * function here is called from one place, since compilers of devices copy it to each. */
 SHARED nearest_point nearest_of_faces(const simplex *s, real size)
 {
   nearest_point best = nearest_of_vertex(s, 0);
@@ -172,9 +174,11 @@ SHARED vec3 carried_point(const simplex *s)
   return point;
 }
 
-/* How well the gap is to be known: not at all beyond the limit; else but for a share of what the distance of the cores exceeds their
- * radii by. */
-typedef struct { real limit, share, radii; } gap_wanted;
+/* How well the gap is to be known: not at all beyond the limit; else but for a share of what the distance of the cores
+ * exceeds their radii by. */
+typedef struct {
+  real limit, share, radii;
+} gap_wanted;
 
 SHARED gap_wanted whole_gap(real limit)
 {
@@ -214,14 +218,17 @@ SHARED gjk_result closest_points_from(const convex *a, const convex *b, gap_want
     s->count = s->count + 1;
     real size = size_of_simplex(s), noise = R(4.0) * ROUNDING * size;
     nearest_point near = nearest_of_simplex(s, size);
-    /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has turned. */
+    /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has
+     * turned. */
     mask holds = near.squared <= noise * noise, sliver = holds && before.count > 0 && result.contact.gap > noise;
     if (holds && !sliver) {
       result.overlapping = 1;
       break;
     }
     /* A turn of v by a small angle shortens it by the square of that: rounding hides it, and the gap still grows. */
-    if (before.count > 0 && near.squared >= squared && (++stalled > GJK_STALLS || near.squared > squared * (R(1.0) + R(32.0) * ROUNDING))) sliver = 1;
+    if (before.count > 0 && near.squared >= squared &&
+        (++stalled > GJK_STALLS || near.squared > squared * (R(1.0) + R(32.0) * ROUNDING)))
+      sliver = 1;
     if (sliver) {
       *s = before;
       if (restarted || round + 4 > GJK_ROUNDS || distance - result.contact.gap <= R(64.0) * ROUNDING * size) break;

@@ -1,19 +1,20 @@
 /* hull_axes.h - the axis along which two polytopes are farthest apart, or overlap least.
  *
- * It is the normal of a face of either, or square to two edges that meet on the Gauss map: an edge is there the arc between
- * the normals of its two faces, and only where an arc of a crosses an arc of -b have the edges a face of a - b between them.
- * (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013.)
+ * It is the normal of a face of either, or square to two edges that meet on the Gauss map: an edge is there the arc
+ * between the normals of its two faces, and only where an arc of a crosses an arc of -b have the edges a face of a - b
+ * between them. (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013.)
  *
- *           left of a                Ties prefer faces, and those of the larger shape, as in box_axes.h: faces carry up to
- *              |   right of -b       four points, an edge one, and a body at rest must keep its axis.
+ *           left of a                Ties prefer faces, and those of the larger shape, as in box_axes.h: faces carry up
+ * to |   right of -b       four points, an edge one, and a body at rest must keep its axis.
  *     ---------+---------
  *   left of -b |
  *          right of a
  *
- * Nearly all of it is ruled out by a few points of the other shape, here called probes. No gap beyond a face is larger than
- * how far any one probe lies beyond it:
+ * Nearly all of it is ruled out by a few points of the other shape, here called probes. No gap beyond a face is larger
+ * than how far any one probe lies beyond it:
  *
- *        a  \   . p                  1  the face beyond which the nearest probe lies farthest is the only one worth a look;
+ *        a  \   . p                  1  the face beyond which the nearest probe lies farthest is the only one worth a
+ * look;
  *      ______\__.____ face              the point of b that really lies nearest to it is the next probe. Two or three
  *             \  b                     looks leave no face that could be better: the best is found, and proven.
  *                                    2  an edge's axes lie on the arc between the normals of its faces, so beyond 0 or
@@ -43,7 +44,7 @@ typedef struct {
   uint probes;
   uint main; /* the probe nearest to the face, or deepest behind it */
   uint face;
-  real gap;   /* beyond that face */
+  real gap; /* beyond that face */
 } face_search;
 
 /* --- faces -------------------------------------------------------------------------------------------- */
@@ -56,7 +57,9 @@ SHARED void add_probe(face_search *s, const convex *shape, vec3 point)
 
 SHARED uint probes_of(const face_search *s) { return s->probes < PROBES ? s->probes : PROBES; }
 
-typedef struct { strip x, y, z, distance; } plane_strip;
+typedef struct {
+  strip x, y, z, distance;
+} plane_strip;
 
 SHARED void load_plane_strip(plane_strip *planes, const convex *shape, uint k)
 {
@@ -152,7 +155,10 @@ SHARED void list_edge(edge_list *list, uint edge)
   if (kept < EDGES_LISTED) list->edge[kept] = edge;
   list->count = list->count + 1u;
 }
-SHARED uint edges_listed(const edge_list *list, const convex *shape) { return list->count <= EDGES_LISTED ? list->count : edges_of(shape); }
+SHARED uint edges_listed(const edge_list *list, const convex *shape)
+{
+  return list->count <= EDGES_LISTED ? list->count : edges_of(shape);
+}
 SHARED uint listed_edge(const edge_list *list, uint k) { return list->count <= EDGES_LISTED ? list->edge[k] : k; }
 
 /* Does every probe leave room for an axis on the arc between the normals of the two faces? */
@@ -160,7 +166,9 @@ SHARED mask edge_may_matter(const face_search *s, const convex *shape, uint left
 {
   vec4 plane_left = plane_of_face(shape, left), plane_right = plane_of_face(shape, right);
   for (uint j = 0u; j < probes_of(s); ++j)
-    if (inner(xyz(plane_left), s->probe[j]) - plane_left.w <= least && inner(xyz(plane_right), s->probe[j]) - plane_right.w <= least) return 0;
+    if (inner(xyz(plane_left), s->probe[j]) - plane_left.w <= least &&
+        inner(xyz(plane_right), s->probe[j]) - plane_right.w <= least)
+      return 0;
   return 1;
 }
 
@@ -173,7 +181,8 @@ SHARED void list_edges_of_face(edge_list *list, const face_search *s, const conv
     return;
   }
   GLOBAL const uint *start = shape->tables.face_starts + shape->hull.first_face + face;
-  GLOBAL const uint *edge_of_corner = shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u + shape->hull.corners;
+  GLOBAL const uint *edge_of_corner =
+      shape->tables.links + shape->hull.first_link + shape->hull.vertices + 1u + shape->hull.corners;
   for (uint c = start[0]; c < start[1]; ++c) {
     uint edge = edge_of_corner[c - shape->hull.first_corner];
     if (edge == INDEX_NONE) continue;
@@ -194,7 +203,8 @@ SHARED void list_edges(edge_list *list, const face_search *s, const convex *shap
     beyond_planes(&beyond, &planes, s->probe[s->main]);
     store_strip(bounds, &beyond);
     for (uint n = 0u; n < STRIP; ++n)
-      if (bounds[n] > least && k * STRIP + n < faces_of(shape)) list_edges_of_face(list, s, shape, k * STRIP + n, least);
+      if (bounds[n] > least && k * STRIP + n < faces_of(shape))
+        list_edges_of_face(list, s, shape, k * STRIP + n, least);
   }
 }
 
@@ -218,7 +228,8 @@ SHARED polytope_edge placed_edge(const convex *shape, uint k)
 }
 
 /* noise: what rounding makes of the gap between two edges square to each other; the nearer to parallel, the more. */
-SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *list_a, const convex *b, const edge_list *list_b, real noise)
+SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *list_a, const convex *b,
+                            const edge_list *list_b, real noise)
 {
   real highest = best.contact.gap;
   for (uint k = 0u; k < edges_listed(list_b, b); ++k) {
@@ -232,7 +243,8 @@ SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *li
       vec3 axis = outer(edge_a.along, edge_b.along);
       real squared = length_squared(axis), size = length_squared(edge_a.along) * length_squared(edge_b.along);
       if (squared <= R(1e-8) * size) continue;
-      axis = scale(axis, (inner(axis, add(edge_a.left, edge_a.right)) < R(0.0) ? R(-1.0) : R(1.0)) / square_root(squared));
+      axis =
+          scale(axis, (inner(axis, add(edge_a.left, edge_a.right)) < R(0.0) ? R(-1.0) : R(1.0)) / square_root(squared));
       real gap = inner(axis, subtract(edge_b.start, edge_a.start)), score = gap - noise * square_root(size / squared);
       if (score <= highest) continue;
       highest = score;
@@ -259,8 +271,9 @@ SHARED hull_axis axis_of_face(const face_search *s, const convex *shape, uint ki
   return axis;
 }
 
-/* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. limit: a gap beyond it
- * need not be the largest. Where a face shows the two to be apart edges are not tried: the closest points are then wanted. */
+/* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. limit: a gap beyond
+ * it need not be the largest. Where a face shows the two to be apart edges are not tried: the closest points are then
+ * wanted. */
 SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lead, real limit)
 {
   vec3 between = subtract(b->center, a->center);
@@ -282,7 +295,8 @@ SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lea
 
   add_probe(&faces_b, b, of_a);
   for (uint k = 0u; k < 3u; ++k)
-    add_probe(&faces_b, b, point_of_shape(a, corner_of_face(a, faces_a.face, k * corners_of_face(a, faces_a.face) / 3u)));
+    add_probe(&faces_b, b,
+              point_of_shape(a, corner_of_face(a, faces_a.face, k * corners_of_face(a, faces_a.face) / 3u)));
   search_faces(&faces_b, b, a, faces_a.gap + lead, limit);
   if (faces_b.gap > faces_a.gap + lead) best = axis_of_face(&faces_b, b, AXIS_OF_FACE_B);
 
@@ -295,7 +309,8 @@ SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lea
   if (list_b.count == 0u) return best;
   hull_axis none = best;
   none.contact.gap = R(-1e30);
-  hull_axis edges = best_edges(none, a, &list_a, b, &list_b, R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)));
+  hull_axis edges =
+      best_edges(none, a, &list_a, b, &list_b, R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)));
   return edges.contact.gap > least ? edges : best;
 }
 

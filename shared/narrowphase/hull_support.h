@@ -4,12 +4,14 @@
  *   SUPPORT_HILL_CLIMBING  from the vertex that a cube map names uphill; for large hulls. The same vertex, always
  *   SUPPORT_CUBE_MAP       the vertex that the map names: near the farthest, by how much docs/pipeline.md says
  *
- *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex farthest
- *      | 3 | 3 | 7 |     in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans, 2012, 2013.)
+ *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex
+ * farthest | 3 | 3 | 7 |     in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans, 2012,
+ * 2013.)
  *      +---+---+---+
- *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are the corners
- *      '---+---+---'     of all faces around a vertex, so that a face may be a little uneven. Heights within rounding of each
- *                        other (a face or edge square to the direction) are no proof: then all are looked at.
+ *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are
+ * the corners
+ *      '---+---+---'     of all faces around a vertex, so that a face may be a little uneven. Heights within rounding
+ * of each other (a face or edge square to the direction) are no proof: then all are looked at.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
@@ -19,8 +21,8 @@
 #include "shared/math.h"
 #include "shared/strip.h"
 
-/* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces, first edge,
- * edges, first corner, corners, first row of strips, first link, cells along a side of the cube map. */
+/* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces,
+ * first edge, edges, first corner, corners, first row of strips, first link, cells along a side of the cube map. */
 #define HULL_HEADER 11u
 typedef struct {
   GLOBAL const uint *headers;     /* HULL_HEADER a hull */
@@ -29,18 +31,20 @@ typedef struct {
   GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
   GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
   GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
-  GLOBAL const row *strips;       /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h); the
-                                     middle of its vertices */
-  GLOBAL const uint *links;       /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
-                                     vertex, ascending; for each corner the edge to the next; the cube maps: of farthest
-                                     vertices, and of faces seen from the middle (cube_field.h) */
+  GLOBAL const row *strips; /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h);
+                               the middle of its vertices */
+  GLOBAL const uint *links; /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
+                               vertex, ascending; for each corner the edge to the next; the cube maps: of farthest
+                               vertices, and of faces seen from the middle (cube_field.h) */
   GLOBAL const row *mesh_vertices;   /* x y z: about the origin of the mesh's axes */
-  GLOBAL const uint *mesh_triangles; /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours across 0-1, 1-2, 2-0 */
-  uint support;                   /* SUPPORT_ */
+  GLOBAL const uint *mesh_triangles; /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours
+                                        across 0-1, 1-2, 2-0 */
+  uint support;                      /* SUPPORT_ */
 } hull_tables;
 
 typedef struct {
-  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link, map_side;
+  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link,
+      map_side;
 } hull_ranges;
 
 SHARED uint strips_of(uint entries) { return (entries + STRIP - 1u) / STRIP; }
@@ -48,7 +52,8 @@ SHARED uint strips_of(uint entries) { return (entries + STRIP - 1u) / STRIP; }
 SHARED hull_ranges ranges_of_hull(const hull_tables *tables, uint hull)
 {
   GLOBAL const uint *header = tables->headers + hull * HULL_HEADER;
-  hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5], header[6], header[7], header[8], header[9], header[10]};
+  hull_ranges ranges = {header[0], header[1], header[2], header[3], header[4], header[5],
+                        header[6], header[7], header[8], header[9], header[10]};
   return ranges;
 }
 
@@ -92,10 +97,14 @@ SHARED cube_place place_on_cube(vec3 direction)
   return place;
 }
 /* Rows of cells along u, one after the other along v. */
-SHARED uint cell_of_place(cube_place place, uint cells) { return (place.side * cells + cell_of_side(place.v, cells)) * cells + cell_of_side(place.u, cells); }
+SHARED uint cell_of_place(cube_place place, uint cells)
+{
+  return (place.side * cells + cell_of_side(place.v, cells)) * cells + cell_of_side(place.u, cells);
+}
 SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
 {
-  return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners + cell_of_place(place_on_cube(direction), hull->map_side)];
+  return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners +
+                       cell_of_place(place_on_cube(direction), hull->map_side)];
 }
 
 SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull, uint k, vec3 direction)
@@ -103,8 +112,10 @@ SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull,
   return inner(xyz(load_row(tables->vertices, hull->first_vertex + k)), direction);
 }
 
-/* The highest of a vertex and those with which it shares a face; rival: another one is as high, for all that can be told. */
-SHARED natural uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding, mask *rival)
+/* The highest of a vertex and those with which it shares a face; rival: another one is as high, for all that can be
+ * told. */
+SHARED natural uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding,
+                      mask *rival)
 {
   GLOBAL const uint *links = tables->links + hull->first_link;
   uint best = from;
@@ -141,8 +152,10 @@ SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull
 /* size: half extents of a box around the hull, centred at the origin of its axes. */
 SHARED natural hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
-  if (MAY_OCCUR(FEATURE_HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING) return climbed_vertex(tables, hull, direction, size);
-  if (MAY_OCCUR(FEATURE_CUBE_MAP) && tables->support == (uint)SUPPORT_CUBE_MAP) return vertex_of_cube_map(tables, hull, direction);
+  if (MAY_OCCUR(FEATURE_HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING)
+    return climbed_vertex(tables, hull, direction, size);
+  if (MAY_OCCUR(FEATURE_CUBE_MAP) && tables->support == (uint)SUPPORT_CUBE_MAP)
+    return vertex_of_cube_map(tables, hull, direction);
   return highest_vertex(tables, hull, direction);
 }
 

@@ -1,14 +1,16 @@
-/* limit_motion.h - what was solved is not trusted to be free of walls: a body with continuous collision stops before it passes one.
+/* limit_motion.h - what was solved is not trusted to be free of walls: a body with continuous collision stops before it
+ * passes one.
  *
- *     start  o - - - .          The contacts of a step are those of the straight ways. A body that one of them turns aside, or
- *                 /   \         sets spinning, comes where no contact was made: a second wall in a corner, its own other end
- *      deflected o  |  x end    after an edge has hit. So its motion from start to end is followed once more, against what no
- *                   |wall       impulse moves, and cut where it would pass; its velocity stays, for the contact of the next step.
+ *     start  o - - - .          The contacts of a step are those of the straight ways. A body that one of them turns
+ * aside, or /   \         sets spinning, comes where no contact was made: a second wall in a corner, its own other end
+ *      deflected o  |  x end    after an edge has hit. So its motion from start to end is followed once more, against
+ * what no |wall       impulse moves, and cut where it would pass; its velocity stays, for the contact of the next step.
  *
- * Twice, as in Box2D 3 (Catto, 2024): with the whole shape, if it starts free. One that starts touching has its contacts already,
- * and would be held by every graze; of it a ball in its middle must not pass.
+ * Twice, as in Box2D 3 (Catto, 2024): with the whole shape, if it starts free. One that starts touching has its
+ * contacts already, and would be held by every graze; of it a ball in its middle must not pass.
  *
- * Each pair has a say in how much of the motion is left, and the least holds: a minimum of whole numbers is free of order.
+ * Each pair has a say in how much of the motion is left, and the least holds: a minimum of whole numbers is free of
+ * order.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_LIMIT_MOTION_H
 #define TANDEM_SHARED_NARROWPHASE_LIMIT_MOTION_H
@@ -80,29 +82,35 @@ SHARED real free_share(const moving_convex *body, const wall *w, real slop)
 SHARED mask comes_from_behind(const moving_convex *body, const wall *w)
 {
   if (w->is_plane || w->shape.shape.kind != (uint)SHAPE_TRIANGLE) return 0;
-  return inner(from_shape_axes(&w->shape.shape, normal_of_triangle(&w->shape.shape)), subtract(body->linear, w->shape.linear)) > R(0.0);
+  return inner(from_shape_axes(&w->shape.shape, normal_of_triangle(&w->shape.shape)),
+               subtract(body->linear, w->shape.linear)) > R(0.0);
 }
 
 SHARED moving_convex solved_motion(GLOBAL const row *deltas, const convex *shape, vec3 pivot, real radius, uint body)
 {
-  return moving_convex_of(shape, pivot, xyz(load_row(deltas, body * 2u)), xyz(load_row(deltas, body * 2u + 1u)), radius);
+  return moving_convex_of(shape, pivot, xyz(load_row(deltas, body * 2u)), xyz(load_row(deltas, body * 2u + 1u)),
+                          radius);
 }
 
-SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                              GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers,
-                              GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                              GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                              GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
-                              GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
+SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                              GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
+                              GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
+                              GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
+                              GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
+                              GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                              GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                              GLOBAL const row *orientations, GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) return;
   uint a = pair_a[i], b = pair_b[i];
   mask moves_a = motion_of(traits[a]) == (uint)MOTION_DYNAMIC, moves_b = motion_of(traits[b]) == (uint)MOTION_DYNAMIC;
   uint body = moves_a ? a : b, other = moves_a ? b : a;
   if ((moves_a && moves_b) || !is_continuous(traits[body])) return;
-  hull_tables tables = {headers, vertices, planes, face_starts, corners, edges, strips, links, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
+  hull_tables tables = {headers, vertices,      planes,         face_starts,        corners, edges, strips,
+                        links,   mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), offset = offset_between(positions, body, other);
-  convex shape = load_convex(shapes, convexes, poses, orientations, tables, none, part_of_pair(parameters, pair_leaf, body, i, moves_a ? 0u : 1u));
+  convex shape = load_convex(shapes, convexes, poses, orientations, tables, none,
+                             part_of_pair(parameters, pair_leaf, body, i, moves_a ? 0u : 1u));
   moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes, body).w, body);
   if (length_of(moving.linear) + fastest_swing(&moving) <= FAR_SHARE * least_size(&shape)) return;
   wall w;
@@ -110,7 +118,8 @@ SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const 
   w.up = axis_y(rotation_of(quat_from(load_row(orientations, other))));
   w.linear = xyz(load_row(deltas, other * 2u));
   w.height = inner(w.up, offset);
-  convex of_wall = load_convex(shapes, convexes, poses, orientations, tables, offset, part_of_pair(parameters, pair_leaf, other, i, moves_a ? 1u : 0u));
+  convex of_wall = load_convex(shapes, convexes, poses, orientations, tables, offset,
+                               part_of_pair(parameters, pair_leaf, other, i, moves_a ? 1u : 0u));
   w.shape = solved_motion(deltas, &of_wall, offset, load_row(shapes, other).w, other);
   if (comes_from_behind(&moving, &w)) return;
   real least = w.is_plane ? least_size(&shape) : minimum(least_size(&shape), least_size(&of_wall));

@@ -22,7 +22,7 @@ typedef struct {
   vec3 normal;
   vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
   mask kept[4];
-  natural code; /* of the feature pair, 24 bits */
+  natural code;     /* of the feature pair, 24 bits */
   real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start */
 } manifold;
 
@@ -56,9 +56,9 @@ SHARED manifold choose_manifold(mask m, manifold a, manifold b)
   return b;
 }
 
-/* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the others
- * towards it: were all pairs parted along one line, a thousand bodies would make a thousand layers, whose speeds add up. Sideways,
- * so that nothing is lifted. */
+/* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the
+ * others towards it: were all pairs parted along one line, a thousand bodies would make a thousand layers, whose speeds
+ * add up. Sideways, so that nothing is lifted. */
 SHARED vec3 place_of_its_own(natural body)
 {
   natural hash = (body + 1u) * 0x9e3779b1u;
@@ -71,14 +71,16 @@ SHARED vec3 parting_direction(natural a, natural b)
   vec3 between = subtract(place_of_its_own(b), place_of_its_own(a));
   real length = length_of(between);
   mask differ = length > R(0.0);
-  return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))), make_vec3(R(1.0), R(0.0), R(0.0)));
+  return choose3(differ, scale(between, R(1.0) / choose(differ, length, (real)R(1.0))),
+                 make_vec3(R(1.0), R(0.0), R(0.0)));
 }
 
-/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing round; 0 for a sphere. */
+/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing
+ * round; 0 for a sphere. */
 SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
 {
-  real closing = inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a +
-                 length_of(b.angular) * radius_b;
+  real closing =
+      inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a + length_of(b.angular) * radius_b;
   return parameters->speculative_distance + parameters->step * maximum(closing, R(0.0));
 }
 
@@ -114,15 +116,16 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *no
   }
   mask touching = count > 0u;
   vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row_if(mine, normals, i, extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
+  store_row_if(mine, normals, i,
+               extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
   for (int k = 0; k < 4; ++k) store_row_if(mine, points, stride * (uint)k + i, packed[k]);
   store_natural_if(mine, counts_of_points, i, count);
   store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
 }
 
 /* What was stored. Points without a mask hold zeros. */
-SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL const row *points, GLOBAL const uint *counts_of_points,
-                              GLOBAL const uint *features, item_index i)
+SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL const row *points,
+                              GLOBAL const uint *counts_of_points, GLOBAL const uint *features, item_index i)
 {
   vec4 normal = load_row(normals, i);
   natural count = load_natural(counts_of_points, i) & (TO_FOLLOW - 1u), feature = load_natural(features, i);
@@ -143,7 +146,8 @@ SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL con
 }
 
 /* What the store above leaves of a manifold without points. */
-SHARED void store_no_manifold(uint stride, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void store_no_manifold(uint stride, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
+                              GLOBAL uint *features, uint i)
 {
   row nothing;
   nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);

@@ -1,13 +1,15 @@
-/* middle_ball.h - a body that hits what nothing pushes keeps a ball in its middle before the face that it hits, however it turns.
+/* middle_ball.h - a body that hits what nothing pushes keeps a ball in its middle before the face that it hits, however
+ * it turns.
  *
- *      .---.                    Points of a manifold move on lines. What an impact sets spinning turns on circles: within the same step
- *     / (o) \  v                its next corner comes where no point is, and its middle passes the face. The ball lies within the body
+ *      .---.                    Points of a manifold move on lines. What an impact sets spinning turns on circles:
+ * within the same step / (o) \  v                its next corner comes where no point is, and its middle passes the
+ * face. The ball lies within the body
  *      '---\.'                  as the body turns, and its point, square below the middle, is turned by nothing.
  *   ====x=================
  *
- * So it adds nothing that is not there: it acts only where the body would be half in the wall. It stands in for the point that is
- * farthest from touching, where that is farther than the others; a body that lands flat, or on a point below its middle, keeps all of
- * its points.
+ * So it adds nothing that is not there: it acts only where the body would be half in the wall. It stands in for the
+ * point that is farthest from touching, where that is farther than the others; a body that lands flat, or on a point
+ * below its middle, keeps all of its points.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_MIDDLE_BALL_H
 #define TANDEM_SHARED_NARROWPHASE_MIDDLE_BALL_H
@@ -21,7 +23,9 @@
 #define WITH_FACE R(0.99)
 
 /* Which of the two bodies has the ball: the one that can be pushed, if the other cannot. */
-typedef struct { mask in_a, in_b; } ball_owner;
+typedef struct {
+  mask in_a, in_b;
+} ball_owner;
 
 SHARED ball_owner owner_of_ball(pair_motion moves)
 {
@@ -50,9 +54,9 @@ SHARED mask has_point_below(manifold m, vec3 foot, real radius)
   return 0;
 }
 
-/* middle: from the centre of a; outward: unit, from the face; height: of the middle above it. The ball's point comes in the last place,
- * so that a pass over the points leaves it as it shall be. The code is another then: what these points carry says nothing of the next
- * step. */
+/* middle: from the centre of a; outward: unit, from the face; height: of the middle above it. The ball's point comes in
+ * the last place, so that a pass over the points leaves it as it shall be. The code is another then: what these points
+ * carry says nothing of the next step. */
 SHARED manifold with_middle_ball(manifold m, vec3 middle, vec3 outward, real height, real radius)
 {
   vec3 foot = add_scaled(middle, outward, -height);

@@ -1,15 +1,16 @@
-/* polygon_clip.h - where two supporting features overlap, seen along the contact normal: a stream of points, no polygon.
+/* polygon_clip.h - where two supporting features overlap, seen along the contact normal: a stream of points, no
+ * polygon.
  *
- *            +-----------+            Both features are flat outlines (u, v) with a height each along the normal. Every corner
- *            | reference |            of their overlap is an end of an edge of the moving outline cut by all the sides of
+ *            +-----------+            Both features are flat outlines (u, v) with a height each along the normal. Every
+ * corner | reference |            of their overlap is an end of an edge of the moving outline cut by all the sides of
  *        .---x-----.     |            the reference (x; M. Cyrus, J. Beck, "Generalized two- and three-dimensional
  *         \  |      \    |            clipping", 1978), or a corner of the reference inside the moving outline (+).
  *          \ x-------x---+
- *           `---------`              The points are not collected: reduce_step() is told of one after the other. So no outline
- *                                    has too many corners.
+ *           `---------`              The points are not collected: reduce_step() is told of one after the other. So no
+ * outline has too many corners.
  *
- * A segment is an outline of one edge; between two segments the stream holds the ends of the stretch along which they run
- * together, or the one point where they cross.
+ * A segment is an outline of one edge; between two segments the stream holds the ends of the stretch along which they
+ * run together, or the one point where they cross.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POLYGON_CLIP_H
 #define TANDEM_SHARED_NARROWPHASE_POLYGON_CLIP_H
@@ -22,7 +23,9 @@
 #define SEGMENTS_PARALLEL R(0.03)
 
 /* The axes of the contact: two in its plane, and its normal. */
-typedef struct { vec3 u, v, normal; } contact_axes;
+typedef struct {
+  vec3 u, v, normal;
+} contact_axes;
 
 SHARED vec3 in_contact_axes(const contact_axes *axes, vec3 p)
 {
@@ -84,10 +87,10 @@ SHARED real height_of(const outline *o, real u, real v)
 
 typedef struct {
   const outline *reference, *moving;
-  real sense;  /* 1: the moving feature is that of b */
-  real radii;  /* of both cores */
-  real reach;  /* points farther apart are none */
-  real slack;  /* rounding error of a corner */
+  real sense; /* 1: the moving feature is that of b */
+  real radii; /* of both cores */
+  real reach; /* points farther apart are none */
+  real slack; /* rounding error of a corner */
 } clipping;
 
 SHARED clip_point clipped_point(const clipping *clip, vec3 at, real height_of_other, real sense)
@@ -101,7 +104,8 @@ SHARED clip_point clipped_point(const clipping *clip, vec3 at, real height_of_ot
 }
 
 /* Cuts the stretch enter..leave of p + t edge to the inner side of from + s side. */
-SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, vec3 side, real length, real turn, real slack)
+SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, vec3 side, real length, real turn,
+                        real slack)
 {
   real inside = (side.x * (p.y - from.y) - side.y * (p.x - from.x)) * turn + slack * length;
   real rate = (side.x * edge.y - side.y * edge.x) * turn;
@@ -132,7 +136,8 @@ SHARED void stream_moving_edge(reduction *r, const clipping *clip, vec3 p, vec3 
   for (uint k = 0u; k < reference->corners && enter <= leave; ++k) {
     vec3 to = outline_corner(reference, k);
     vec3 side = subtract(to, from);
-    cut_by_side(&enter, &leave, p, edge, from, side, k < OUTLINE_KEPT ? reference->side[k] : length_of_side(side), reference->turn, clip->slack);
+    cut_by_side(&enter, &leave, p, edge, from, side, k < OUTLINE_KEPT ? reference->side[k] : length_of_side(side),
+                reference->turn, clip->slack);
     from = to;
   }
   if (enter > leave) return;
@@ -160,7 +165,8 @@ SHARED void stream_reference_corners(reduction *r, const clipping *clip)
   }
 }
 
-/* Segments that run together: the moving one cut to the ends of the other. Else the point where they cross, if they do. */
+/* Segments that run together: the moving one cut to the ends of the other. Else the point where they cross, if they
+ * do. */
 SHARED void stream_segments(reduction *r, const clipping *clip)
 {
   vec3 p = clip->moving->kept[0], edge = subtract(clip->moving->kept[1], p);

@@ -1,8 +1,7 @@
 /* polytope.h - faces, edges and corners of boxes and hulls alike, in the shape's own axes.
  *
- *   box   face 2 k: +axis k, face 2 k + 1: -axis k     edge 4 k + (sign of u) + 2 (sign of v), along axis k; the two axes
- *                                                      after k in cyclic order are u and v, a set bit is the positive side
- *   hull  as its tables say (convex.h)
+ *   box   face 2 k: +axis k, face 2 k + 1: -axis k     edge 4 k + (sign of u) + 2 (sign of v), along axis k; the two
+ * axes after k in cyclic order are u and v, a set bit is the positive side hull  as its tables say (convex.h)
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POLYTOPE_H
 #define TANDEM_SHARED_NARROWPHASE_POLYTOPE_H
@@ -44,9 +43,11 @@ SHARED vec3 corner_of_face(const convex *shape, uint k, uint corner)
   return multiply(from_axis(axis, side, u, v), shape->size);
 }
 
-/* An edge from its start along its direction, which is not unit; the cross product of the normals of the faces to its left
- * and right points along it. */
-typedef struct { vec3 start, along, left, right; } polytope_edge;
+/* An edge from its start along its direction, which is not unit; the cross product of the normals of the faces to its
+ * left and right points along it. */
+typedef struct {
+  vec3 start, along, left, right;
+} polytope_edge;
 
 SHARED polytope_edge edge_of_box(vec3 extent, uint k)
 {

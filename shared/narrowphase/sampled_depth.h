@@ -1,9 +1,9 @@
 /* sampled_depth.h - how deep two convex cores overlap, from a fixed set of directions: no polytope, no memory.
  *
- * Any direction gives an upper bound of the depth. Tried are 42 of them all around (the corners of an icosahedron and the
- * middles of its edges), the faces and axes of both shapes, and the direction between their middles. The best is then
- * improved by depth_refinement.h. The cheap way of talks on collision detection on GPUs (E. Coumans, 2012 and 2013): near the
- * least depth, not proven to be it. Exact wherever a face is the answer.
+ * Any direction gives an upper bound of the depth. Tried are 42 of them all around (the corners of an icosahedron and
+ * the middles of its edges), the faces and axes of both shapes, and the direction between their middles. The best is
+ * then improved by depth_refinement.h. The cheap way of talks on collision detection on GPUs (E. Coumans, 2012 and
+ * 2013): near the least depth, not proven to be it. Exact wherever a face is the answer.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SAMPLED_DEPTH_H
 #define TANDEM_SHARED_NARROWPHASE_SAMPLED_DEPTH_H
@@ -17,14 +17,18 @@
 SHARED vec3 sampled_direction(uint k)
 {
   uint turn = k / 14u, n = k % 14u;
-  real first = (n & 1u) == 1u ? R(-1.0) : R(1.0), second = (n & 2u) == 2u ? R(-1.0) : R(1.0), third = (n & 4u) == 4u ? R(-1.0) : R(1.0);
+  real first = (n & 1u) == 1u ? R(-1.0) : R(1.0), second = (n & 2u) == 2u ? R(-1.0) : R(1.0),
+       third = (n & 4u) == 4u ? R(-1.0) : R(1.0);
   if (n < 8u) return from_axis(turn, first * R(0.5), second * R(0.30901699437494742), third * R(0.80901699437494742));
   if (n < 12u) return from_axis(turn, R(0.0), first * R(0.52573111211913361), second * R(0.85065080835203993));
   return from_axis(turn, first, R(0.0), R(0.0));
 }
 
 /* The normals of a shape's own faces, or its axis either way. */
-SHARED uint own_normals_of(const convex *shape) { return is_polytope(shape) ? faces_of(shape) : is_cylinder(shape) || is_capsule(shape) ? 2u : 0u; }
+SHARED uint own_normals_of(const convex *shape)
+{
+  return is_polytope(shape) ? faces_of(shape) : is_cylinder(shape) || is_capsule(shape) ? 2u : 0u;
+}
 SHARED vec3 own_normal(const convex *shape, uint k)
 {
   vec3 own = is_polytope(shape) ? xyz(plane_of_face(shape, k)) : make_vec3(R(0.0), k == 0u ? R(1.0) : R(-1.0), R(0.0));
@@ -54,8 +58,8 @@ SHARED vec3 tried_normal(const convex *a, const convex *b, vec3 up, vec3 hint, u
   return sampled_direction(k - 5u - of_a - of_b);
 }
 
-/* hint: a unit direction worth trying, such as the largest gap that the distance query saw before it met the overlap: near
- * a shallow contact that is its normal. up: where to part shapes that have no better direction. */
+/* hint: a unit direction worth trying, such as the largest gap that the distance query saw before it met the overlap:
+ * near a shallow contact that is its normal. up: where to part shapes that have no better direction. */
 SHARED core_contact sampled_penetration(const convex *a, const convex *b, vec3 up, vec3 hint)
 {
   core_contact best = {up, R(-1e30)};

@@ -3,10 +3,10 @@
  *   find_separating_axis -> find_clipping_faces -> clip_faces -> reduce_contacts
  *      axis and gap           face of each           points          four of them
  *
- * So the talks have it (E. Coumans, "GPU rigid body simulation", 2013 and 2015): each kernel does one thing, with fewer registers
- * and less divergence than all of it together, and pays for that with buffers in between and with placing the shapes once
- * more. Both call the same functions, so the bits are those of `sat`. What the short way does not settle (other shapes, no
- * features that meet, too many points) the last kernel hands to convex_contact().
+ * So the talks have it (E. Coumans, "GPU rigid body simulation", 2013 and 2015): each kernel does one thing, with fewer
+ * registers and less divergence than all of it together, and pays for that with buffers in between and with placing the
+ * shapes once more. Both call the same functions, so the bits are those of `sat`. What the short way does not settle
+ * (other shapes, no features that meet, too many points) the last kernel hands to convex_contact().
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SAT_SPLIT_H
 #define TANDEM_SHARED_NARROWPHASE_SAT_SPLIT_H
@@ -17,39 +17,51 @@ enum { SPLIT_OF_OTHERS = 0, SPLIT_APART = 1, SPLIT_CLIP = 2, SPLIT_WHOLE = 3 };
 
 /* axes: normal in the axes of the pair, gap along it. states: SPLIT_. */
 SHARED void find_separating_axis_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-    GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges, GLOBAL const row *strips,
-    GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-    GLOBAL const Parameters *parameters, GLOBAL row *axes, GLOBAL uint *states, uint method, uint i)
+                                      GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                                      GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                                      GLOBAL const uint *face_starts, GLOBAL const uint *corners,
+                                      GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
+                                      GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                                      GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                                      GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                      GLOBAL const Parameters *parameters, GLOBAL row *axes, GLOBAL uint *states,
+                                      uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   convex_query query;
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
-                               strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i);
+  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
+                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
+                               positions, orientations, velocities, parameters, method, i);
   states[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
   store_row(axes, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   if (near != QUERY_NEAR || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
   convex_pair pair = pair_of(&query.first, &query.second);
-  core_contact contact = separating_hull_axis(&pair.a, &pair.b, lead_of_faces(&pair.a, &pair.b, parameters->slop), query.reach).contact;
+  core_contact contact =
+      separating_hull_axis(&pair.a, &pair.b, lead_of_faces(&pair.a, &pair.b, parameters->slop), query.reach).contact;
   states[i] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
   store_row(axes, i, extend(contact.normal, contact.gap));
 }
 
 /* faces: of a and b of the pair; INDEX_NONE: none that faces the other. */
 SHARED void find_clipping_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-    GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges, GLOBAL const row *strips,
-    GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-    GLOBAL const Parameters *parameters, GLOBAL const row *axes, GLOBAL const uint *states, GLOBAL uint *faces, uint method, uint i)
+                                     GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                                     GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                                     GLOBAL const uint *face_starts, GLOBAL const uint *corners,
+                                     GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
+                                     GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
+                                     GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+                                     GLOBAL const row *orientations, GLOBAL const row *velocities,
+                                     GLOBAL const Parameters *parameters, GLOBAL const row *axes,
+                                     GLOBAL const uint *states, GLOBAL uint *faces, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   faces[i * 2u] = faces[i * 2u + 1u] = INDEX_NONE;
   if (states[i] != SPLIT_CLIP) return;
   convex_query query;
-  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
-                               strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i) != QUERY_NEAR) return;
+  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
+                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
+                        orientations, velocities, parameters, method, i) != QUERY_NEAR)
+    return;
   convex_pair pair = pair_of(&query.first, &query.second);
   vec3 normal = xyz(load_row(axes, i));
   support_face face_a = support_face_of(&pair.a, normal), face_b = support_face_of(&pair.b, negate(normal));
@@ -57,24 +69,31 @@ SHARED void find_clipping_faces_item(GLOBAL const uint *pair_a, GLOBAL const uin
   faces[i * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
 }
 
-/* clipped: u, v, separation and height of b, planes of pairs; clipped_counts: how many, INDEX_NONE if there is no room or no face. */
+/* clipped: u, v, separation and height of b, planes of pairs; clipped_counts: how many, INDEX_NONE if there is no room
+ * or no face. */
 SHARED void clip_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-    GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges, GLOBAL const row *strips,
-    GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-    GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const row *axes, GLOBAL const uint *states, GLOBAL const uint *faces,
-    GLOBAL row *clipped, GLOBAL uint *clipped_counts, uint method, uint i)
+                            GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                            GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                            GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
+                            GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                            GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
+                            GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
+                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const row *axes,
+                            GLOBAL const uint *states, GLOBAL const uint *faces, GLOBAL row *clipped,
+                            GLOBAL uint *clipped_counts, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   clipped_counts[i] = INDEX_NONE;
   if (states[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
-  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
-                               strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i) != QUERY_NEAR) return;
+  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
+                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
+                        orientations, velocities, parameters, method, i) != QUERY_NEAR)
+    return;
   convex_pair pair = pair_of(&query.first, &query.second);
   contact_axes plane = contact_axes_of(xyz(load_row(axes, i)));
-  support_face face_a = face_of_polytope(&pair.a, faces[i * 2u]), face_b = face_of_polytope(&pair.b, faces[i * 2u + 1u]);
+  support_face face_a = face_of_polytope(&pair.a, faces[i * 2u]),
+               face_b = face_of_polytope(&pair.b, faces[i * 2u + 1u]);
   feature_overlap overlap;
   start_overlap(&overlap, &pair.a, &face_a, &pair.b, &face_b, &plane, query.reach);
   reduction r;
@@ -84,7 +103,8 @@ SHARED void clip_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b
   clipped_counts[i] = r.points;
   for (uint k = 0u; k < r.points; ++k) {
     clip_point p = r.kept[k];
-    store_row(clipped, counts[CAPACITY_PAIRS] * k + i, make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &pair.a, &pair.b, p)));
+    store_row(clipped, counts[CAPACITY_PAIRS] * k + i,
+              make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &pair.a, &pair.b, p)));
   }
 }
 
@@ -95,7 +115,8 @@ SHARED clip_point stored_point(vec4 stored)
 }
 
 /* The patch of the points stored. False if they miss the deepest point. */
-SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 axis, GLOBAL const row *clipped, uint stride, uint count, uint i)
+SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 axis, GLOBAL const row *clipped,
+                          uint stride, uint count, uint i)
 {
   reduction r;
   start_reduction(&r, bounding_radius_of(&pair->b), slack_of_corners(&pair->b));
@@ -108,33 +129,41 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
     patch->height[slot] = R(0.0);
     for (uint k = count; k-- > 0u;) {
       vec4 p = load_row(clipped, stride * k + i);
-      if (p.x == patch->point[slot].u && p.y == patch->point[slot].v && p.z == patch->point[slot].separation) patch->height[slot] = p.w;
+      if (p.x == patch->point[slot].u && p.y == patch->point[slot].v && p.z == patch->point[slot].separation)
+        patch->height[slot] = p.w;
     }
   }
   return 1;
 }
 
 SHARED void reduce_contacts_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-    GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges, GLOBAL const row *strips,
-    GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-    GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const row *axes, GLOBAL const uint *states, GLOBAL const uint *faces,
-    GLOBAL const row *clipped, GLOBAL const uint *clipped_counts, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-    GLOBAL uint *features, uint method, uint i)
+                                 GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
+                                 GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
+                                 GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
+                                 GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
+                                 GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
+                                 GLOBAL const row *positions, GLOBAL const row *orientations,
+                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
+                                 GLOBAL const uint *counts, GLOBAL const row *axes, GLOBAL const uint *states,
+                                 GLOBAL const uint *faces, GLOBAL const row *clipped, GLOBAL const uint *clipped_counts,
+                                 GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
+                                 GLOBAL uint *features, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT) || states[i] == SPLIT_OF_OTHERS) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  if (states[i] == SPLIT_APART || load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts, corners, edges,
-                               strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions, orientations, velocities, parameters, method, i) != QUERY_NEAR) {
+  if (states[i] == SPLIT_APART ||
+      load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
+                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
+                        orientations, velocities, parameters, method, i) != QUERY_NEAR) {
     store_no_manifold(stride, normals, points, counts_of_points, features, i);
     return;
   }
   convex_pair pair = pair_of(&query.first, &query.second);
   contact_patch patch;
   patch.code = code_of_features(faces[i * 2u], faces[i * 2u + 1u]);
-  mask reduced = clipped_counts[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i);
+  mask reduced = clipped_counts[i] != INDEX_NONE &&
+                 reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i);
   manifold m;
   if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&pair, &patch), query.reach));
   else m = contact_of_query(parameters, &query, method & 255u);

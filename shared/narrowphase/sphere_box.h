@@ -54,7 +54,8 @@ SHARED manifold sphere_box_contact(sphere_and_box pair)
   real separation = nearest.distance - pair.radius;
   vec3 from_sphere = scale(outward, -(pair.radius + separation * R(0.5)));
   vec3 offset = choose3(pair.sphere_first, from_sphere, add(pair.center, from_sphere));
-  return single_contact(choose3(pair.sphere_first, negate(outward), outward), offset, separation, separation == separation);
+  return single_contact(choose3(pair.sphere_first, negate(outward), outward), offset, separation,
+                        separation == separation);
 }
 
 SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion moves, real time)
@@ -62,7 +63,8 @@ SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion mov
   sphere_and_box pair = start;
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
   pair.center = add_scaled(pair.center, choose3(pair.sphere_first, negate(velocity), velocity), time);
-  pair.rotation = turned_axes(turn_within(choose3(pair.sphere_first, moves.b.angular, moves.a.angular), time), pair.rotation);
+  pair.rotation =
+      turned_axes(turn_within(choose3(pair.sphere_first, moves.b.angular, moves.a.angular), time), pair.rotation);
   return pair;
 }
 
@@ -76,15 +78,18 @@ SHARED real gap_of_sphere_along(sphere_and_box pair, vec3 outward)
 SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, journey way)
 {
   vec3 angular = choose3(pair.sphere_first, moves.b.angular, moves.a.angular);
-  real speed = length_of(subtract(moves.a.linear, moves.b.linear)), distance = length_of(pair.center) + speed * way.horizon;
+  real speed = length_of(subtract(moves.a.linear, moves.b.linear)),
+       distance = length_of(pair.center) + speed * way.horizon;
   real acceleration = acceleration_seen(length_of(angular), distance, speed, R(0.0), R(0.0));
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     manifold now = sphere_box_contact(sphere_and_box_after(pair, moves, at.time));
     vec3 outward = choose3(pair.sphere_first, negate(now.normal), now.normal);
     real gap = now.point[0].w, span = span_of(at, gap, acceleration, way);
-    real gap_then = gap_of_sphere_along(sphere_and_box_after(pair, moves, at.time + span), rotate(turn_within(angular, span), outward));
-    at = advanced(at, round, gap, closing_speed(moves, now.normal), free_by_chord(gap, gap_then, span, acceleration, way), way);
+    real gap_then = gap_of_sphere_along(sphere_and_box_after(pair, moves, at.time + span),
+                                        rotate(turn_within(angular, span), outward));
+    at = advanced(at, round, gap, closing_speed(moves, now.normal),
+                  free_by_chord(gap, gap_then, span, acceleration, way), way);
     if (!any_of(at.active)) break;
   }
   return at;
@@ -94,7 +99,8 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
                                     GLOBAL const row *shapes, GLOBAL const row *positions,
                                     GLOBAL const row *orientations, GLOBAL const row *velocities,
                                     GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
-                                    GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
+                                    GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features,
+                                    item_index i)
 {
   natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
@@ -105,13 +111,16 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
   vec4 shape = load_row(shapes, box);
   real zero = R(0.0), radius = load_row(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
-  sphere_and_box pair = {offset_between(positions, box, sphere), xyz(shape), radius, rotation_of(quat_from(load_row(orientations, box))), sphere_first};
-  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(sphere_first, zero, shape.w), choose(sphere_first, shape.w, zero));
+  sphere_and_box pair = {offset_between(positions, box, sphere), xyz(shape), radius,
+                         rotation_of(quat_from(load_row(orientations, box))), sphere_first};
+  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(sphere_first, zero, shape.w),
+                                       choose(sphere_first, shape.w, zero));
   manifold m = sphere_box_contact(pair);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
   journey way = journey_of_step(parameters, moves, least, radius + shape.w);
-  speculation s = speculation_of(parameters, m, choose3(sphere_first, negate(pair.center), pair.center), moves, way, least);
+  speculation s =
+      speculation_of(parameters, m, choose3(sphere_first, negate(pair.center), pair.center), moves, way, least);
   if (any_of(mine & s.asked)) {
     encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));

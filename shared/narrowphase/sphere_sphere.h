@@ -1,7 +1,7 @@
 /* sphere_sphere.h - two spheres touch in one point on the line of their centres.
  *
- * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii, and pass each other where the
- * velocity is square to the offset.
+ * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii, and pass each
+ * other where the velocity is square to the offset.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
@@ -18,8 +18,8 @@ SHARED manifold spheres_contact(vec3 between, real radius_a, real radius_b, vec3
   return single_contact(normal, scale(normal, radius_a + separation * R(0.5)), separation, separation == separation);
 }
 
-/* The distance at which the centres pass each other is taken from the vector itself: as a difference of squares it would lose
- * to rounding what a fast pair misses by. */
+/* The distance at which the centres pass each other is taken from the vector itself: as a difference of squares it
+ * would lose to rounding what a fast pair misses by. */
 SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pair_motion moves, journey way)
 {
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
@@ -36,9 +36,10 @@ SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pai
   return at;
 }
 
-/* Spheres that miss keep a contact where they pass each other, if they would run into that of the start: its plane lies along their
- * motion, which so never meets it, and what others push into it is held. */
-SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, mask runs_into_start, advancement at, journey way)
+/* Spheres that miss keep a contact where they pass each other, if they would run into that of the start: its plane lies
+ * along their motion, which so never meets it, and what others push into it is held. */
+SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, mask runs_into_start,
+                                      advancement at, journey way)
 {
   encounter met = encounter_of(parameters, s, at, way);
   mask passes = met.missed & runs_into_start;
@@ -48,15 +49,17 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
   return met;
 }
 
-/* How much nearer a contact takes passing spheres to come than they do, m. Turning moves nothing of a sphere, but does move the arms of its
- * contact, which follow what the bodies slide past each other as shift_of_arms of setup/contact.h says: on average half of what they slide
- * within the step. Gravity bends the way by a quarter of its mean speed, and set-up places the arms without it. */
+/* How much nearer a contact takes passing spheres to come than they do, m. Turning moves nothing of a sphere, but does
+ * move the arms of its contact, which follow what the bodies slide past each other as shift_of_arms of setup/contact.h
+ * says: on average half of what they slide within the step. Gravity bends the way by a quarter of its mean speed, and
+ * set-up places the arms without it. */
 SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
 {
   real speed = length_of(subtract(moves.b.linear, moves.a.linear)), share = share_of_slide(moves.a, moves.b);
   real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
   real turning = share * turning_a + (R(1.0) - share) * turning_b, unplaced = (turning_a + turning_b) * time;
-  return (R(0.5) * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) * parameters->step;
+  return (R(0.5) * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) *
+         parameters->step;
 }
 
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
@@ -80,7 +83,8 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
   speculation s = speculation_of(parameters, m, between, moves, way, least);
   if (any_of(mine & s.asked)) {
     advancement at = impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way);
-    encounter met = encounter_of_spheres(parameters, s, approach_of_points(parameters, m, between, moves).reached[0], at, way);
+    encounter met =
+        encounter_of_spheres(parameters, s, approach_of_points(parameters, m, between, moves).reached[0], at, way);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
     manifold there = spheres_contact(offset, radius_a, radius_b, aside);
     there.point[0].w = there.point[0].w + choose(at.hits, (real)R(0.0), margin_of_passing(parameters, moves, met.time));

@@ -8,12 +8,14 @@
  *   sphere        its middle                                                                  1
  *   triangle      itself, from either side                                                    3
  *
- * A polygon steeper than FACE_LEAST_COSINE to the direction is none: only the farthest point is then handed out. Corners
- * run counter-clockwise seen from outside, about the origin that the pair is seen from. Of faces nearly as square as each
- * other the lowest index wins, so that noise does not move the choice.
+ * A polygon steeper than FACE_LEAST_COSINE to the direction is none: only the farthest point is then handed out.
+ * Corners run counter-clockwise seen from outside, about the origin that the pair is seen from. Of faces nearly as
+ * square as each other the lowest index wins, so that noise does not move the choice.
  *
- *       .-- * --.       A cap has one corner where the rim lies farthest in the direction, so that a tilted cylinder keeps
- *      *    |    *      its deepest point. Below CAP_LEAST_TILT the corners stay with the body instead, as the tilt of a
+ *       .-- * --.       A cap has one corner where the rim lies farthest in the direction, so that a tilted cylinder
+ * keeps
+ *      *    |    *      its deepest point. Below CAP_LEAST_TILT the corners stay with the body instead, as the tilt of
+ * a
  *      *    o    *      cylinder at rest is noise; that costs at most 0.08 tilt of the radius.
  *       '-- * --'
  */
@@ -29,11 +31,11 @@
 
 typedef struct {
   uint corners;
-  uint feature;     /* of the shape: face; 0 and 1 the caps, 2 the side, 3 and 4 the ends */
-  vec3 normal;      /* outward, of three corners or more */
+  uint feature;               /* of the shape: face; 0 and 1 the caps, 2 the side, 3 and 4 the ends */
+  vec3 normal;                /* outward, of three corners or more */
   vec3 first_end, second_end; /* of one or two corners */
-  vec3 phase;       /* unit, from the axis of a cylinder to a cap's first corner */
-  mask turned;      /* a triangle seen from behind */
+  vec3 phase;                 /* unit, from the axis of a cylinder to a cap's first corner */
+  mask turned;                /* a triangle seen from behind */
 } support_face;
 
 SHARED support_face point_feature(vec3 point, uint feature)
@@ -100,7 +102,8 @@ SHARED support_face cylinder_feature(const convex *shape, vec3 own)
   mask top = own.y > R(0.0);
   real radius = top ? size.z : size.x;
   if (magnitude(own.y) < cosine_of_side || radius <= R(0.0)) {
-    vec3 low = make_vec3(outward.x * size.x, -size.y, outward.z * size.x), high = make_vec3(outward.x * size.z, size.y, outward.z * size.z);
+    vec3 low = make_vec3(outward.x * size.x, -size.y, outward.z * size.x),
+         high = make_vec3(outward.x * size.z, size.y, outward.z * size.z);
     return segment_feature(point_of_shape(shape, low), point_of_shape(shape, high), 2u);
   }
   support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), top ? 1u : 0u);

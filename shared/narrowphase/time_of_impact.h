@@ -1,20 +1,25 @@
 /* time_of_impact.h - a contact ahead of touching is made only where the motion of the step would touch.
  *
- *        v -->                         Seen from the start of the step, the closest points of the ball and the edge have a
- *      .--.                            slanted normal, and a contact there is an endless plane: it would stop a ball that
- *     ( a  )  \  n                     passes the edge. So the bodies are followed along their motion. A pair that touches
- *      '--'    \                       keeps its contacts; if it moves far, they are those of the moment of impact. A pair
+ *        v -->                         Seen from the start of the step, the closest points of the ball and the edge
+ * have a
+ *      .--.                            slanted normal, and a contact there is an endless plane: it would stop a ball
+ * that ( a  )  \  n                     passes the edge. So the bodies are followed along their motion. A pair that
+ * touches
+ *      '--'    \                       keeps its contacts; if it moves far, they are those of the moment of impact. A
+ * pair
  *               +---------             that misses loses the points that its own motion would run into.
  *               | b
  *
- * The pair is advanced again and again by the time in which it cannot touch, the longer of two: gap / closing speed (conservative
- * advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what the gap now and a span later say, along a normal that
- * turns with one of the bodies. In between no point strays from the chord by more than its acceleration lets it:
+ * The pair is advanced again and again by the time in which it cannot touch, the longer of two: gap / closing speed
+ * (conservative advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what the gap now and a span later
+ * say, along a normal that turns with one of the bodies. In between no point strays from the chord by more than its
+ * acceleration lets it:
  *
- *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it passes is
- *       |`- .  chord                 known to miss in a few rounds, also where it rolls along with hardly a gap, and one that hits
- *       |  . ` - . _                 is found by steps that shorten as the square root of the gap. Of bodies that do not turn the
- *       |    `-.....` - o            gap along a normal is the chord itself.
+ *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it
+ * passes is
+ *       |`- .  chord                 known to miss in a few rounds, also where it rolls along with hardly a gap, and
+ * one that hits |  . ` - . _                 is found by steps that shorten as the square root of the gap. Of bodies
+ * that do not turn the |    `-.....` - o            gap along a normal is the chord itself.
  *       +------------------> time
  *
  * At rest nothing of this runs: touching points, and gaps that a slow pair does not close, are left as they are.
@@ -25,9 +30,11 @@
 #include "shared/narrowphase/manifold.h"
 #include "shared/trigonometry.h"
 
-/* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much early. */
+/* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much
+ * early. */
 #define ADVANCEMENT_ROUNDS 128
-/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest pair of all. */
+/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest
+ * pair of all. */
 #define SLOW_ROUNDS 8
 /* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
 #define FAR_SHARE R(0.25)
@@ -38,27 +45,29 @@
 /* Of the slop: nor need they come closer than this within a step. */
 #define TOUCHING_SLOP R(0.02)
 
-/* Two bodies that move evenly: as far within the step as gravity brings them. radius: that turning swings round; 0 for a sphere in the
- * middle of its body. fall: what of the velocity of a against b is gravity's. */
+/* Two bodies that move evenly: as far within the step as gravity brings them. radius: that turning swings round; 0 for
+ * a sphere in the middle of its body. fall: what of the velocity of a against b is gravity's. */
 typedef struct {
   motion a, b;
   real radius_a, radius_b;
   vec3 fall;
 } pair_motion;
 
-SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a, natural b, real radius_a, real radius_b)
+SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a,
+                                    natural b, real radius_a, real radius_b)
 {
   vec4 first_a = load_row(velocities, a * 2u), second_a = load_row(velocities, a * 2u + 1u);
   vec4 first_b = load_row(velocities, b * 2u), second_b = load_row(velocities, b * 2u + 1u);
   vec3 fall_a = mean_fall(parameters, first_a, second_a), fall_b = mean_fall(parameters, first_b, second_b);
-  pair_motion m = {motion_of_rows(first_a, second_a), motion_of_rows(first_b, second_b), radius_a, radius_b, subtract(fall_a, fall_b)};
+  pair_motion m = {motion_of_rows(first_a, second_a), motion_of_rows(first_b, second_b), radius_a, radius_b,
+                   subtract(fall_a, fall_b)};
   m.a.linear = add(m.a.linear, fall_a);
   m.b.linear = add(m.b.linear, fall_b);
   return m;
 }
 
-/* A body without a contact falls on the exact parabola, one with a contact nearly (integrate/positions.h), so contacts are made no
- * earlier for gravity: the speculative distance is enough. */
+/* A body without a contact falls on the exact parabola, one with a contact nearly (integrate/positions.h), so contacts
+ * are made no earlier for gravity: the speculative distance is enough. */
 SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   motion a = m.a;
@@ -74,24 +83,35 @@ SHARED real closing_speed(pair_motion m, vec3 normal)
 }
 SHARED real fastest_closing(pair_motion m)
 {
-  return length_of(subtract(m.a.linear, m.b.linear)) + length_of(m.a.angular) * m.radius_a + length_of(m.b.angular) * m.radius_b;
+  return length_of(subtract(m.a.linear, m.b.linear)) + length_of(m.a.angular) * m.radius_a +
+         length_of(m.b.angular) * m.radius_b;
 }
-SHARED real fastest_turning(pair_motion m) { return length_of(m.a.angular) * m.radius_a + length_of(m.b.angular) * m.radius_b; }
+SHARED real fastest_turning(pair_motion m)
+{
+  return length_of(m.a.angular) * m.radius_a + length_of(m.b.angular) * m.radius_b;
+}
 
-/* How fast points of a body accelerate, at most, as a body sees them that turns: Coriolis' terms, m/s^2. distance, speed: of the
- * centres; turning: rad/s. */
+/* How fast points of a body accelerate, at most, as a body sees them that turns: Coriolis' terms, m/s^2. distance,
+ * speed: of the centres; turning: rad/s. */
 SHARED real acceleration_seen(real turning_viewer, real distance, real speed, real turning, real radius)
 {
-  return turning_viewer * turning_viewer * (distance + radius) + R(2.0) * turning_viewer * (speed + turning * radius) + turning * turning * radius;
+  return turning_viewer * turning_viewer * (distance + radius) + R(2.0) * turning_viewer * (speed + turning * radius) +
+         turning * turning * radius;
 }
 
 /* The centre of b seen from that of a after a time. */
-SHARED vec3 offset_after(vec3 offset, pair_motion m, real time) { return add_scaled(offset, subtract(m.b.linear, m.a.linear), time); }
+SHARED vec3 offset_after(vec3 offset, pair_motion m, real time)
+{
+  return add_scaled(offset, subtract(m.b.linear, m.a.linear), time);
+}
 /* The rotation that an even spin makes within a time. */
-SHARED mat3 turn_within(vec3 angular, real time) { return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time))); }
+SHARED mat3 turn_within(vec3 angular, real time)
+{
+  return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time)));
+}
 
-/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; which share of a gap may stay unknown, and with it
- * the normal; whether the pair comes far. */
+/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; which share of a gap may stay
+ * unknown, and with it the normal; whether the pair comes far. */
 typedef struct {
   real horizon, touching, fastest, roughly;
   mask far;
@@ -104,8 +124,9 @@ SHARED journey journey_of(real fastest, real horizon, real least, real size)
   return way;
 }
 
-/* The journey of one step. Contacts are made somewhat ahead of touching, for what gravity and other contacts add: the motion is
- * followed past the end of the step until it has grown by that distance. least: of the sizes of the two; size: of both. */
+/* The journey of one step. Contacts are made somewhat ahead of touching, for what gravity and other contacts add: the
+ * motion is followed past the end of the step until it has grown by that distance. least: of the sizes of the two;
+ * size: of both. */
 SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion moves, real least, real size)
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
@@ -116,7 +137,8 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
   return way;
 }
 
-/* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the horizon. */
+/* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the horizon.
+ */
 typedef struct {
   mask active, hits;
   real time; /* s: up to here it does not touch */
@@ -133,7 +155,9 @@ SHARED real span_of(advancement at, real gap, real acceleration, journey way)
 {
   real rest = maximum(way.horizon - at.time, R(0.0));
   mask bends = acceleration > R(0.0);
-  return choose(bends, minimum(rest, square_root(R(2.0) * maximum(gap, R(0.0)) / choose(bends, acceleration, (real)R(1.0)))), rest);
+  return choose(bends,
+                minimum(rest, square_root(R(2.0) * maximum(gap, R(0.0)) / choose(bends, acceleration, (real)R(1.0)))),
+                rest);
 }
 /* How much of the span is free of touching, s. */
 SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration, journey way)
@@ -166,14 +190,17 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
-/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so the plane of one that turns comes nearer to
- * the other, m/s: of what nothing pushes at most; of both, if nothing else turns them. */
-typedef struct { real of_driven, of_both; } slide_closing;
+/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so the plane of one that turns
+ * comes nearer to the other, m/s: of what nothing pushes at most; of both, if nothing else turns them. */
+typedef struct {
+  real of_driven, of_both;
+} slide_closing;
 
 SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   real zero = R(0.0), share = share_of_slide(m.a, m.b);
-  real driven = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero) + choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
+  real driven = choose(m.a.inverse_mass == zero, length_of(m.a.angular), zero) +
+                choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
   vec3 slide = scale(subtract(m.b.linear, m.a.linear), parameters->step);
   vec3 turning = add(scale(m.a.angular, share), scale(m.b.angular, R(1.0) - share));
   real of_driven = driven * length_of(slide);
@@ -182,10 +209,13 @@ SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_
 }
 
 /* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
-SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least) { return fastest * parameters->step > FAR_SHARE * least; }
+SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least)
+{
+  return fastest * parameters->step > FAR_SHARE * least;
+}
 
-/* How fast the points of a manifold come nearer, m/s, which of them the motion of the pair itself would run into within the step, and
- * which of them the turning of bodies that can be pushed would, too. */
+/* How fast the points of a manifold come nearer, m/s, which of them the motion of the pair itself would run into within
+ * the step, and which of them the turning of bodies that can be pushed would, too. */
 typedef struct {
   real closing[4];
   mask reached[4], turned_into[4];
@@ -193,15 +223,19 @@ typedef struct {
 } approaching_points;
 
 /* offset: centre of b from that of a, as the points are. */
-SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
+SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters, manifold m, vec3 offset,
+                                             pair_motion moves)
 {
   approaching_points points;
   points.by_slide = closing_by_slide(parameters, moves, m.normal);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
-    points.closing[slot] = maximum(inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    points.reached[slot] = m.kept[slot] & ((points.closing[slot] + points.by_slide.of_driven) * parameters->step >= m.point[slot].w);
-    points.turned_into[slot] = m.kept[slot] & ((points.closing[slot] + points.by_slide.of_both) * parameters->step >= m.point[slot].w);
+    points.closing[slot] = maximum(
+        inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
+    points.reached[slot] =
+        m.kept[slot] & ((points.closing[slot] + points.by_slide.of_driven) * parameters->step >= m.point[slot].w);
+    points.turned_into[slot] =
+        m.kept[slot] & ((points.closing[slot] + points.by_slide.of_both) * parameters->step >= m.point[slot].w);
   }
   return points;
 }
@@ -211,20 +245,25 @@ SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, v
   return points.turned_into[0] | points.turned_into[1] | points.turned_into[2] | points.turned_into[3];
 }
 
-/* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that the motion of
- * the step reaches, which are followed, and those of a body that swings far. */
-typedef struct { mask asked, reached, a_swings, b_swings; } speculation;
+/* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that
+ * the motion of the step reaches, which are followed, and those of a body that swings far. */
+typedef struct {
+  mask asked, reached, a_swings, b_swings;
+} speculation;
 
-/* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far, and so does not swing
- * far, and reaches none of its points would keep them all, so it is not asked. */
-SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves, journey way, real least)
+/* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far,
+ * and so does not swing far, and reaches none of its points would keep them all, so it is not asked. */
+SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves,
+                                  journey way, real least)
 {
   real gap = least_separation(m);
   speculation s;
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
   mask ahead = has_points(m) & (gap > way.touching);
-  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).of_both) * parameters->step > gap);
+  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).of_both) *
+                           parameters->step >
+                       gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   if (any_of(s.asked & (!way.far))) {
     s.asked = s.asked & (way.far | reaches_any_point(parameters, m, offset, moves));
@@ -241,26 +280,31 @@ typedef struct {
   real time; /* s */
 } encounter;
 
-/* A pair that does not come far meets as it stands at the start. One that misses while one of it swings far is looked at as it is at
- * the end of the step (guard_of). */
+/* A pair that does not come far meets as it stands at the start. One that misses while one of it swings far is looked
+ * at as it is at the end of the step (guard_of). */
 SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s, advancement at, journey way)
 {
   mask missed = s.asked & (!at.hits), meets = s.asked & at.hits & way.far & (at.time > R(0.0));
   mask one_swings = (s.a_swings | s.b_swings) & (!(s.a_swings & s.b_swings));
-  encounter met = {meets | (missed & one_swings), missed, s.a_swings, s.b_swings, choose(at.hits, at.time, (real)parameters->step)};
+  encounter met = {meets | (missed & one_swings), missed, s.a_swings, s.b_swings,
+                   choose(at.hits, at.time, (real)parameters->step)};
   return met;
 }
 
-/* Of a body that swings far and misses what nothing pushes, the contacts of the end of the step: what others add must not bring it nearer
- * than it is then. In its centre, where its turning moves nothing, so that its own motion ends ahead of it; where that of the other
- * moves the point by much, it is left out. Of two that can be pushed neither is guarded: their arms would leave the centre. */
-SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset, pair_motion moves)
+/* Of a body that swings far and misses what nothing pushes, the contacts of the end of the step: what others add must
+ * not bring it nearer than it is then. In its centre, where its turning moves nothing, so that its own motion ends
+ * ahead of it; where that of the other moves the point by much, it is left out. Of two that can be pushed neither is
+ * guarded: their arms would leave the centre. */
+SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset,
+                         pair_motion moves)
 {
   vec3 point = choose3(a_swings, make_vec3(R(0.0), R(0.0), R(0.0)), offset);
   real gap = least_separation(end), turning = length_of(choose3(a_swings, moves.b.angular, moves.a.angular));
   mask quiet = turning * length_of(offset) * parameters->step < R(0.25) * gap;
-  real pushed = choose(a_swings, moves.a.inverse_mass, moves.b.inverse_mass), other = choose(a_swings, moves.b.inverse_mass, moves.a.inverse_mass);
-  manifold guard = single_contact(end.normal, point, gap, has_points(end) & quiet & (pushed > R(0.0)) & (other == R(0.0)));
+  real pushed = choose(a_swings, moves.a.inverse_mass, moves.b.inverse_mass),
+       other = choose(a_swings, moves.b.inverse_mass, moves.a.inverse_mass);
+  manifold guard =
+      single_contact(end.normal, point, gap, has_points(end) & quiet & (pushed > R(0.0)) & (other == R(0.0)));
   guard.code = end.code;
   return guard;
 }
@@ -268,20 +312,24 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
 /* So much more than what comes nearer keeps rounding from making it touch. */
 #define CLEARLY R(1.01)
 
-/* From the moment of the impact back to the start of the step: points were as far apart again as they close until then. A point
- * that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
- * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them. A point that only turning would
- * reach is put clear of it, for the turning of what can be pushed is not sure to come.
+/* From the moment of the impact back to the start of the step: points were as far apart again as they close until then.
+ * A point that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
+ * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them. A
+ * point that only turning would reach is put clear of it, for the turning of what can be pushed is not sure to come.
  * offset: centre of b from that of a, at the moment of the contacts. */
-SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset, pair_motion moves)
+SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset,
+                                   pair_motion moves)
 {
-  manifold m = choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
+  manifold m =
+      choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
   approaching_points points = approach_of_points(parameters, m, offset, moves);
   mask swings = met.a_swings | met.b_swings;
   for (int slot = 0; slot < 4; ++slot) {
     m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
-    real clear = choose(met.missed & points.turned_into[slot], CLEARLY * (points.closing[slot] + points.by_slide.of_both) * parameters->step, m.point[slot].w);
-    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, maximum(m.point[slot].w, clear));
+    real clear = choose(met.missed & points.turned_into[slot],
+                        CLEARLY * (points.closing[slot] + points.by_slide.of_both) * parameters->step, m.point[slot].w);
+    m.point[slot].w =
+        choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, maximum(m.point[slot].w, clear));
   }
   m.impact_time = choose(met.at_impact, met.time, (real)R(0.0));
   return m;

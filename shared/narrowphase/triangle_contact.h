@@ -1,18 +1,20 @@
-/* triangle_contact.h - a triangle of a mesh against a convex shape or another triangle: a surface, not a body of its own.
+/* triangle_contact.h - a triangle of a mesh against a convex shape or another triangle: a surface, not a body of its
+ * own.
  *
- *        .---.              Flat: the box slides over the seam of two triangles. Deep in one of them its shortest way out is
- *        | b |  -->         sideways (x), which would catch it. A normal may lean over an edge only as far as the neighbour's
+ *        .---.              Flat: the box slides over the seam of two triangles. Deep in one of them its shortest way
+ * out is | b |  -->         sideways (x), which would catch it. A normal may lean over an edge only as far as the
+ * neighbour's
  *    ----'-x-'----          does, and over a flat or concave edge not at all: then the triangle's own normal holds.
  *      A  |  B
- *                  t   out  n2      convex: out lies between t and the neighbour's n2        out of that wedge: t instead
- *                   \  |  /
+ *                  t   out  n2      convex: out lies between t and the neighbour's n2        out of that wedge: t
+ * instead \  |  /
  *                 ___\_|_/          concave or flat: no wedge                                t instead
  *                     A\B\
  *
- * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. Two triangles that face each
- * other are the skins of two solids, and each may be behind the other as far as the thinner of the solids is. A contact moved
- * to the triangle's own normal counts only above the triangle; the neighbour makes the one beyond. After G. van den Bergen's
- * and E. Catto's talks on mesh contacts, and Bullet's btInternalEdgeUtility.
+ * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. Two triangles that face
+ * each other are the skins of two solids, and each may be behind the other as far as the thinner of the solids is. A
+ * contact moved to the triangle's own normal counts only above the triangle; the neighbour makes the one beyond. After
+ * G. van den Bergen's and E. Catto's talks on mesh contacts, and Bullet's btInternalEdgeUtility.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
 #define TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
@@ -46,7 +48,8 @@ SHARED triangle_sides sides_of(const convex *shape)
 SHARED vec3 normal_beyond(const convex *shape, uint neighbour)
 {
   vec3 first = mesh_vertex(shape->tables, neighbour, 0u);
-  vec3 normal = outer(subtract(mesh_vertex(shape->tables, neighbour, 1u), first), subtract(mesh_vertex(shape->tables, neighbour, 2u), first));
+  vec3 normal = outer(subtract(mesh_vertex(shape->tables, neighbour, 1u), first),
+                      subtract(mesh_vertex(shape->tables, neighbour, 2u), first));
   return from_shape_axes(shape, scale(normal, R(1.0) / length_of(normal)));
 }
 
@@ -69,7 +72,8 @@ SHARED mask surface_permits(const convex *shape, const triangle_sides *t, vec3 o
 /* More of the other core lies in front of the triangle than behind it. */
 SHARED mask in_front(const triangle_sides *t, const convex *other)
 {
-  vec3 highest = subtract(support_of(other, t->normal), t->corner[0]), lowest = subtract(support_of(other, negate(t->normal)), t->corner[0]);
+  vec3 highest = subtract(support_of(other, t->normal), t->corner[0]),
+       lowest = subtract(support_of(other, negate(t->normal)), t->corner[0]);
   return inner(highest, t->normal) + inner(lowest, t->normal) >= R(0.0);
 }
 
@@ -80,7 +84,8 @@ SHARED mask above_triangle(const triangle_sides *t, vec3 point, real slack)
   return 1;
 }
 
-/* What is known of a pair with a triangle in it. of_a, of_b: the shape is one. outside_a: b is on the outer side of a. */
+/* What is known of a pair with a triangle in it. of_a, of_b: the shape is one. outside_a: b is on the outer side of
+ * a. */
 typedef struct {
   const convex *a, *b;
   mask of_a, of_b, outside_a, outside_b;
@@ -105,16 +110,20 @@ SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex
 
 SHARED mask normal_permitted(const triangle_pair *pair, vec3 normal)
 {
-  return (!pair->of_a || surface_permits(pair->a, &pair->sides_a, normal)) && (!pair->of_b || surface_permits(pair->b, &pair->sides_b, negate(normal)));
+  return (!pair->of_a || surface_permits(pair->a, &pair->sides_a, normal)) &&
+         (!pair->of_b || surface_permits(pair->b, &pair->sides_b, negate(normal)));
 }
-/* The way out leads into the back of a triangle: another face of its solid touches. Of two triangles, one may well be seen so. */
+/* The way out leads into the back of a triangle: another face of its solid touches. Of two triangles, one may well be
+ * seen so. */
 SHARED mask leads_behind(const triangle_pair *pair, vec3 normal)
 {
   if (pair->of_a && pair->of_b) return 0;
-  return (pair->of_a && inner(normal, pair->sides_a.normal) < -LEAN_NOISE) || (pair->of_b && inner(normal, pair->sides_b.normal) > LEAN_NOISE);
+  return (pair->of_a && inner(normal, pair->sides_a.normal) < -LEAN_NOISE) ||
+         (pair->of_b && inner(normal, pair->sides_b.normal) > LEAN_NOISE);
 }
 
-/* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape outside. */
+/* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape
+ * outside. */
 SHARED core_contact contact_along_face(const triangle_pair *pair)
 {
   core_contact along_a = {pair->sides_a.normal, R(-1e30)}, along_b = {negate(pair->sides_b.normal), R(-1e30)};
@@ -140,21 +149,24 @@ SHARED const triangle_sides *face_of_contact(const triangle_pair *pair, vec3 nor
 }
 
 /* Where nothing meets the triangle on its face: the deepest point, if it lies above it. */
-SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, core_contact contact, const triangle_sides *face)
+SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, core_contact contact,
+                             const triangle_sides *face)
 {
   mask on_a = face == &pair->sides_a;
-  vec3 deepest = on_a ? support_of(pair->b, negate(contact.normal)) : add_scaled(support_of(pair->a, contact.normal), contact.normal, contact.gap);
+  vec3 deepest = on_a ? support_of(pair->b, negate(contact.normal))
+                      : add_scaled(support_of(pair->a, contact.normal), contact.normal, contact.gap);
   real size = minimum(bounding_radius_of(pair->a), bounding_radius_of(pair->b));
   if (!above_triangle(face, deepest, R(1e-4) * size)) return 0;
   point_patch(patch, pair->a, pair->b, contact, deepest);
   return 1;
 }
 
-/* So near a triangle's own normal that the triangle is the face they meet on: of a tilted box's bottom and many triangles each then has its
- * own depth, not that of the box's lowest corner. */
+/* So near a triangle's own normal that the triangle is the face they meet on: of a tilted box's bottom and many
+ * triangles each then has its own depth, not that of the box's lowest corner. */
 SHARED mask nearly_along_face(const triangle_pair *pair, vec3 normal)
 {
-  return (pair->outside_a && inner(normal, pair->sides_a.normal) > SAME_FACE) || (pair->outside_b && inner(normal, pair->sides_b.normal) < -SAME_FACE);
+  return (pair->outside_a && inner(normal, pair->sides_a.normal) > SAME_FACE) ||
+         (pair->outside_b && inner(normal, pair->sides_b.normal) < -SAME_FACE);
 }
 
 /* A face of the shapes near the normal, where the surface permits it. */
@@ -166,7 +178,8 @@ SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact co
   return normal_permitted(pair, face.normal) ? face : contact;
 }
 
-/* TRIANGLE_APART: nothing is within reach in front of the triangle. TRIANGLE_BESIDE: a shape is, but has no contact here as it stands. */
+/* TRIANGLE_APART: nothing is within reach in front of the triangle. TRIANGLE_BESIDE: a shape is, but has no contact
+ * here as it stands. */
 enum { TRIANGLE_APART = 0, TRIANGLE_BESIDE = 1, TRIANGLE_MEETS = 2 };
 
 SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real thickness, real lead)
@@ -184,22 +197,24 @@ SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real re
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return TRIANGLE_BESIDE;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
-  /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a neighbour. */
+  /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a
+   * neighbour. */
   core_contact sought = {contact.normal, face ? R(1e30) : contact.gap};
   if (overlap_patch(patch, a, b, sought, reach)) return TRIANGLE_MEETS;
   if (face) {
     if (face_point_patch(patch, &triangles, contact, face)) return TRIANGLE_MEETS;
-    /* Nothing is above a face that was only preferred: the closest points lie on a sharp edge of it, whose other side may be turned
-     * away from what comes. */
-    if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach) return TRIANGLE_BESIDE;
+    /* Nothing is above a face that was only preferred: the closest points lie on a sharp edge of it, whose other side
+     * may be turned away from what comes. */
+    if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach)
+      return TRIANGLE_BESIDE;
     contact = closest;
   }
   point_patch(patch, a, b, contact, near.overlapping ? deepest_point_of_b(a, b, contact) : near.on_b);
   return TRIANGLE_MEETS;
 }
 
-/* impact_time of a manifold without points, where the shape is beside the triangle: it may come before it within the step. Not below
- * 0: rusticl makes -0 of the other side of a choice between -1 and 0. */
+/* impact_time of a manifold without points, where the shape is beside the triangle: it may come before it within the
+ * step. Not below 0: rusticl makes -0 of the other side of a choice between -1 and 0. */
 #define BESIDE R(1e30)
 
 /* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. */

@@ -50,8 +50,8 @@ SHARED void bitonic_compare(LOCAL uint *keys, LOCAL uint *values, uint count, ui
 }
 
 /* Sorts tile `group` (whole 1), or ends a merge whose wider strides are done (whole 0). */
-SHARED void bitonic_tile_group(GLOBAL const uint *counts, GLOBAL uint *keys, GLOBAL uint *values, uint length, uint whole,
-                               LOCAL uint *local_memory, uint group)
+SHARED void bitonic_tile_group(GLOBAL const uint *counts, GLOBAL uint *keys, GLOBAL uint *values, uint length,
+                               uint whole, LOCAL uint *local_memory, uint group)
 {
   const uint count = items_in_tile(counts[length], BITONIC_TILE, group), first = group * BITONIC_TILE;
   LOCAL uint *tile_keys = local_memory, *tile_values = local_memory + BITONIC_TILE;
@@ -77,8 +77,8 @@ SHARED void bitonic_tile_group(GLOBAL const uint *counts, GLOBAL uint *keys, GLO
   }
 }
 
-SHARED void bitonic_step_item(GLOBAL const uint *counts, GLOBAL uint *keys, GLOBAL uint *values, uint length, uint block,
-                              uint reach, uint i)
+SHARED void bitonic_step_item(GLOBAL const uint *counts, GLOBAL uint *keys, GLOBAL uint *values, uint length,
+                              uint block, uint reach, uint i)
 {
   const uint partner = bitonic_partner(i, block, reach);
   if (partner == i || partner >= counts[length]) return;

@@ -9,7 +9,10 @@
 
 #include "shared/platform.h"
 
-SHARED void compact_count_item(GLOBAL const uint *flags, GLOBAL uint *offsets, uint i) { offsets[i] = flags[i] != 0u ? 1u : 0u; }
+SHARED void compact_count_item(GLOBAL const uint *flags, GLOBAL uint *offsets, uint i)
+{
+  offsets[i] = flags[i] != 0u ? 1u : 0u;
+}
 
 SHARED void compact_write_item(GLOBAL const uint *flags, GLOBAL const uint *offsets, GLOBAL uint *indices, uint i)
 {

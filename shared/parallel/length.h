@@ -9,8 +9,8 @@
 
 #include "shared/platform.h"
 
-/* Counts stop at the largest uint instead of starting again at 0, so that what is too much stays too much. However a sum of counts is
- * parted and ordered, it is the true one, or that largest. */
+/* Counts stop at the largest uint instead of starting again at 0, so that what is too much stays too much. However a
+ * sum of counts is parted and ordered, it is the true one, or that largest. */
 SHARED uint saturated_sum(uint a, uint b)
 {
   uint sum = a + b;

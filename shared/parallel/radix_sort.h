@@ -29,12 +29,12 @@
 #define SORT_STRIP (SORT_TILE / SORT_STRIPS)
 
 /* Local memory, in words. Keys and values pass through the same words as the counts of strips, later. */
-#define SORT_RANKS_AT 0u                               /* a word a key, spread over banks: digit and rank, then place */
+#define SORT_RANKS_AT 0u /* a word a key, spread over banks: digit and rank, then place */
 #define SORT_SPREAD(i) ((i) + (i) / 64u)
-#define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u)   /* a half_word a digit and strip; then the tile in its new order */
-#define SORT_DIGITS_AT (SORT_COUNTS_AT + 4096u)        /* a byte a key: its digit, in the new order */
+#define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u) /* a half_word a digit and strip; then the tile, sorted */
+#define SORT_DIGITS_AT (SORT_COUNTS_AT + 4096u)      /* a byte a key: its digit, in the new order */
 #define SORT_STARTS_AT (SORT_DIGITS_AT + SORT_TILE / 4u) /* a word a digit: smaller digits in the tile */
-#define SORT_BASES_AT (SORT_STARTS_AT + SORT_DIGITS)   /* a word a digit: place in the result, less place in the tile */
+#define SORT_BASES_AT (SORT_STARTS_AT + SORT_DIGITS) /* a word a digit: place in the result, less place in the tile */
 #define SORT_SCRATCH_AT (SORT_BASES_AT + SORT_DIGITS)
 #define SORT_LOCAL_WORDS (SORT_SCRATCH_AT + 64u)
 
@@ -55,8 +55,8 @@ SHARED void sort_histogram_store(LOCAL const uint *counters, GLOBAL uint *histog
   FOR_EACH_ITEM(d, 1u << bits) histogram[d * tiles + group] = counters[d];
 }
 
-SHARED void sort_histogram_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL uint *histogram, uint length,
-                                 uint shift, uint bits, LOCAL uint *local_memory, uint group)
+SHARED void sort_histogram_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL uint *histogram,
+                                 uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group), first = group * SORT_TILE;
   if (count == 0u) return;
@@ -66,7 +66,7 @@ SHARED void sort_histogram_group(GLOBAL const uint *counts, GLOBAL const uint *k
 }
 
 SHARED void sort_histogram64_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL uint *histogram,
-                                      uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
+                                   uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group), first = group * SORT_TILE;
   if (count == 0u) return;
@@ -111,7 +111,8 @@ SHARED void sort_scan_strips(LOCAL uint *local_memory)
 }
 
 /* From the digits of a tile's keys to each key's place in the sorted tile, and each digit's place in the result. */
-SHARED void sort_rank_tile(GLOBAL const uint *offsets, uint n, uint count, uint bits, LOCAL uint *local_memory, uint group)
+SHARED void sort_rank_tile(GLOBAL const uint *offsets, uint n, uint count, uint bits, LOCAL uint *local_memory,
+                           uint group)
 {
   const uint tiles = units_of(n, SORT_TILE);
   LOCAL uint *ranks = local_memory + SORT_RANKS_AT, *bases = local_memory + SORT_BASES_AT;
@@ -165,8 +166,8 @@ SHARED void sort_place(GLOBAL const uint *keys, GLOBAL const uint *offsets, uint
   sort_rank_tile(offsets, n, count, bits, local_memory, group);
 }
 
-SHARED void sort_place64(GLOBAL const ulong *keys, GLOBAL const uint *offsets, uint n, uint count, uint shift, uint bits,
-                            LOCAL uint *local_memory, uint group)
+SHARED void sort_place64(GLOBAL const ulong *keys, GLOBAL const uint *offsets, uint n, uint count, uint shift,
+                         uint bits, LOCAL uint *local_memory, uint group)
 {
   FOR_EACH_ITEM(i, count)
   local_memory[SORT_RANKS_AT + SORT_SPREAD(i)] = sort_digit64(keys[group * SORT_TILE + i], shift, bits);
@@ -174,8 +175,8 @@ SHARED void sort_place64(GLOBAL const ulong *keys, GLOBAL const uint *offsets, u
 }
 
 SHARED void sort_scatter_group(GLOBAL const uint *counts, GLOBAL const uint *keys, GLOBAL const uint *offsets,
-                                    GLOBAL uint *sorted_keys, uint length, uint shift, uint bits, LOCAL uint *local_memory,
-                                    uint group)
+                               GLOBAL uint *sorted_keys, uint length, uint shift, uint bits, LOCAL uint *local_memory,
+                               uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
@@ -195,8 +196,8 @@ SHARED void sort_scatter_pairs_group(GLOBAL const uint *counts, GLOBAL const uin
 }
 
 SHARED void sort_scatter64_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL const uint *offsets,
-                                         GLOBAL ulong *sorted_keys, uint length, uint shift, uint bits,
-                                         LOCAL uint *local_memory, uint group)
+                                 GLOBAL ulong *sorted_keys, uint length, uint shift, uint bits,
+                                 LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;
@@ -205,8 +206,9 @@ SHARED void sort_scatter64_group(GLOBAL const uint *counts, GLOBAL const ulong *
 }
 
 SHARED void sort_scatter64_pairs_group(GLOBAL const uint *counts, GLOBAL const ulong *keys, GLOBAL const uint *values,
-                                          GLOBAL const uint *offsets, GLOBAL ulong *sorted_keys, GLOBAL uint *sorted_values,
-                                          uint length, uint shift, uint bits, LOCAL uint *local_memory, uint group)
+                                       GLOBAL const uint *offsets, GLOBAL ulong *sorted_keys,
+                                       GLOBAL uint *sorted_values, uint length, uint shift, uint bits,
+                                       LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[length], count = items_in_tile(n, SORT_TILE, group);
   if (count == 0u) return;

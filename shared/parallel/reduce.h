@@ -59,8 +59,8 @@ SHARED void reduce_uint(GLOBAL const uint *values, uint first, uint count, uint 
   FOR_EACH_ITEM(only, 1u) result[to] = items[only];
 }
 
-SHARED void reduce_real(GLOBAL const memory_real *values, uint first, uint count, uint operation, GLOBAL memory_real *result,
-                        uint to, LOCAL memory_real *items)
+SHARED void reduce_real(GLOBAL const memory_real *values, uint first, uint count, uint operation,
+                        GLOBAL memory_real *result, uint to, LOCAL memory_real *items)
 {
   FOR_EACH_ITEM(item, REDUCE_ITEMS)
   {
@@ -81,26 +81,29 @@ SHARED void reduce_tiles_group(GLOBAL const uint *counts, GLOBAL const uint *val
   reduce_uint(values, group * REDUCE_TILE, count, operation, partial, group, local_memory);
 }
 
-SHARED void reduce_partials_group(GLOBAL const uint *counts, GLOBAL const uint *partial, GLOBAL uint *result, uint length,
-                                  uint operation, LOCAL uint *local_memory, uint group)
+SHARED void reduce_partials_group(GLOBAL const uint *counts, GLOBAL const uint *partial, GLOBAL uint *result,
+                                  uint length, uint operation, LOCAL uint *local_memory, uint group)
 {
   if (group != 0u) return;
   reduce_uint(partial, 0u, units_of(counts[length], REDUCE_TILE), operation, result, 0u, local_memory);
 }
 
-SHARED void reduce_real_tiles_group(GLOBAL const uint *counts, GLOBAL const memory_real *values, GLOBAL memory_real *partial,
-                                    uint length, uint operation, LOCAL uint *local_memory, uint group)
+SHARED void reduce_real_tiles_group(GLOBAL const uint *counts, GLOBAL const memory_real *values,
+                                    GLOBAL memory_real *partial, uint length, uint operation, LOCAL uint *local_memory,
+                                    uint group)
 {
   const uint count = items_in_tile(counts[length], REDUCE_TILE, group);
   if (count == 0u) return;
   reduce_real(values, group * REDUCE_TILE, count, operation, partial, group, (LOCAL memory_real *)local_memory);
 }
 
-SHARED void reduce_real_partials_group(GLOBAL const uint *counts, GLOBAL const memory_real *partial, GLOBAL memory_real *result,
-                                       uint length, uint operation, LOCAL uint *local_memory, uint group)
+SHARED void reduce_real_partials_group(GLOBAL const uint *counts, GLOBAL const memory_real *partial,
+                                       GLOBAL memory_real *result, uint length, uint operation,
+                                       LOCAL uint *local_memory, uint group)
 {
   if (group != 0u) return;
-  reduce_real(partial, 0u, units_of(counts[length], REDUCE_TILE), operation, result, 0u, (LOCAL memory_real *)local_memory);
+  reduce_real(partial, 0u, units_of(counts[length], REDUCE_TILE), operation, result, 0u,
+              (LOCAL memory_real *)local_memory);
 }
 
 #endif

@@ -1,4 +1,5 @@
-/* scan.h - exclusive prefix sum of uint, at most 2^32 - 1: result[i] = values[0] + .. + values[i - 1], result[n] = total.
+/* scan.h - exclusive prefix sum of uint, at most 2^32 - 1: result[i] = values[0] + .. + values[i - 1], result[n] =
+ * total.
  *
  * Every "count, scan, write" of the pipeline stands on it: no stage appends by an atomic counter, so no order
  * depends on scheduling. Three launches for any length (reduce, then scan; Merrill and Grimshaw,
@@ -9,7 +10,8 @@
  *   scan_in_order  0        s0       s0+s1            one group: sums of all tiles before
  *   scan_tiles   | 0 a ab | ...                       one group a tile: values again, plus the tile's start
  *
- * values and result may be the same buffer. A sum past 2^32 - 1 stays there: what a stage has no numbers for must not look like little.
+ * values and result may be the same buffer. A sum past 2^32 - 1 stays there: what a stage has no numbers for must not
+ * look like little.
  */
 #ifndef TANDEM_SHARED_PARALLEL_SCAN_H
 #define TANDEM_SHARED_PARALLEL_SCAN_H
@@ -63,7 +65,8 @@ SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL u
   FOR_EACH_ITEM(s, SCAN_STRIPS)
   {
     uint sum = 0u;
-    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) sum = saturated_sum(sum, local_memory[SCAN_SPREAD(i)]);
+    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i)
+      sum = saturated_sum(sum, local_memory[SCAN_SPREAD(i)]);
     sums[s] = sum;
   }
   scan_small(sums, SCAN_STRIPS, local_memory + SCAN_SMALL_AT);
@@ -117,8 +120,10 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
   for (uint tile = 0u; tile < units_of(n, SCAN_TILE); ++tile) {
     const uint count = items_in_tile(n, SCAN_TILE, tile);
     scan_load(values, tile * SCAN_TILE, count, local_memory);
-    FOR_EACH_ITEM(s, SCAN_STRIPS) local_memory[SCAN_SUMS_AT + s] = saturated_sum(local_memory[SCAN_SUMS_AT + s], carry[tile & 1u]);
-    FOR_EACH_ITEM(s, 1u) carry[(tile + 1u) & 1u] = saturated_sum(carry[tile & 1u], local_memory[SCAN_SMALL_AT + SMALL_STRIPS]);
+    FOR_EACH_ITEM(s, SCAN_STRIPS)
+    local_memory[SCAN_SUMS_AT + s] = saturated_sum(local_memory[SCAN_SUMS_AT + s], carry[tile & 1u]);
+    FOR_EACH_ITEM(s, 1u)
+    carry[(tile + 1u) & 1u] = saturated_sum(carry[tile & 1u], local_memory[SCAN_SMALL_AT + SMALL_STRIPS]);
     scan_store(result, tile * SCAN_TILE, count, 0u, local_memory);
   }
   FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];
@@ -126,7 +131,8 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
 
 /* Exclusive sums of tile `group`, which start at sums[group]. */
 SHARED void scan_tiles_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL const uint *sums,
-                             GLOBAL uint *result, uint length, uint unit, uint per_unit, LOCAL uint *local_memory, uint group)
+                             GLOBAL uint *result, uint length, uint unit, uint per_unit, LOCAL uint *local_memory,
+                             uint group)
 {
   const uint words = units_of(counts[length], unit) * per_unit;
   const uint count = items_in_tile(words, SCAN_TILE, group);

@@ -26,14 +26,14 @@ SHARED uint upper_bound_of(GLOBAL const uint *sorted, uint n, uint value)
   return value == 0xffffffffu ? n : lower_bound_of(sorted, n, value + 1u);
 }
 
-SHARED void lower_bound_item(GLOBAL const uint *counts, GLOBAL const uint *sorted, GLOBAL const uint *queries, GLOBAL uint *places,
-                             uint length, uint i)
+SHARED void lower_bound_item(GLOBAL const uint *counts, GLOBAL const uint *sorted, GLOBAL const uint *queries,
+                             GLOBAL uint *places, uint length, uint i)
 {
   places[i] = lower_bound_of(sorted, counts[length], queries[i]);
 }
 
-SHARED void upper_bound_item(GLOBAL const uint *counts, GLOBAL const uint *sorted, GLOBAL const uint *queries, GLOBAL uint *places,
-                             uint length, uint i)
+SHARED void upper_bound_item(GLOBAL const uint *counts, GLOBAL const uint *sorted, GLOBAL const uint *queries,
+                             GLOBAL uint *places, uint length, uint i)
 {
   places[i] = upper_bound_of(sorted, counts[length], queries[i]);
 }

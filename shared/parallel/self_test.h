@@ -11,36 +11,36 @@
 
 #include "shared/real.h"
 
-#define SELF_TEST_REALS(RESULT)                                                         \
-  RESULT("addition", a + b)                                                             \
-  RESULT("subtraction", a - b)                                                          \
-  RESULT("multiplication", a * b)                                                       \
-  RESULT("division", a / b)                                                             \
-  RESULT("square root", square_root(a))                                                 \
-  RESULT("square root", square_root(a * a + b * b))                                     \
-  RESULT("contraction of a * b + c", a * b + c)                                         \
-  RESULT("contraction of a * b - c", a * b - c)                                         \
-  RESULT("dot product", a * b + b * c + c * a)                                          \
-  RESULT("reciprocal", R(1.0) / a)                                                      \
-  RESULT("reciprocal square root", R(1.0) / square_root(a))                             \
-  RESULT("smaller of two", choose(a < b, a, b))                                         \
-  RESULT("larger of two", choose(a > b, a, b))                                          \
-  RESULT("uint to float", to_real(p))                                                   \
-  RESULT("int to float", int_to_real(p))                                                \
+#define SELF_TEST_REALS(RESULT)                             \
+  RESULT("addition", a + b)                                 \
+  RESULT("subtraction", a - b)                              \
+  RESULT("multiplication", a *b)                            \
+  RESULT("division", a / b)                                 \
+  RESULT("square root", square_root(a))                     \
+  RESULT("square root", square_root(a *a + b * b))          \
+  RESULT("contraction of a * b + c", a *b + c)              \
+  RESULT("contraction of a * b - c", a *b - c)              \
+  RESULT("dot product", a *b + b * c + c * a)               \
+  RESULT("reciprocal", R(1.0) / a)                          \
+  RESULT("reciprocal square root", R(1.0) / square_root(a)) \
+  RESULT("smaller of two", choose(a < b, a, b))             \
+  RESULT("larger of two", choose(a > b, a, b))              \
+  RESULT("uint to float", to_real(p))                       \
+  RESULT("int to float", int_to_real(p))                    \
   RESULT("conversion", to_real(p >> 8) + R(0.5) - int_to_real((natural)truncate_to_int(small)))
 
-#define SELF_TEST_WORDS(RESULT)                                                                              \
-  RESULT("comparisons", (uint)(a < b) | (uint)(a <= b) << 1 | (uint)(a > b) << 2 | (uint)(a >= b) << 3 |      \
-                            (uint)(a == b) << 4 | (uint)(a != b) << 5 | (uint)(a < R(0.0)) << 6)             \
-  RESULT("float to int", (uint)truncate_to_int(small))                                                       \
-  RESULT("32-bit integers", p * q + (p ^ q))                                                                 \
-  RESULT("32-bit division", p / (q | 1u) ^ p % (q | 1u))                                                     \
-  RESULT("32-bit shifts", (p << (q & 31u)) ^ (q >> (p & 31u)))                                               \
-  RESULT("signed integers", (uint)((int)(p >> 1) - (int)(q >> 1)))                                           \
-  RESULT("64-bit product", (uint)(wide >> 32))                                                               \
-  RESULT("64-bit sum", (uint)((wide + ((ulong)q << 32 | p)) >> 32))                                          \
-  RESULT("64-bit division", (uint)(wide / ((ulong)q + 1u)) ^ (uint)(wide % ((ulong)p + 3u)))                 \
-  RESULT("64-bit shifts", (uint)((wide << (p & 31u)) >> 24) ^ (uint)(wide >> (q & 63u)))                     \
+#define SELF_TEST_WORDS(RESULT)                                                                          \
+  RESULT("comparisons", (uint)(a < b) | (uint)(a <= b) << 1 | (uint)(a > b) << 2 | (uint)(a >= b) << 3 | \
+                            (uint)(a == b) << 4 | (uint)(a != b) << 5 | (uint)(a < R(0.0)) << 6)         \
+  RESULT("float to int", (uint)truncate_to_int(small))                                                   \
+  RESULT("32-bit integers", p *q + (p ^ q))                                                              \
+  RESULT("32-bit division", p / (q | 1u) ^ p % (q | 1u))                                                 \
+  RESULT("32-bit shifts", (p << (q & 31u)) ^ (q >> (p & 31u)))                                           \
+  RESULT("signed integers", (uint)((int)(p >> 1) - (int)(q >> 1)))                                       \
+  RESULT("64-bit product", (uint)(wide >> 32))                                                           \
+  RESULT("64-bit sum", (uint)((wide + ((ulong)q << 32 | p)) >> 32))                                      \
+  RESULT("64-bit division", (uint)(wide / ((ulong)q + 1u)) ^ (uint)(wide % ((ulong)p + 3u)))             \
+  RESULT("64-bit shifts", (uint)((wide << (p & 31u)) >> 24) ^ (uint)(wide >> (q & 63u)))                 \
   RESULT("64-bit comparison", (uint)(wide < ((ulong)p << 32 | q)))
 
 #define SELF_TEST_COUNT_ONE(name, expression) +1
@@ -48,10 +48,16 @@
 #define SELF_TEST_WORD_COUNT (0u SELF_TEST_WORDS(SELF_TEST_COUNT_ONE))
 
 /* Totals that do not depend on the order of the items. */
-enum { SELF_TEST_TOTAL_SUM, SELF_TEST_TOTAL_MAXIMUM, SELF_TEST_TOTAL_MINIMUM, SELF_TEST_TOTAL_BITS, SELF_TEST_TOTAL_COUNT };
+enum {
+  SELF_TEST_TOTAL_SUM,
+  SELF_TEST_TOTAL_MAXIMUM,
+  SELF_TEST_TOTAL_MINIMUM,
+  SELF_TEST_TOTAL_BITS,
+  SELF_TEST_TOTAL_COUNT
+};
 
-SHARED void self_test_item(GLOBAL const memory_real *numbers, GLOBAL const uint *words, GLOBAL memory_real *real_results,
-                           GLOBAL uint *word_results, GLOBAL uint *totals, uint i)
+SHARED void self_test_item(GLOBAL const memory_real *numbers, GLOBAL const uint *words,
+                           GLOBAL memory_real *real_results, GLOBAL uint *word_results, GLOBAL uint *totals, uint i)
 {
   const real a = numbers[3u * i], b = numbers[3u * i + 1u], c = numbers[3u * i + 2u];
   const uint p = words[2u * i], q = words[2u * i + 1u];

@@ -18,7 +18,9 @@
 
 #include "shared/math.h"
 
-typedef struct { vec3 normal, first, second; } delassus_block; /* rows of a 3x3 block of W */
+typedef struct {
+  vec3 normal, first, second;
+} delassus_block; /* rows of a 3x3 block of W */
 
 SHARED delassus_block load_block(GLOBAL const row *problem_block, uint block)
 {
@@ -26,11 +28,14 @@ SHARED delassus_block load_block(GLOBAL const row *problem_block, uint block)
                       xyz(load_row(problem_block, 3u * block + 2u))};
   return b;
 }
-SHARED vec3 block_times(delassus_block b, vec3 v) { return make_vec3(inner(b.normal, v), inner(b.first, v), inner(b.second, v)); }
+SHARED vec3 block_times(delassus_block b, vec3 v)
+{
+  return make_vec3(inner(b.normal, v), inner(b.first, v), inner(b.second, v));
+}
 
 /* Velocity of contact i under all impulses, summed in the order of its row of blocks. */
-SHARED vec3 velocity_of(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                        vec3 free_velocity, GLOBAL const row *impulse, uint i)
+SHARED vec3 velocity_of(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
+                        GLOBAL const row *problem_block, vec3 free_velocity, GLOBAL const row *impulse, uint i)
 {
   vec3 velocity = free_velocity;
   for (uint k = problem_start[i]; k < problem_start[i + 1u]; ++k)

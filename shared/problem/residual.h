@@ -1,12 +1,13 @@
 /* residual.h - how far the impulses of a friction problem are from its solution, contact by contact.
  *
- * Three measures that are 0 at a solution and nowhere else (the third: in the cone and nowhere else); docs/contact-problems.md defines them
- * and says why so. Each contact writes its term and a fixed tree adds them (shared/parallel/reduce.h).
+ * Three measures that are 0 at a solution and nowhere else (the third: in the cone and nowhere else);
+ * docs/contact-problems.md defines them and says why so. Each contact writes its term and a fixed tree adds them
+ * (shared/parallel/reduce.h).
  *
  * natural           | r - P_K(r - rho (u + mu |u_T| n)) |^2
- * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),   o = Jordan product
- *                   of the second-order cone (Fukushima, Luo and Tseng 2002)
- * violation         how far r lies outside its cone, as a friction impulse
+ * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),   o =
+ * Jordan product of the second-order cone (Fukushima, Luo and Tseng 2002) violation         how far r lies outside its
+ * cone, as a friction impulse
  */
 #ifndef TANDEM_SHARED_PROBLEM_RESIDUAL_H
 #define TANDEM_SHARED_PROBLEM_RESIDUAL_H
@@ -49,10 +50,11 @@ SHARED real fischer_term(vec3 impulse, vec3 velocity, real friction, real rho)
   return choose(friction > R(0.0), length_squared(fischer_burmeister(x, y)), without);
 }
 
-SHARED void problem_residual_item(GLOBAL const uint *counts, GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                                  GLOBAL const row *problem_block, GLOBAL const row *problem_free,
-                                  GLOBAL const memory_real *problem_trace, GLOBAL const row *impulse, GLOBAL memory_real *natural,
-                                  GLOBAL memory_real *fischer, GLOBAL memory_real *violation, uint i)
+SHARED void problem_residual_item(GLOBAL const uint *counts, GLOBAL const uint *problem_start,
+                                  GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
+                                  GLOBAL const row *problem_free, GLOBAL const memory_real *problem_trace,
+                                  GLOBAL const row *impulse, GLOBAL memory_real *natural, GLOBAL memory_real *fischer,
+                                  GLOBAL memory_real *violation, uint i)
 {
   vec4 q = load_row(problem_free, i);
   vec3 r = xyz(load_row(impulse, i));

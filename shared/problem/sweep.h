@@ -8,12 +8,12 @@
  *   level     0   1   2   0   1      launches: {0, 3} {1, 4} {2}
  *
  * problem_jacobi lets all contacts move at once, each by its share (Tonge, Benevolenski and Voroshilov, "Mass splitting
- * for jitter-free parallel rigid body simulation", 2012): with bodies each would own 1/n of a body's mass; here only W is
- * known, and the share comes from the couplings of its blocks.
+ * for jitter-free parallel rigid body simulation", 2012): with bodies each would own 1/n of a body's mass; here only W
+ * is known, and the share comes from the couplings of its blocks.
  *
- * problem_conjugate is the nonsmooth nonlinear conjugate gradient step over a pass (Silcowitz, Niebe and Erleben, 2010):
- * the change made by a pass stands for the negative gradient, directions are joined after Fletcher and Reeves, and a
- * change that grows restarts.
+ * problem_conjugate is the nonsmooth nonlinear conjugate gradient step over a pass (Silcowitz, Niebe and Erleben,
+ * 2010): the change made by a pass stands for the negative gradient, directions are joined after Fletcher and Reeves,
+ * and a change that grows restarts.
  */
 #ifndef TANDEM_SHARED_PROBLEM_SWEEP_H
 #define TANDEM_SHARED_PROBLEM_SWEEP_H
@@ -25,11 +25,12 @@ SHARED real block_size(delassus_block b)
   return square_root(inner(b.normal, b.normal) + inner(b.first, b.first) + inner(b.second, b.second));
 }
 
-/* problem_step: inverse normal mass, inverse tangent mass, share of a pass in which all move at once. The tangent mass is
- * the trace of the 2x2 block, which no direction exceeds. */
-SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                                 GLOBAL const row *problem_free, GLOBAL row *problem_step, GLOBAL memory_real *trace,
-                                 GLOBAL memory_real *reference, uint i)
+/* problem_step: inverse normal mass, inverse tangent mass, share of a pass in which all move at once. The tangent mass
+ * is the trace of the 2x2 block, which no direction exceeds. */
+SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
+                                 GLOBAL const row *problem_block, GLOBAL const row *problem_free,
+                                 GLOBAL row *problem_step, GLOBAL memory_real *trace, GLOBAL memory_real *reference,
+                                 uint i)
 {
   const uint own = problem_start[i];
   delassus_block b = load_block(problem_block, own);
@@ -39,7 +40,8 @@ SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const 
     real other = block_size(load_block(problem_block, problem_start[problem_column[k]]));
     coupling = coupling + size / square_root(own_size * other);
   }
-  store_row(problem_step, i, make_vec4(R(1.0) / b.normal.x, R(1.0) / (b.first.y + b.second.z), R(1.0) / coupling, R(0.0)));
+  store_row(problem_step, i,
+            make_vec4(R(1.0) / b.normal.x, R(1.0) / (b.first.y + b.second.z), R(1.0) / coupling, R(0.0)));
   trace[i] = b.normal.x + b.first.y + b.second.z;
   vec4 q = load_row(problem_free, i);
   reference[i] = length_squared(corrected_velocity(xyz(q), q.w));
@@ -49,42 +51,45 @@ SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const 
 SHARED vec3 solve_contact(delassus_block own, vec4 step, real share, real friction, vec3 velocity, vec3 impulse)
 {
   real tangent_step = step.y * share;
-  vec3 slid = limit_friction(make_vec3(impulse.x, impulse.y - velocity.y * tangent_step, impulse.z - velocity.z * tangent_step), friction);
+  vec3 slid = limit_friction(
+      make_vec3(impulse.x, impulse.y - velocity.y * tangent_step, impulse.z - velocity.z * tangent_step), friction);
   real normal_velocity = velocity.x + (own.normal.y * (slid.y - impulse.y) + own.normal.z * (slid.z - impulse.z));
   slid.x = maximum(slid.x - normal_velocity * (step.x * share), R(0.0));
   return limit_friction(slid, friction);
 }
 
-SHARED void solve_problem_contact(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                                  GLOBAL const row *problem_free, GLOBAL const row *problem_step, GLOBAL const row *from,
-                                  GLOBAL row *to, mask all_at_once, uint i)
+SHARED void solve_problem_contact(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
+                                  GLOBAL const row *problem_block, GLOBAL const row *problem_free,
+                                  GLOBAL const row *problem_step, GLOBAL const row *from, GLOBAL row *to,
+                                  mask all_at_once, uint i)
 {
   vec4 q = load_row(problem_free, i), step = load_row(problem_step, i);
   vec3 velocity = velocity_of(problem_start, problem_column, problem_block, xyz(q), from, i);
-  vec3 impulse = solve_contact(load_block(problem_block, problem_start[i]), step, choose(all_at_once, step.z, (real)R(1.0)), q.w,
-                               velocity, xyz(load_row(from, i)));
+  vec3 impulse = solve_contact(load_block(problem_block, problem_start[i]), step,
+                               choose(all_at_once, step.z, (real)R(1.0)), q.w, velocity, xyz(load_row(from, i)));
   store_row(to, i, extend(impulse, R(0.0)));
 }
 
-SHARED void problem_sweep_item(GLOBAL const uint *problem_order, GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                               GLOBAL const row *problem_block, GLOBAL const row *problem_free, GLOBAL const row *problem_step,
+SHARED void problem_sweep_item(GLOBAL const uint *problem_order, GLOBAL const uint *problem_start,
+                               GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
+                               GLOBAL const row *problem_free, GLOBAL const row *problem_step,
                                GLOBAL row *problem_impulse, uint i)
 {
-  solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, problem_impulse, problem_impulse, 0,
-                        problem_order[i]);
+  solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, problem_impulse,
+                        problem_impulse, 0, problem_order[i]);
 }
 
-SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                                GLOBAL const row *problem_free, GLOBAL const row *problem_step, GLOBAL const row *from, GLOBAL row *to,
-                                uint i)
+SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
+                                GLOBAL const row *problem_block, GLOBAL const row *problem_free,
+                                GLOBAL const row *problem_step, GLOBAL const row *from, GLOBAL row *to, uint i)
 {
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, from, to, 1, i);
 }
 
-/* What a pass has changed, squared, in the metric in which the pass descends: over the steps, so that normal and tangents count
- * by their masses. */
-SHARED void problem_change_item(GLOBAL const row *problem_step, GLOBAL const row *problem_impulse, GLOBAL const row *problem_previous,
-                                GLOBAL memory_real *change, uint i)
+/* What a pass has changed, squared, in the metric in which the pass descends: over the steps, so that normal and
+ * tangents count by their masses. */
+SHARED void problem_change_item(GLOBAL const row *problem_step, GLOBAL const row *problem_impulse,
+                                GLOBAL const row *problem_previous, GLOBAL memory_real *change, uint i)
 {
   vec4 step = load_row(problem_step, i);
   vec3 moved = subtract(xyz(load_row(problem_impulse, i)), xyz(load_row(problem_previous, i)));
@@ -92,8 +97,9 @@ SHARED void problem_change_item(GLOBAL const row *problem_step, GLOBAL const row
 }
 
 /* now, before: the squared changes of this pass and of the one before; the first pass has none before it. */
-SHARED void problem_conjugate_item(GLOBAL const memory_real *now, GLOBAL const memory_real *before, GLOBAL row *problem_impulse,
-                                   GLOBAL row *problem_previous, GLOBAL row *problem_direction, uint first_pass, uint i)
+SHARED void problem_conjugate_item(GLOBAL const memory_real *now, GLOBAL const memory_real *before,
+                                   GLOBAL row *problem_impulse, GLOBAL row *problem_previous,
+                                   GLOBAL row *problem_direction, uint first_pass, uint i)
 {
   vec3 impulse = xyz(load_row(problem_impulse, i));
   vec3 change = subtract(impulse, xyz(load_row(problem_previous, i)));

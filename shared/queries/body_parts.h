@@ -1,8 +1,9 @@
 /* body_parts.h - the convex parts of a body that a straight way comes near: its one shape, or leaves of its tree.
  *
- *        from o- - - - - - ->  way        Tree walks are those of midphase/tree.h; a box counts as near unless one of the axes of box
- *                 +----+                  and way separates them (Ericson, "Real-Time Collision Detection", 2005, section 5.3.3).
- *                 |    |
+ *        from o- - - - - - ->  way        Tree walks are those of midphase/tree.h; a box counts as near unless one of
+ * the axes of box
+ *                 +----+                  and way separates them (Ericson, "Real-Time Collision Detection", 2005,
+ * section 5.3.3). |    |
  */
 #ifndef TANDEM_SHARED_QUERIES_BODY_PARTS_H
 #define TANDEM_SHARED_QUERIES_BODY_PARTS_H
@@ -58,7 +59,8 @@ SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, ve
 
 SHARED mask way_near_box(const part_walk *walk, box_bounds box)
 {
-  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half_way), c = absolute(from_box);
+  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half_way),
+       c = absolute(from_box);
   vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)), across = absolute(outer(from_box, walk->half_way));
   vec3 h = make_vec3(extent.x + walk->radius, extent.y + walk->radius, extent.z + walk->radius);
   if (c.x > h.x + d.x || c.y > h.y + d.y || c.z > h.z + d.z) return 0;
@@ -70,7 +72,8 @@ SHARED mask next_part(const query_scene *scene, part_walk *walk, convex *part)
 {
   if (!walk->has_tree) {
     if (walk->node++ > 0u) return 0;
-    *part = shape_of_body(scene->traits, scene->shapes, scene->convexes, scene->poses, scene->orientations, scene->tables, walk->center, walk->body);
+    *part = shape_of_body(scene->traits, scene->shapes, scene->convexes, scene->poses, scene->orientations,
+                          scene->tables, walk->center, walk->body);
     return 1;
   }
   while (walk->node < walk->end) {
@@ -80,7 +83,8 @@ SHARED mask next_part(const query_scene *scene, part_walk *walk, convex *part)
     if (!near || !is_leaf(word)) continue;
     GLOBAL const uint *entry = scene->trees.leaves + (walk->t.first_leaf + word) * 2u;
     body_part leaf = {walk->body, entry[0] == INDEX_NONE ? walk->body : walk->first_child + entry[0], entry[1]};
-    *part = load_convex(scene->shapes, scene->convexes, scene->poses, scene->orientations, scene->tables, walk->center, leaf);
+    *part = load_convex(scene->shapes, scene->convexes, scene->poses, scene->orientations, scene->tables, walk->center,
+                        leaf);
     return 1;
   }
   return 0;

@@ -5,8 +5,8 @@
  *        QUERY_GRID                           the large bodies one by one, then grid_walk.h: near layers first
  *        QUERY_EVERY_BODY                     one by one: the oracle
  *
- * Each yields the same bodies, those whose own box the way enters, and each of them once; in which order must make no difference to an
- * answer. The structure is one for a whole launch, so that all its items take the same branch.
+ * Each yields the same bodies, those whose own box the way enters, and each of them once; in which order must make no
+ * difference to an answer. The structure is one for a whole launch, so that all its items take the same branch.
  */
 #ifndef TANDEM_SHARED_QUERIES_BODY_WALK_H
 #define TANDEM_SHARED_QUERIES_BODY_WALK_H
@@ -58,7 +58,8 @@ SHARED uint next_body_on_way(body_walk *walk, const body_structure *bodies, real
     walk->next = body + 1u;
     if (way_into_body(walk, bodies, body, reach) < ENDLESS) return body;
   }
-  if (bodies->structure == (uint)QUERY_GRID) return next_in_grid(&bodies->cells, &walk->rays.way, walk->rays.waiting, reach);
+  if (bodies->structure == (uint)QUERY_GRID)
+    return next_in_grid(&bodies->cells, &walk->rays.way, walk->rays.waiting, reach);
   if (bodies->structure != (uint)QUERY_HIERARCHY) return INDEX_NONE;
   uint leaf = next_on_ray(&walk->rays, reach);
   return leaf == INDEX_NONE ? INDEX_NONE : body_of_leaf(&walk->rays, leaf);

@@ -1,7 +1,7 @@
 /* box_queries.h - the bodies whose boxes a box overlaps, where it stands or on a straight way.
  *
- * Boxes of bodies are those of compute_query_bounds: around the shape where it stands. How many are found is counted, scanned, and
- * then they are written, each with how much of the way is left behind as the boxes touch.
+ * Boxes of bodies are those of compute_query_bounds: around the shape where it stands. How many are found is counted,
+ * scanned, and then they are written, each with how much of the way is left behind as the boxes touch.
  */
 #ifndef TANDEM_SHARED_QUERIES_BOX_QUERIES_H
 #define TANDEM_SHARED_QUERIES_BOX_QUERIES_H
@@ -24,14 +24,17 @@ typedef struct {
 SHARED void start_box_walk(const box_scene *scene, uint i, box_walk *b)
 {
   b->query = i;
-  start_body_walk(&b->walk, &scene->bodies, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)), xyz(load_row(scene->query_extent, i)));
+  start_body_walk(&b->walk, &scene->bodies, load_place(scene->query_start, i), xyz(load_row(scene->query_way, i)),
+                  xyz(load_row(scene->query_extent, i)));
 }
 
-/* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds: it is always met. */
+/* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds:
+ * it is always met. */
 SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction)
 {
   *fraction = R(0.0);
-  for (uint body = next_body_on_way(&b->walk, &scene->bodies, R(1.0)); body != INDEX_NONE; body = next_body_on_way(&b->walk, &scene->bodies, R(1.0))) {
+  for (uint body = next_body_on_way(&b->walk, &scene->bodies, R(1.0)); body != INDEX_NONE;
+       body = next_body_on_way(&b->walk, &scene->bodies, R(1.0))) {
     if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, b->query)) continue;
     *fraction = way_into_body(&b->walk, &scene->bodies, body, R(1.0));
     if (*fraction < ENDLESS) return body;
@@ -39,13 +42,18 @@ SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction
   return INDEX_NONE;
 }
 
-#define BOX_SCENE                                                                                                                           \
-  {traits, query_body, query_filter, {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
-   query_start, query_way, query_extent}
-#define BOX_SCENE_PARAMETERS                                                                                                                \
-  GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, \
-      GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *query_body, \
-      GLOBAL const uint *query_filter, GLOBAL const row *query_start, GLOBAL const row *query_way, GLOBAL const row *query_extent
+#define BOX_SCENE                                                                                                    \
+  {                                                                                                                  \
+    traits, query_body, query_filter,                                                                                \
+        {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
+        query_start, query_way, query_extent                                                                         \
+  }
+#define BOX_SCENE_PARAMETERS                                                                         \
+  GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy,                 \
+      GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, GLOBAL const row *bounds,     \
+      GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,          \
+      GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, \
+      GLOBAL const row *query_way, GLOBAL const row *query_extent
 
 SHARED void count_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL uint *query_found, uint structure, uint i)
 {
@@ -58,8 +66,8 @@ SHARED void count_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL uint *query_found, 
   query_found[i] = found;
 }
 
-SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint structure,
-                                uint i)
+SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit,
+                                GLOBAL uint *query_hit_body, uint structure, uint i)
 {
   box_scene scene = BOX_SCENE;
   box_walk b;
@@ -67,7 +75,8 @@ SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_f
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   real fraction;
   uint at = query_found[i];
-  for (uint body = next_body_in_box(&scene, &b, &fraction); body != INDEX_NONE; body = next_body_in_box(&scene, &b, &fraction)) {
+  for (uint body = next_body_in_box(&scene, &b, &fraction); body != INDEX_NONE;
+       body = next_body_in_box(&scene, &b, &fraction)) {
     store_row(query_hit, at, extend(none, fraction));
     query_hit_body[at++] = query_body[4u * body];
   }

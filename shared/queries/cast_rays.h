@@ -1,4 +1,5 @@
-/* cast_rays.h - what each of many rays hits: the nearest body, any body, or all of them; see nearest.h, ray_shape.h and body_walk.h. */
+/* cast_rays.h - what each of many rays hits: the nearest body, any body, or all of them; see nearest.h, ray_shape.h and
+ * body_walk.h. */
 #ifndef TANDEM_SHARED_QUERIES_CAST_RAYS_H
 #define TANDEM_SHARED_QUERIES_CAST_RAYS_H
 
@@ -22,7 +23,7 @@ SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, ui
 /* Ray i, and the bodies it may meet. */
 typedef struct {
   place start;
-  vec3 direction; /* unit */
+  vec3 direction;               /* unit */
   real length, reach, farthest; /* m, of a fraction of 1; the largest fraction; that in m */
   uint query;
   body_walk walk;
@@ -41,7 +42,10 @@ SHARED void load_ray(const query_scene *scene, uint i, ray *r)
 }
 
 /* The next body that the ray may meet before `reach`, in m; INDEX_NONE behind the last. */
-SHARED uint next_body_on_ray(const query_scene *scene, ray *r, real reach) { return next_body_on_way(&r->walk, &scene->bodies, reach); }
+SHARED uint next_body_on_ray(const query_scene *scene, ray *r, real reach)
+{
+  return next_body_on_way(&r->walk, &scene->bodies, reach);
+}
 
 /* Where the ray first hits a body. */
 SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, real reach)
@@ -54,31 +58,40 @@ SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, 
   part_walk walk = walk_parts(scene, body, center, scale(r->direction, way), R(0.0));
   convex part;
   while (next_part(scene, &walk, &part))
-    nearest = nearer_hit(nearest, hit_of_span(ray_span(&part, none, r->direction), r->direction, r->length, r->reach, scene->query_body[4u * body]));
+    nearest = nearer_hit(nearest, hit_of_span(ray_span(&part, none, r->direction), r->direction, r->length, r->reach,
+                                              scene->query_body[4u * body]));
   return nearest;
 }
 
-#define QUERY_SCENE                                                                                                                        \
-  {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,                                                       \
-   {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves}, \
-   {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, query_body, query_filter, query_start, query_way}
-#define QUERY_SCENE_PARAMETERS                                                                                                             \
-  GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes, \
-      GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes, GLOBAL const uint *body_trees, \
-      GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,       \
-      GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,     \
-      GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, \
-      GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *query_body, GLOBAL const uint *query_filter, \
+#define QUERY_SCENE                                                                                                  \
+  {                                                                                                                  \
+    parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,                                \
+        {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE},              \
+        {tree_headers, tree_frames, tree_nodes, tree_leaves},                                                        \
+        {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
+        query_body, query_filter, query_start, query_way                                                             \
+  }
+#define QUERY_SCENE_PARAMETERS                                                                                         \
+  GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, \
+      GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,    \
+      GLOBAL const row *planes, GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers,                        \
+      GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,                    \
+      GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,                 \
+      GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,                  \
+      GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,   \
+      GLOBAL const uint *cell_start, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,                   \
       GLOBAL const row *query_start, GLOBAL const row *query_way
 
-SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint structure, uint i)
+SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL row *query_point,
+                           GLOBAL uint *query_hit_body, uint structure, uint i)
 {
   query_scene scene = QUERY_SCENE;
   ray r;
   load_ray(&scene, i, &r);
   first_hit nearest = nothing_hit();
   real reach = r.farthest;
-  for (uint body = next_body_on_ray(&scene, &r, reach); body != INDEX_NONE; body = next_body_on_ray(&scene, &r, reach)) {
+  for (uint body = next_body_on_ray(&scene, &r, reach); body != INDEX_NONE;
+       body = next_body_on_ray(&scene, &r, reach)) {
     nearest = nearer_hit(nearest, hit_of_body(&scene, &r, body, reach));
     if (nearest.body != INDEX_NONE) reach = minimum(r.farthest, nearest.fraction * r.length);
   }
@@ -92,7 +105,8 @@ SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_fo
   ray r;
   load_ray(&scene, i, &r);
   uint found = 0u;
-  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE && found == 0u; body = next_body_on_ray(&scene, &r, r.farthest))
+  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE && found == 0u;
+       body = next_body_on_ray(&scene, &r, r.farthest))
     if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) found = 1u;
   query_found[i] = found;
 }
@@ -104,19 +118,21 @@ SHARED void count_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found
   ray r;
   load_ray(&scene, i, &r);
   uint found = 0u;
-  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, &r, r.farthest))
+  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE;
+       body = next_body_on_ray(&scene, &r, r.farthest))
     if (hit_of_body(&scene, &r, body, r.farthest).body != INDEX_NONE) ++found;
   query_found[i] = found;
 }
 
-SHARED void write_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit, GLOBAL row *query_point,
-                                GLOBAL uint *query_hit_body, uint structure, uint i)
+SHARED void write_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit,
+                                GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint structure, uint i)
 {
   query_scene scene = QUERY_SCENE;
   ray r;
   load_ray(&scene, i, &r);
   uint at = query_found[i];
-  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE; body = next_body_on_ray(&scene, &r, r.farthest)) {
+  for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE;
+       body = next_body_on_ray(&scene, &r, r.farthest)) {
     first_hit hit = hit_of_body(&scene, &r, body, r.farthest);
     if (hit.body != INDEX_NONE) store_hit(hit, query_hit, query_point, query_hit_body, at++);
   }

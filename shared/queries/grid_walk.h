@@ -1,14 +1,15 @@
 /* grid_walk.h - the bodies along a way, layer by layer, from the uniform grid of broadphase/grid.h.
  *
- *        |   |   |###|###|   |       Layers lie across the axis that the way follows most. A body of layer L has its centre there, and
- *        |   |   |#_-|###|   |       its box, no larger than a cell, may reach half a cell beyond: it is touched, if at all, while the
- *        |   |###|###|   |   |       way is between layers L-1 and L+1. Where the way is meanwhile along the other two axes, widened
- *        |   |#_-|###|   |   |       by what goes along it and by half a body, is a rectangle of cells; its rows along x are one
- *        o -     L             - ->  stretch of the sorted list each. Every cell is in one layer, so every body comes once.
+ *        |   |   |###|###|   |       Layers lie across the axis that the way follows most. A body of layer L has its
+ * centre there, and |   |   |#_-|###|   |       its box, no larger than a cell, may reach half a cell beyond: it is
+ * touched, if at all, while the |   |###|###|   |   |       way is between layers L-1 and L+1. Where the way is
+ * meanwhile along the other two axes, widened |   |#_-|###|   |   |       by what goes along it and by half a body, is
+ * a rectangle of cells; its rows along x are one o -     L             - ->  stretch of the sorted list each. Every
+ * cell is in one layer, so every body comes once.
  *
- * A place on the way becomes a cell by the very rounding that a body's centre did: what lies between two places then lies between their
- * cells, also in border cells, where whatever rounding moved across the border is filed. The half cell that is left between a body's
- * box and the next layer is room for what rounds along the way.
+ * A place on the way becomes a cell by the very rounding that a body's centre did: what lies between two places then
+ * lies between their cells, also in border cells, where whatever rounding moved across the border is filed. The half
+ * cell that is left between a body's box and the next layer is room for what rounds along the way.
  */
 #ifndef TANDEM_SHARED_QUERIES_GRID_WALK_H
 #define TANDEM_SHARED_QUERIES_GRID_WALK_H
@@ -21,9 +22,23 @@ typedef struct {
   GLOBAL const uint *sort_value, *cell_start, *counts;
 } body_cells;
 
-/* Where the walk is: words of an array of the caller's. That of the hierarchy's walk will do, so that a kernel that holds both walks
- * holds no more than one of them. Layers and rows are those still to come, AT to END the bodies of the present row. */
-enum { GRID_LAYER, GRID_LAYERS_LEFT, GRID_X, GRID_X_LAST, GRID_Y_FIRST, GRID_Y, GRID_Y_LAST, GRID_Z, GRID_Z_LAST, GRID_AT, GRID_END, GRID_WORDS };
+/* Where the walk is: words of an array of the caller's. That of the hierarchy's walk will do, so that a kernel that
+ * holds both walks holds no more than one of them. Layers and rows are those still to come, AT to END the bodies of the
+ * present row. */
+enum {
+  GRID_LAYER,
+  GRID_LAYERS_LEFT,
+  GRID_X,
+  GRID_X_LAST,
+  GRID_Y_FIRST,
+  GRID_Y,
+  GRID_Y_LAST,
+  GRID_Z,
+  GRID_Z_LAST,
+  GRID_AT,
+  GRID_END,
+  GRID_WORDS
+};
 
 SHARED real along_axis(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
@@ -35,25 +50,30 @@ SHARED uint axis_of_layers(const straight_way *way)
   return inverse.y <= inverse.z ? 1u : 2u;
 }
 
-typedef struct { uint first, last; } cell_range;
+typedef struct {
+  uint first, last;
+} cell_range;
 
 /* The cells along an axis of bodies that the way may touch on a part of it. */
 SHARED cell_range cells_touched(const body_cells *cells, const straight_way *way, uint axis, way_part part)
 {
   vec4 layout = load_row(cells->grid, 0u);
   real speed = R(1.0) / along_axis(way->inverse, axis), from = part.enter * speed, to = part.leave * speed;
-  real low = along_axis(way->start_high, axis), high = along_axis(way->start_low, axis), origin = along_axis(xyz(layout), axis);
+  real low = along_axis(way->start_high, axis), high = along_axis(way->start_low, axis),
+       origin = along_axis(xyz(layout), axis);
   real half_body = R(0.5001) / layout.w;
   real spare = half_body + R(4e-6) * (magnitude(low) + magnitude(high) + maximum(magnitude(from), magnitude(to)));
   real least = minimum(from, to) + (low - spare), most = maximum(from, to) + (high + spare);
   uint count = cells->counts[(uint)COUNT_GRID_X + axis];
   cell_range range = {(uint)cell_along(least - origin, layout.w, count), count - 1u};
-  if (most - origin < BOUNDLESS) range.last = (uint)cell_along(most - origin, layout.w, count); /* never from a number that is none */
+  if (most - origin < BOUNDLESS)
+    range.last = (uint)cell_along(most - origin, layout.w, count); /* never from a number that is none */
   return range;
 }
 
 /* Between two heights in cells along an axis, with room for the rounding of either. */
-SHARED way_part part_in_layers(const body_cells *cells, const straight_way *way, uint axis, real bottom, real top, real reach)
+SHARED way_part part_in_layers(const body_cells *cells, const straight_way *way, uint axis, real bottom, real top,
+                               real reach)
 {
   vec4 layout = load_row(cells->grid, 0u);
   real cell = R(1.0) / layout.w, origin = along_axis(xyz(layout), axis), inverse = along_axis(way->inverse, axis);
@@ -70,7 +90,8 @@ SHARED way_part part_in_grid(const body_cells *cells, const straight_way *way)
 {
   way_part whole = {R(0.0), ENDLESS};
   for (uint axis = 0u; axis < 3u; ++axis) {
-    way_part part = part_in_layers(cells, way, axis, R(-1.0), (real)cells->counts[(uint)COUNT_GRID_X + axis] + R(1.0), ENDLESS);
+    way_part part =
+        part_in_layers(cells, way, axis, R(-1.0), (real)cells->counts[(uint)COUNT_GRID_X + axis] + R(1.0), ENDLESS);
     whole.enter = maximum(whole.enter, part.enter);
     whole.leave = minimum(whole.leave, part.leave);
   }
@@ -90,7 +111,8 @@ SHARED void start_grid_walk(const body_cells *cells, const straight_way *way, ui
 }
 
 /* The rows of a layer that the way touches on this part. */
-SHARED void open_layer(const body_cells *cells, const straight_way *way, uint *place, uint axis, uint layer, way_part part)
+SHARED void open_layer(const body_cells *cells, const straight_way *way, uint *place, uint axis, uint layer,
+                       way_part part)
 {
   for (uint k = 0u; k < 3u; ++k) {
     cell_range range = {layer, layer};

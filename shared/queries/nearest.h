@@ -1,7 +1,7 @@
 /* nearest.h - what every query asks of every body: may it be hit, can it be, and is it nearer than the nearest so far.
  *
- * Which bodies are asked is the broadphase's choice (body_walk.h); in which order makes no difference to the nearest.
- */
+ * Which bodies are asked is the broadphase's choice (body_walk.h); in which order makes no difference to the
+ * nearest. */
 #ifndef TANDEM_SHARED_QUERIES_NEAREST_H
 #define TANDEM_SHARED_QUERIES_NEAREST_H
 
@@ -30,13 +30,16 @@ SHARED first_hit nearer_hit(first_hit a, first_hit b)
 }
 
 /* query_body: number in the scene, group, mask; query_filter: group, mask. */
-SHARED mask may_hit(GLOBAL const uint *traits, GLOBAL const uint *query_body, GLOBAL const uint *query_filter, uint body, uint query)
+SHARED mask may_hit(GLOBAL const uint *traits, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
+                    uint body, uint query)
 {
   if (motion_of(traits[body]) == (uint)MOTION_QUARANTINED) return 0;
-  return (query_body[4u * body + 1u] & query_filter[2u * query + 1u]) != 0u && (query_body[4u * body + 2u] & query_filter[2u * query]) != 0u;
+  return (query_body[4u * body + 1u] & query_filter[2u * query + 1u]) != 0u &&
+         (query_body[4u * body + 2u] & query_filter[2u * query]) != 0u;
 }
 
-/* Whether a ball that moves comes near one that does not; both radii with what rounding may take. way: from the start. */
+/* Whether a ball that moves comes near one that does not; both radii with what rounding may take. way: from the
+ * start. */
 SHARED mask passes_near(vec3 center, vec3 way, real radius)
 {
   real square = length_squared(way), along = inner(center, way);
@@ -54,8 +57,9 @@ SHARED vec3 seen_from(GLOBAL const row *positions, uint body, place from)
 }
 
 /* Any body's shape, also one that the narrowphase has a test of its own for. */
-SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                            GLOBAL const row *orientations, hull_tables tables, vec3 center, uint body)
+SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
+                            GLOBAL const row *poses, GLOBAL const row *orientations, hull_tables tables, vec3 center,
+                            uint body)
 {
   uint kind = shape_of(traits[body]), hull = 0u;
   quat turned = quat_from(load_row(orientations, body));
@@ -65,7 +69,8 @@ SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes,
     center = add(center, rotate(rotation_of(turned), xyz(load_row(poses, body * 4u))));
     turned = quat_multiply(turned, quat_from(load_row(poses, body * 4u + 1u)));
   }
-  return convex_of(kind, xyz(load_row(shapes, body)), rotation_of(turned), center, make_vec3(R(0.0), R(0.0), R(0.0)), hull, tables);
+  return convex_of(kind, xyz(load_row(shapes, body)), rotation_of(turned), center, make_vec3(R(0.0), R(0.0), R(0.0)),
+                   hull, tables);
 }
 
 SHARED void store_hit(first_hit hit, GLOBAL row *hits, GLOBAL row *points, GLOBAL uint *bodies, uint i)

@@ -1,8 +1,8 @@
 /* ray_shape.h - where a line enters and leaves a shape, in closed form where there is one.
  *
- *            enter         leave       The line is o + s u in the shape's axes, u of length 1, o near the shape: the caller
- *     o-------->(#############)--->    starts it at the point nearest to the shape's middle, so that the numbers that are
- *                                      squared are no larger than the shape, however far away the ray began.
+ *            enter         leave       The line is o + s u in the shape's axes, u of length 1, o near the shape: the
+ * caller o-------->(#############)--->    starts it at the point nearest to the shape's middle, so that the numbers
+ * that are squared are no larger than the shape, however far away the ray began.
  *
  *   sphere             a quadratic
  *   cylinder, cone     the slab between the caps, and a quadratic for the side
@@ -96,8 +96,8 @@ SHARED span span_in_sphere(vec3 o, vec3 u, real height, real radius)
   return s;
 }
 
-/* Roots of a s^2 + 2 b s + c, the lower first: one of them by the product of both, since their difference may cancel. False where
- * there is none. One without a square has its other root without an end. */
+/* Roots of a s^2 + 2 b s + c, the lower first: one of them by the product of both, since their difference may cancel.
+ * False where there is none. One without a square has its other root without an end. */
 SHARED mask roots_of(real a, real b, real c, real *low, real *high)
 {
   real square = b * b - a * c;
@@ -107,7 +107,10 @@ SHARED mask roots_of(real a, real b, real c, real *low, real *high)
     *low = *high = R(0.0);
     return a != R(0.0);
   }
-  real first = magnitude(q) < magnitude(a) * ENDLESS ? q / a : (q < R(0.0)) == (a < R(0.0)) ? ENDLESS : -ENDLESS, second = c / q;
+  real first = magnitude(q) < magnitude(a) * ENDLESS ? q / a
+               : (q < R(0.0)) == (a < R(0.0))        ? ENDLESS
+                                                     : -ENDLESS,
+       second = c / q;
   *low = minimum(first, second);
   *high = maximum(first, second);
   return 1;
@@ -127,7 +130,8 @@ SHARED span span_in_cone(vec3 o, vec3 u, real bottom, real top, real radius_bott
   span s = span_below_plane(o, u, make_vec3(R(0.0), R(1.0), R(0.0)), top);
   s = common_span(s, span_below_plane(o, u, make_vec3(R(0.0), R(-1.0), R(0.0)), -bottom));
   if (is_nothing(s)) return s;
-  real growth = (radius_top - radius_bottom) / (top - bottom), radius = radius_bottom + (o.y - bottom) * growth, widening = growth * u.y;
+  real growth = (radius_top - radius_bottom) / (top - bottom), radius = radius_bottom + (o.y - bottom) * growth,
+       widening = growth * u.y;
   real a = u.x * u.x + u.z * u.z - widening * widening, b = o.x * u.x + o.z * u.z - radius * widening;
   real across = square_root(o.x * o.x + o.z * o.z), c = (across - radius) * (across + radius), low, high;
   if (a == R(0.0) && b == R(0.0)) return c <= R(0.0) ? s : no_span();
@@ -161,7 +165,8 @@ SHARED span span_in_triangle(const convex *shape, vec3 o, vec3 u)
   if (rise == R(0.0)) return no_span();
   real s = -height / rise;
   vec3 at = add_scaled(o, u, s);
-  real second = inner(normal, outer(at, shape->third)), third = inner(normal, outer(shape->second, at)), whole = length_squared(normal);
+  real second = inner(normal, outer(at, shape->third)), third = inner(normal, outer(shape->second, at)),
+       whole = length_squared(normal);
   real slack = R(1e-6) * whole; /* so that no ray passes between two triangles */
   if (!(second >= -slack) || !(third >= -slack) || !(second + third <= whole + slack)) return no_span();
   vec3 unit = scale(normal, R(1.0) / square_root(whole));
@@ -184,7 +189,8 @@ SHARED span ray_span(const convex *shape, vec3 from, vec3 direction)
 {
   vec3 offset = subtract(from, shape->center);
   real start = -inner(offset, direction);
-  span s = span_in_shape(shape, rotate_back(shape->rotation, add_scaled(offset, direction, start)), rotate_back(shape->rotation, direction));
+  span s = span_in_shape(shape, rotate_back(shape->rotation, add_scaled(offset, direction, start)),
+                         rotate_back(shape->rotation, direction));
   s.enter = s.enter + start;
   s.leave = s.leave + start;
   s.normal = rotate(shape->rotation, s.normal);

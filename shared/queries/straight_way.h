@@ -1,11 +1,12 @@
 /* straight_way.h - what every structure of bodies tests its boxes against: a ray, or a box that goes straight.
  *
- *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own half extents
- *       |  |- - - ->  [   ]     (Minkowski). One that stands still goes a way of length 0.
+ *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own
+ * half extents |  |- - - ->  [   ]     (Minkowski). One that stands still goes a way of length 0.
  *       +--+
  *
- * Boxes are in the world's coordinates, of which the way has a float and what that float lost: boxes are widened by as much.
- * One test for all structures: which bodies are asked, hence every bit of an answer, must not depend on the structure.
+ * Boxes are in the world's coordinates, of which the way has a float and what that float lost: boxes are widened by as
+ * much. One test for all structures: which bodies are asked, hence every bit of an answer, must not depend on the
+ * structure.
  */
 #ifndef TANDEM_SHARED_QUERIES_STRAIGHT_WAY_H
 #define TANDEM_SHARED_QUERIES_STRAIGHT_WAY_H
@@ -13,11 +14,17 @@
 #include "shared/broadphase/overlap.h"
 #include "shared/queries/ray_shape.h"
 
-/* The way is start + s way, s from 0 to `reach`. Boxes are wider than they are by start_low - start, and start - start_high. */
-typedef struct { vec3 start_low, start_high, inverse; } straight_way;
+/* The way is start + s way, s from 0 to `reach`. Boxes are wider than they are by start_low - start, and start -
+ * start_high. */
+typedef struct {
+  vec3 start_low, start_high, inverse;
+} straight_way;
 
 /* As good as infinite where the way runs along a face; 0 times it is still 0. */
-SHARED real inverse_of_way(real way) { return magnitude(way) > R(1e-30) ? R(1.0) / way : way < R(0.0) ? -ENDLESS : ENDLESS; }
+SHARED real inverse_of_way(real way)
+{
+  return magnitude(way) > R(1e-30) ? R(1.0) / way : way < R(0.0) ? -ENDLESS : ENDLESS;
+}
 
 /* extent: half of a box that goes along the way, 0 for a ray. */
 SHARED straight_way straight_way_of(place start, vec3 way, vec3 extent)
@@ -29,13 +36,17 @@ SHARED straight_way straight_way_of(place start, vec3 way, vec3 extent)
 }
 
 /* From where to where along the way it is in the box, within 0 and `reach`. */
-typedef struct { real enter, leave; } way_part;
+typedef struct {
+  real enter, leave;
+} way_part;
 
 SHARED way_part part_in_box(const straight_way *way, box_bounds box, real reach)
 {
-  vec3 low = multiply(subtract(box.lower, way->start_low), way->inverse), high = multiply(subtract(box.upper, way->start_high), way->inverse);
+  vec3 low = multiply(subtract(box.lower, way->start_low), way->inverse),
+       high = multiply(subtract(box.upper, way->start_high), way->inverse);
   way_part part;
-  part.enter = maximum(maximum(minimum(low.x, high.x), minimum(low.y, high.y)), maximum(minimum(low.z, high.z), R(0.0)));
+  part.enter =
+      maximum(maximum(minimum(low.x, high.x), minimum(low.y, high.y)), maximum(minimum(low.z, high.z), R(0.0)));
   part.leave = minimum(minimum(maximum(low.x, high.x), maximum(low.y, high.y)), minimum(maximum(low.z, high.z), reach));
   return part;
 }

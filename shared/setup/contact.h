@@ -27,7 +27,9 @@ SHARED real combined(natural rule_a, natural rule_b, real a, real b)
   return choose(rule == 0u, R(0.5) * (a + b), result);
 }
 
-typedef struct { real static_friction, dynamic_friction, restitution; } surface;
+typedef struct {
+  real static_friction, dynamic_friction, restitution;
+} surface;
 
 /* material.w: friction rule + 8 restitution rule. */
 SHARED surface surface_between(GLOBAL const row *material, natural material_a, natural material_b)
@@ -57,11 +59,14 @@ SHARED real response(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 first, vec3 
 {
   vec3 turn_a = symmetric_times(bodies.inertia_a, outer(arm_a, first));
   vec3 turn_b = symmetric_times(bodies.inertia_b, outer(arm_b, first));
-  return (bodies.motion_a.inverse_mass + bodies.motion_b.inverse_mass) * inner(first, second) + inner(turn_a, outer(arm_a, second)) +
-         inner(turn_b, outer(arm_b, second));
+  return (bodies.motion_a.inverse_mass + bodies.motion_b.inverse_mass) * inner(first, second) +
+         inner(turn_a, outer(arm_a, second)) + inner(turn_b, outer(arm_b, second));
 }
 
-SHARED real inverse_or_zero(real x) { return choose(x > R(0.0), R(1.0) / choose(x > R(0.0), x, (real)R(1.0)), (real)R(0.0)); }
+SHARED real inverse_or_zero(real x)
+{
+  return choose(x > R(0.0), R(1.0) / choose(x > R(0.0), x, (real)R(1.0)), (real)R(0.0));
+}
 
 /* One mass for every direction of the tangent plane: the smallest, so that the cone can be projected as a
  * circle and the iteration contracts. 1 / largest eigenvalue of the 2 x 2 response. */
@@ -77,12 +82,15 @@ SHARED real friction_mass(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 normal)
 
 SHARED real twist_mass(body_pair bodies, vec3 normal)
 {
-  return inverse_or_zero(inner(normal, symmetric_times(bodies.inertia_a, normal)) + inner(normal, symmetric_times(bodies.inertia_b, normal)));
+  return inverse_or_zero(inner(normal, symmetric_times(bodies.inertia_a, normal)) +
+                         inner(normal, symmetric_times(bodies.inertia_b, normal)));
 }
 
 /* The speed at which a point shall part: restitution x speed of impact. A point that touches only later in
- * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no bounce. */
-SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, real approach, real pull, real separation)
+ * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no bounce.
+ */
+SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, real approach, real pull,
+                         real separation)
 {
   real ahead = maximum(separation, R(0.0));
   real squared = maximum(approach * approach - R(2.0) * pull * ahead, R(0.0));
@@ -98,7 +106,8 @@ SHARED real cached_impulse(natural feature, natural point, natural old_feature, 
 {
   natural slot = slot_of(feature, point);
   real found = R(0.0);
-  for (uint k = 0; k < 4u; ++k) found = choose(slot_of(old_feature, k) == slot, maximum(found, component(old, k)), found);
+  for (uint k = 0; k < 4u; ++k)
+    found = choose(slot_of(old_feature, k) == slot, maximum(found, component(old, k)), found);
   return choose((feature >> 8u) == (old_feature >> 8u), found, (real)R(0.0));
 }
 
@@ -117,7 +126,8 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
 }
 
 /* Acceleration of b against a along the normal under gravity. */
-SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, body_pair bodies, vec3 normal)
+SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, body_pair bodies,
+                          vec3 normal)
 {
   real a = choose(bodies.motion_a.inverse_mass > R(0.0), load_row(body_mass, bodies.a * 2u).w, (real)R(0.0));
   real b = choose(bodies.motion_b.inverse_mass > R(0.0), load_row(body_mass, bodies.b * 2u).w, (real)R(0.0));
@@ -128,12 +138,15 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
 SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
 
-/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact, or of the start where they
- * touch. In the substep of the impact the others would be off by that much, and then lie far outside of the bodies. */
+/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact, or of the
+ * start where they touch. In the substep of the impact the others would be off by that much, and then lie far outside
+ * of the bodies. */
 #define FOLLOWED_SHARE R(1.0)
 
 /* What two bodies have slid past each other moves their arms. */
-typedef struct { vec3 a, b; } arm_shift;
+typedef struct {
+  vec3 a, b;
+} arm_shift;
 
 SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
 {
@@ -142,9 +155,13 @@ SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
   return s;
 }
 
-/* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist. Of a fast
- * spinning box the manifold also holds corners that are far ahead; they take part only where no point is near. */
-typedef struct { vec3 center; real radius; } friction_patch;
+/* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist.
+ * Of a fast spinning box the manifold also holds corners that are far ahead; they take part only where no point is
+ * near. */
+typedef struct {
+  vec3 center;
+  real radius;
+} friction_patch;
 
 SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, uint stride, natural points, real near)
 {
@@ -162,7 +179,8 @@ SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, 
   for (uint k = 1; k < 4u; ++k) center = choose3(weight[k] > R(0.0), add(center, xyz(point[k])), center);
   friction_patch patch = {scale(center, share), R(0.0)};
   for (uint k = 0; k < 4u; ++k)
-    patch.radius = patch.radius + choose(weight[k] > R(0.0), length_of(subtract(xyz(point[k]), patch.center)), (real)R(0.0));
+    patch.radius =
+        patch.radius + choose(weight[k] > R(0.0), length_of(subtract(xyz(point[k]), patch.center)), (real)R(0.0));
   patch.radius = patch.radius * share;
   return patch;
 }
@@ -178,33 +196,35 @@ SHARED real slop_or_deep(GLOBAL const Parameters *parameters, real size, real de
 }
 SHARED real slop_of(real slop_or_deep) { return maximum(slop_or_deep, R(0.0)); }
 
-/* Penetration is never removed faster than this. Push speeds of layers of bodies add up, and what relaxing cannot take out of
- * a long chain in one pass stays as energy, which grows with their square: bodies deep in one another are parted slowly. */
+/* Penetration is never removed faster than this. Push speeds of layers of bodies add up, and what relaxing cannot take
+ * out of a long chain in one pass stays as energy, which grows with their square: bodies deep in one another are parted
+ * slowly. */
 #define DEEP_PUSH R(0.1)
 SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
 {
   return parameters->push_speed * choose(slop_or_deep < R(0.0), (real)DEEP_PUSH, (real)R(1.0));
 }
 
-SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
-                                  GLOBAL const row *body_shape, GLOBAL const row *body_mass, GLOBAL const row *body_position,
-                                  GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a,
-                                  GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *pair_cached, GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
-                                  GLOBAL const uint *manifold_count, GLOBAL const uint *manifold_feature,
-                                  GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
-                                  GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
-                                  GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b,
-                                  GLOBAL row *constraint_normal, GLOBAL row *constraint_points, GLOBAL row *constraint_center,
-                                  GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                  GLOBAL row *constraint_bounce, GLOBAL memory_real *constraint_slop, item_index i)
+SHARED void prepare_contacts_item(
+    GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
+    GLOBAL const row *body_shape, GLOBAL const row *body_mass, GLOBAL const row *body_position,
+    GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a,
+    GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *pair_cached,
+    GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count,
+    GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
+    GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+    GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b, GLOBAL row *constraint_normal,
+    GLOBAL row *constraint_points, GLOBAL row *constraint_center, GLOBAL row *constraint_normal_impulse,
+    GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL memory_real *constraint_slop,
+    item_index i)
 {
   natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
   body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
   vec4 manifold = load_row(manifold_normal, pair);
   vec3 normal = xyz(manifold);
-  /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the solver's shift of
-   * arms brings them there by then, or those themselves where arms do not follow. */
+  /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the
+   * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, manifold.w);
   real size = size_between(body_shape, bodies.a, bodies.b);
   mask arms_stay = length_of(passing) * parameters->substep > FOLLOWED_SHARE * size;
@@ -212,8 +232,10 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
-  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a), shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
-  surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)), material_of(load_natural(body_traits, shape_b)));
+  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a),
+          shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
+  surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)),
+                                    material_of(load_natural(body_traits, shape_b)));
   real pull = relative_pull(parameters, body_mass, bodies, normal);
 
   natural cached = load_natural(pair_cached, pair);
@@ -232,7 +254,9 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
     deepest = choose(used, minimum(deepest, point.w), deepest);
     store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
-    wished[k] = choose(used, wished_speed(parameters, between.restitution, inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
+    wished[k] = choose(used,
+                       wished_speed(parameters, between.restitution,
+                                    inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
                        (real)R(-1.0));
   }
 
@@ -253,8 +277,8 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   tangents t = tangents_of(normal);
   real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
   store_row(constraint_friction_impulse, i,
-            make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second), kept * old_friction.w,
-                      patch.radius));
+            make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second),
+                      kept * old_friction.w, patch.radius));
   store_real(constraint_slop, i, slop_or_deep(parameters, size, deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
     store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));

@@ -10,9 +10,12 @@
 #include "shared/setup/contact.h"
 
 /* Two lengths, in metres. */
-typedef struct { real rolling, spinning; } rolling_resistance;
+typedef struct {
+  real rolling, spinning;
+} rolling_resistance;
 
-SHARED rolling_resistance resistance_between(GLOBAL const row *material, GLOBAL const row *material_rolling, natural a, natural b)
+SHARED rolling_resistance resistance_between(GLOBAL const row *material, GLOBAL const row *material_rolling, natural a,
+                                             natural b)
 {
   natural rule_a = to_natural(load_row(material, a).w) & 7u, rule_b = to_natural(load_row(material, b).w) & 7u;
   vec4 of_a = load_row(material_rolling, a), of_b = load_row(material_rolling, b);
@@ -20,10 +23,12 @@ SHARED rolling_resistance resistance_between(GLOBAL const row *material, GLOBAL 
   return r;
 }
 
-SHARED void prepare_rolling_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, GLOBAL const row *material, GLOBAL const row *material_rolling, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *pair_cached, GLOBAL const row *cached_rolling_impulse, GLOBAL const uint *constraint_pair,
-                                 GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *counts,
-                                 GLOBAL row *constraint_rolling, item_index i)
+SHARED void prepare_rolling_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf,
+                                 GLOBAL const row *material, GLOBAL const row *material_rolling,
+                                 GLOBAL const uint *body_traits, GLOBAL const uint *pair_cached,
+                                 GLOBAL const row *cached_rolling_impulse, GLOBAL const uint *constraint_pair,
+                                 GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                 GLOBAL const uint *counts, GLOBAL row *constraint_rolling, item_index i)
 {
   natural pair = load_natural(constraint_pair, i);
   natural a = shape_in_pair(parameters, pair_leaf, pair, 0u, load_natural(constraint_a, i));

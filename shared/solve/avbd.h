@@ -1,20 +1,22 @@
 /* avbd.h - augmented vertex block descent: constraints as penalties with multipliers, and their update.
  *
- * Giles, Diaz and Yuksel, "Augmented Vertex Block Descent", SIGGRAPH 2025. Bodies minimise the energy of an implicit step,
+ * Giles, Diaz and Yuksel, "Augmented Vertex Block Descent", SIGGRAPH 2025. Bodies minimise the energy of an implicit
+ * step,
  *
  *   1/2 (w - v*)^T M (w - v*)  +  penalties     w: velocities over the substep, v*: those that inertia and gravity wish
  *
- * one body at a time with all others held (avbd_bodies.h), then every constraint takes the force of its penalty into its
- * multiplier and grows stiffer by how far it is violated:
+ * one body at a time with all others held (avbd_bodies.h), then every constraint takes the force of its penalty into
+ * its multiplier and grows stiffer by how far it is violated:
  *
  *   impulse    p = clamp(lambda - kappa c)      lambda <- p,   kappa <- kappa + beta m |c|  unless p was clamped
  *
- * All is in velocities: c = h J w + s over h (m/s), kappa = h^2 times the paper's stiffness (kg), p = h times its force (N s),
- * so that kappa compares with the effective mass m of its row and needs no unit of its own. The change of position is h w by
- * construction. Of a penetration s < 0 a share of 1 - alpha is corrected in a step, as in the paper; points ahead of touching
- * keep their whole distance. A penalty far above the mass it moves locks two bodies to each other's velocity of the moment: in
- * an impact they would not share their momentum within the iterations of a step. So one grows freely to a few masses only and
- * then by a factor, which takes a lasting load of 1,000 masses some steps and leaves impacts alone. Normal rows stand at the points, friction (a circular cone of two tangents, and a twist) at the
+ * All is in velocities: c = h J w + s over h (m/s), kappa = h^2 times the paper's stiffness (kg), p = h times its force
+ * (N s), so that kappa compares with the effective mass m of its row and needs no unit of its own. The change of
+ * position is h w by construction. Of a penetration s < 0 a share of 1 - alpha is corrected in a step, as in the paper;
+ * points ahead of touching keep their whole distance. A penalty far above the mass it moves locks two bodies to each
+ * other's velocity of the moment: in an impact they would not share their momentum within the iterations of a step. So
+ * one grows freely to a few masses only and then by a factor, which takes a lasting load of 1,000 masses some steps and
+ * leaves impacts alone. Normal rows stand at the points, friction (a circular cone of two tangents, and a twist) at the
  * centre of the manifold. A clamped row is as stiff as the force it still bears over its violation.
  */
 #ifndef TANDEM_SHARED_SOLVE_AVBD_H
@@ -22,12 +24,12 @@
 
 #include "shared/solve/contact.h"
 
-#define AVBD_ALPHA R(0.95)         /* share of a penetration that is left in place */
-#define AVBD_GAMMA R(0.99)         /* what multipliers and penalties keep from one step to the next */
-#define AVBD_BETA R(30.0)          /* s/m, growth of a penalty in units of the effective mass */
-#define AVBD_FIRST_PENALTY R(1.0)  /* of a new point, in units of the effective mass */
-#define AVBD_FREE_PENALTY R(2.0)   /* up to here a penalty grows as it will, */
-#define AVBD_GROWTH R(1.04)        /* from there on at most so much in an iteration */
+#define AVBD_ALPHA R(0.95)        /* share of a penetration that is left in place */
+#define AVBD_GAMMA R(0.99)        /* what multipliers and penalties keep from one step to the next */
+#define AVBD_BETA R(30.0)         /* s/m, growth of a penalty in units of the effective mass */
+#define AVBD_FIRST_PENALTY R(1.0) /* of a new point, in units of the effective mass */
+#define AVBD_FREE_PENALTY R(2.0)  /* up to here a penalty grows as it will, */
+#define AVBD_GROWTH R(1.04)       /* from there on at most so much in an iteration */
 #define AVBD_LAST_PENALTY R(1e4)
 
 /* Impulses and violations of one constraint at the present velocities. */
@@ -36,8 +38,8 @@ typedef struct {
   real impulse[4], violation[4];
   tangents along;
   vec3 arm_a, arm_b;
-  real first, second, twist;         /* N s and N m s: friction */
-  real slide_share, twist_share;     /* 1 where friction holds, less where it was clamped */
+  real first, second, twist;     /* N s and N m s: friction */
+  real slide_share, twist_share; /* 1 where friction holds, less where it was clamped */
   real slide_speed, twist_speed;
 } contact_forces;
 
@@ -55,7 +57,8 @@ SHARED real share_within(real size, real limit)
   return choose(beyond, limit / choose(beyond, size, (real)R(1.0)), (real)R(1.0));
 }
 
-SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 penalty, vec4 old, real pressure)
+SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 penalty,
+                            vec4 old, real pressure)
 {
   real limit = c.friction * pressure, twist_limit = limit * old.w;
   f->along = tangents_of(c.normal);
@@ -75,9 +78,10 @@ SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 
 }
 
 /* penalty, second row: those of sliding and of twisting. */
-SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                                GLOBAL const row *constraint_penalty, GLOBAL const row *solver_delta, uint stride, contact c, item_index i)
+SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL const row *constraint_points,
+                                GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
+                                GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
+                                GLOBAL const row *solver_delta, uint stride, contact c, item_index i)
 {
   contact_forces f;
   vec4 old = load_row(constraint_normal_impulse, i), penalty = load_row(constraint_penalty, i * 2u);
@@ -88,7 +92,8 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL cons
     vec4 point_a = load_row(constraint_points, stride * k + i);
     f.turn_a[k] = outer(add(xyz(point_a), shift.a), c.normal);
     f.turn_b[k] = outer(add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b), c.normal);
-    real separation = point_a.w + closed + (inner(f.turn_b[k], moved.rotation_b) - inner(f.turn_a[k], moved.rotation_a));
+    real separation =
+        point_a.w + closed + (inner(f.turn_b[k], moved.rotation_b) - inner(f.turn_a[k], moved.rotation_a));
     f.violation[k] = point_violation(parameters, separation, speed_along(c, c.normal, f.turn_a[k], f.turn_b[k]));
     /* The penalty of an unused point is 0, and so is its multiplier. */
     f.impulse[k] = maximum(component(old, (natural)k) - component(penalty, (natural)k) * f.violation[k], R(0.0));
@@ -100,12 +105,14 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL cons
 }
 
 /* Bodies start from where they would be without gravity if something touches them: most of them rest on it. */
-SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *incidence_start,
-                            GLOBAL row *solver_velocity, GLOBAL row *avbd_target, item_index i)
+SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
+                            GLOBAL const uint *incidence_start, GLOBAL row *solver_velocity, GLOBAL row *avbd_target,
+                            item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   store_motion(avbd_target, i, m);
-  mask touched = (load_natural(incidence_start, i) != load_natural(incidence_start, i + 1u)) & (m.inverse_mass > R(0.0));
+  mask touched =
+      (load_natural(incidence_start, i) != load_natural(incidence_start, i + 1u)) & (m.inverse_mass > R(0.0));
   vec3 gravity = gravity_of(parameters);
   m.linear = add_scaled(m.linear, gravity, -(load_row(body_mass, i * 2u).w * parameters->substep));
   store_motion_if(touched, solver_velocity, i, m);
@@ -113,18 +120,21 @@ SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const ro
 
 SHARED real kept_penalty(real mass, real old)
 {
-  return choose(mass > R(0.0), clamped(AVBD_GAMMA * old, AVBD_FIRST_PENALTY * mass, AVBD_LAST_PENALTY * mass), (real)R(0.0));
+  return choose(mass > R(0.0), clamped(AVBD_GAMMA * old, AVBD_FIRST_PENALTY * mass, AVBD_LAST_PENALTY * mass),
+                (real)R(0.0));
 }
 
 /* Penalties of the same features in the last step; a pair that did not touch then has none. */
-SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached, GLOBAL const uint *manifold_feature,
-                              GLOBAL const uint *cached_color, GLOBAL const uint *cached_feature, GLOBAL const row *cached_penalty,
-                              GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, GLOBAL const uint *counts,
-                              GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_penalty,
-                              item_index i)
+SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
+                              GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_color,
+                              GLOBAL const uint *cached_feature, GLOBAL const row *cached_penalty,
+                              GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                              GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                              GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_penalty, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  natural pair = load_natural(constraint_pair, i), cached = load_natural(pair_cached, pair), feature = load_natural(manifold_feature, pair);
+  natural pair = load_natural(constraint_pair, i), cached = load_natural(pair_cached, pair),
+          feature = load_natural(manifold_feature, pair);
   mask is_cached = cached != (natural)INDEX_NONE;
   natural from = choose(is_cached, cached, (natural)0u);
   is_cached = is_cached & (load_natural(cached_color, from) != (natural)COLOR_INACTIVE);
@@ -137,11 +147,15 @@ SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
   store_row(constraint_penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
   store_row(constraint_penalty, i * 2u + 1u,
             make_vec4(kept_penalty(load_row(constraint_center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
-                      kept_penalty(load_row(constraint_center, stride + i).w, choose(is_cached, old_friction.y, (real)R(0.0))), R(0.0), R(0.0)));
+                      kept_penalty(load_row(constraint_center, stride + i).w,
+                                   choose(is_cached, old_friction.y, (real)R(0.0))),
+                      R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
   vec4 impulse = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  store_row(constraint_normal_impulse, i, make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
-  store_row(constraint_friction_impulse, i, make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
+  store_row(constraint_normal_impulse, i,
+            make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
+  store_row(constraint_friction_impulse, i,
+            make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
 }
 
 SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
@@ -151,34 +165,40 @@ SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
   return choose(holds, grown, penalty);
 }
 
-SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const row *solver_velocity,
-                            GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                            GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                            GLOBAL const row *solver_velocity, GLOBAL const uint *counts,
+                            GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
                             GLOBAL row *constraint_penalty, GLOBAL row *constraint_bounce, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  contact_forces f = forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse, constraint_friction_impulse,
-                               constraint_penalty, solver_delta, stride, c, i);
+  contact_forces f = forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse,
+                               constraint_friction_impulse, constraint_penalty, solver_delta, stride, c, i);
   vec4 penalty = load_row(constraint_penalty, i * 2u), friction_penalty = load_row(constraint_penalty, i * 2u + 1u);
   real grown[4];
   for (uint k = 0; k < 4u; ++k)
-    grown[k] = grown_penalty(component(penalty, (natural)k), load_row(constraint_points, stride * (k + 4u) + i).w, f.violation[k],
-                             f.impulse[k] > R(0.0));
+    grown[k] = grown_penalty(component(penalty, (natural)k), load_row(constraint_points, stride * (k + 4u) + i).w,
+                             f.violation[k], f.impulse[k] > R(0.0));
   store_row(constraint_penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
   store_row(constraint_penalty, i * 2u + 1u,
-            make_vec4(grown_penalty(friction_penalty.x, load_row(constraint_center, i).w, f.slide_speed, f.slide_share == R(1.0)),
-                      grown_penalty(friction_penalty.y, load_row(constraint_center, stride + i).w, f.twist_speed, f.twist_share == R(1.0)),
+            make_vec4(grown_penalty(friction_penalty.x, load_row(constraint_center, i).w, f.slide_speed,
+                                    f.slide_share == R(1.0)),
+                      grown_penalty(friction_penalty.y, load_row(constraint_center, stride + i).w, f.twist_speed,
+                                    f.twist_share == R(1.0)),
                       R(0.0), R(0.0)));
   vec4 pressed = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
   store_row(constraint_normal_impulse, i, pressed);
-  store_row(constraint_friction_impulse, i, make_vec4(f.first, f.second, f.twist, load_row(constraint_friction_impulse, i).w));
+  store_row(constraint_friction_impulse, i,
+            make_vec4(f.first, f.second, f.twist, load_row(constraint_friction_impulse, i).w));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
     store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
 }
 
-SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_penalty, GLOBAL row *cached_penalty, item_index i)
+SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_penalty,
+                            GLOBAL row *cached_penalty, item_index i)
 {
   natural pair = load_natural(constraint_pair, i);
   store_row(cached_penalty, pair * 2u, load_row(constraint_penalty, i * 2u));

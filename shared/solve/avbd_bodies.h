@@ -4,8 +4,8 @@
  *
  *   (1 + sum kappa j j^T) dy = -y + sum j p      j = M^(-1/2) J: the row of a constraint, p: its impulse
  *
- * So the matrix is the unit matrix and more, pivots are at least 1 whatever the masses, and a moment that is infinite is a row
- * of zeros. L D L^T by hand, 21 numbers.
+ * So the matrix is the unit matrix and more, pivots are at least 1 whatever the masses, and a moment that is infinite
+ * is a row of zeros. L D L^T by hand, 21 numbers.
  */
 #ifndef TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 #define TANDEM_SHARED_SOLVE_AVBD_BODIES_H
@@ -13,7 +13,9 @@
 #include "shared/solve/avbd.h"
 
 /* Lower triangle, row by row, and right-hand side. */
-typedef struct { real matrix[21], vector[6]; } block_system;
+typedef struct {
+  real matrix[21], vector[6];
+} block_system;
 
 /* What turns a row of a constraint into the body's own coordinates. side: -1 for body a, 1 for b. */
 typedef struct {
@@ -22,13 +24,17 @@ typedef struct {
   real root_mass, side;
 } block_frame;
 
-SHARED real over_or_zero(real x, real divisor) { return choose(divisor > R(0.0), x / choose(divisor > R(0.0), divisor, (real)R(1.0)), (real)R(0.0)); }
+SHARED real over_or_zero(real x, real divisor)
+{
+  return choose(divisor > R(0.0), x / choose(divisor > R(0.0), divisor, (real)R(1.0)), (real)R(0.0));
+}
 
 /* zero: a 0 from memory, for llvmpipe takes 0 + x for x, also for -0. */
 SHARED block_system begin_block(block_frame frame, motion m, motion target, real zero)
 {
   block_system s;
-  vec3 linear = subtract(m.linear, target.linear), angular = rotate_back(frame.axes, subtract(m.angular, target.angular));
+  vec3 linear = subtract(m.linear, target.linear),
+       angular = rotate_back(frame.axes, subtract(m.angular, target.angular));
   for (uint k = 0; k < 21u; ++k) s.matrix[k] = zero;
   for (uint k = 0; k < 6u; ++k) s.matrix[k * (k + 3u) / 2u] = R(1.0);
   s.vector[0] = -over_or_zero(linear.x, frame.root_mass);
@@ -45,7 +51,8 @@ SHARED void add_row_from(block_system *s, uint first, const real *j, real stiffn
 {
   for (uint r = first; r < 6u; ++r) {
     real stiff = stiffness * j[r];
-    for (uint k = first; k <= r; ++k) s->matrix[r * (r + 1u) / 2u + k] = s->matrix[r * (r + 1u) / 2u + k] + stiff * j[k];
+    for (uint k = first; k <= r; ++k)
+      s->matrix[r * (r + 1u) / 2u + k] = s->matrix[r * (r + 1u) / 2u + k] + stiff * j[k];
     s->vector[r] = s->vector[r] + impulse * j[r];
   }
 }
@@ -66,7 +73,8 @@ SHARED void add_turning_row(block_system *s, block_frame frame, vec3 turn, real 
   add_row_from(s, 3u, j, stiffness, impulse);
 }
 
-/* L D L^T in place, and the solution in place of the right-hand side. Rounding cannot take a pivot below the 1 it has. */
+/* L D L^T in place, and the solution in place of the right-hand side. Rounding cannot take a pivot below the 1 it
+ * has. */
 SHARED void solve_block(block_system *s)
 {
   real *m = s->matrix, *v = s->vector;
@@ -75,7 +83,8 @@ SHARED void solve_block(block_system *s)
     inverse[k] = R(1.0) / maximum(m[k * (k + 3u) / 2u], R(1.0));
     for (uint r = k + 1u; r < 6u; ++r) {
       real factor = m[r * (r + 1u) / 2u + k] * inverse[k];
-      for (uint q = k + 1u; q <= r; ++q) m[r * (r + 1u) / 2u + q] = m[r * (r + 1u) / 2u + q] - factor * m[q * (q + 1u) / 2u + k];
+      for (uint q = k + 1u; q <= r; ++q)
+        m[r * (r + 1u) / 2u + q] = m[r * (r + 1u) / 2u + q] - factor * m[q * (q + 1u) / 2u + k];
       v[r] = v[r] - factor * v[k];
     }
   }
@@ -89,11 +98,13 @@ SHARED void solve_block(block_system *s)
 SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *constraint_normal_impulse,
                         GLOBAL const row *constraint_penalty, contact c, contact_forces f, uint constraint)
 {
-  vec4 penalty = load_row(constraint_penalty, constraint * 2u), friction_penalty = load_row(constraint_penalty, constraint * 2u + 1u);
+  vec4 penalty = load_row(constraint_penalty, constraint * 2u),
+       friction_penalty = load_row(constraint_penalty, constraint * 2u + 1u);
   vec4 multipliers = load_row(constraint_normal_impulse, constraint);
   real held = R(0.0);
   for (uint k = 0; k < 4u; ++k) {
-    if (f.impulse[k] > R(0.0) || component(multipliers, k) > R(0.0)) /* one that just let go may press again: it stays stiff */
+    if (f.impulse[k] > R(0.0) ||
+        component(multipliers, k) > R(0.0)) /* one that just let go may press again: it stays stiff */
       add_row(s, frame, c.normal, frame.side > R(0.0) ? f.turn_b[k] : f.turn_a[k], component(penalty, k), f.impulse[k]);
     held = held + f.impulse[k];
   }
@@ -106,9 +117,10 @@ SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *co
 }
 
 SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *constraint_a,
-                      GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                      GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                      GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty, GLOBAL const uint *incidence_start,
+                      GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                      GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                      GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                      GLOBAL const row *constraint_penalty, GLOBAL const uint *incidence_start,
                       GLOBAL const uint *incidence, GLOBAL const row *avbd_target, GLOBAL const row *solver_inertia,
                       GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation, GLOBAL const uint *counts,
                       GLOBAL row *solver_velocity, uint body)
@@ -116,53 +128,63 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *bod
   uint stride = counts[CAPACITY_PAIRS];
   motion m = load_motion(solver_velocity, body);
   vec3 inverse_moments = xyz(load_row(body_mass, body * 2u));
-  block_frame frame = {rotation_of(quat_from(load_row(solver_orientation, body))),
-                       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
-                       square_root(m.inverse_mass), R(1.0)};
+  block_frame frame = {
+      rotation_of(quat_from(load_row(solver_orientation, body))),
+      make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
+      square_root(m.inverse_mass), R(1.0)};
   block_system s = begin_block(frame, m, load_motion(avbd_target, body), load_row(solver_velocity, body * 2u + 1u).w);
   for (uint k = incidence_start[body]; k < incidence_start[body + 1u]; ++k) {
     uint entry = incidence[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
     contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
     add_contact(&s, frame, constraint_normal_impulse, constraint_penalty, c,
-                forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse, constraint_friction_impulse,
-                          constraint_penalty, solver_delta, stride, c, i), i);
+                forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse,
+                          constraint_friction_impulse, constraint_penalty, solver_delta, stride, c, i),
+                i);
   }
   solve_block(&s);
   m.linear = add_scaled(m.linear, make_vec3(s.vector[0], s.vector[1], s.vector[2]), frame.root_mass);
-  m.angular = add(m.angular, rotate(frame.axes, multiply(frame.root_moments, make_vec3(s.vector[3], s.vector[4], s.vector[5]))));
+  m.angular = add(m.angular,
+                  rotate(frame.axes, multiply(frame.root_moments, make_vec3(s.vector[3], s.vector[4], s.vector[5]))));
   store_motion(solver_velocity, body, m);
 }
 
 /* Bodies of one colour, all at once. */
-SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *constraint_a,
-                             GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
+                             GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
                              GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
                              GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
-                             GLOBAL const uint *incidence_start, GLOBAL const uint *incidence, GLOBAL const uint *sort_value,
-                             GLOBAL const row *avbd_target, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                             GLOBAL const row *solver_orientation, GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint i)
+                             GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
+                             GLOBAL const uint *sort_value, GLOBAL const row *avbd_target,
+                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                             GLOBAL const row *solver_orientation, GLOBAL const uint *counts,
+                             GLOBAL row *solver_velocity, uint i)
 {
   avbd_body(parameters, body_mass, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
-            constraint_normal_impulse, constraint_friction_impulse, constraint_penalty, incidence_start, incidence, avbd_target,
-            solver_inertia, solver_delta, solver_orientation, counts, solver_velocity, sort_value[i]);
+            constraint_normal_impulse, constraint_friction_impulse, constraint_penalty, incidence_start, incidence,
+            avbd_target, solver_inertia, solver_delta, solver_orientation, counts, solver_velocity, sort_value[i]);
 }
 
-/* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the tail. Bodies of
- * one colour do not touch, so the result is that of launching each colour. */
-SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *constraint_a,
-                           GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+/* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the tail.
+ * Bodies of one colour do not touch, so the result is that of launching each colour. */
+SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
+                           GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                           GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
                            GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
                            GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
-                           GLOBAL const uint *incidence_start, GLOBAL const uint *incidence, GLOBAL const uint *sort_value,
-                           GLOBAL const row *avbd_target, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                           GLOBAL const row *solver_orientation, GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint color, uint only)
+                           GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
+                           GLOBAL const uint *sort_value, GLOBAL const row *avbd_target,
+                           GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                           GLOBAL const row *solver_orientation, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                           uint color, uint only)
 {
   (void)only;
   for (uint i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + COLOR_TAIL + 1u]; ++i)
-    avbd_body(parameters, body_mass, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
-              constraint_normal_impulse, constraint_friction_impulse, constraint_penalty, incidence_start, incidence, avbd_target,
-              solver_inertia, solver_delta, solver_orientation, counts, solver_velocity, sort_value[i]);
+    avbd_body(parameters, body_mass, constraint_a, constraint_b, constraint_normal, constraint_points,
+              constraint_center, constraint_normal_impulse, constraint_friction_impulse, constraint_penalty,
+              incidence_start, incidence, avbd_target, solver_inertia, solver_delta, solver_orientation, counts,
+              solver_velocity, sort_value[i]);
 }
 
 #endif

@@ -21,11 +21,13 @@ typedef struct {
   symmetric3 inertia_a, inertia_b;
   vec3 normal;
   real friction;
-  real follows; /* 1: arms follow what the bodies slide past each other; 0: they stay as they are, of bodies that pass each other fast */
+  real follows; /* 1: arms follow what the bodies slide past each other; 0: they stay as they are, of bodies that pass
+                   each other fast */
 } contact;
 
-SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, item_index i)
+SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                            GLOBAL const row *constraint_normal, GLOBAL const row *solver_velocity,
+                            GLOBAL const row *solver_inertia, item_index i)
 {
   contact c;
   c.a = load_natural(constraint_a, i);
@@ -80,11 +82,14 @@ SHARED contact apply_impulse(contact c, vec3 direction, vec3 turn_a, vec3 turn_b
 
 SHARED real speed_along(contact c, vec3 direction, vec3 turn_a, vec3 turn_b)
 {
-  return inner(direction, subtract(c.motion_b.linear, c.motion_a.linear)) + inner(turn_b, c.motion_b.angular) - inner(turn_a, c.motion_a.angular);
+  return inner(direction, subtract(c.motion_b.linear, c.motion_a.linear)) + inner(turn_b, c.motion_b.angular) -
+         inner(turn_a, c.motion_a.angular);
 }
 
 /* What the bodies have moved since the step began. */
-typedef struct { vec3 translation, rotation_a, rotation_b; } drift;
+typedef struct {
+  vec3 translation, rotation_a, rotation_b;
+} drift;
 
 SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
 {
@@ -93,7 +98,10 @@ SHARED drift load_drift(GLOBAL const row *solver_delta, contact c)
   return d;
 }
 
-SHARED arm_shift shift_of_contact(contact c, vec3 slid) { return shift_of_arms(c.motion_a, c.motion_b, scale(slid, c.follows)); }
+SHARED arm_shift shift_of_contact(contact c, vec3 slid)
+{
+  return shift_of_arms(c.motion_a, c.motion_b, scale(slid, c.follows));
+}
 
 SHARED arm_shift load_arm_shift(GLOBAL const row *solver_delta, contact c)
 {
@@ -107,7 +115,8 @@ typedef struct {
 } support;
 
 /* Turns, masses and impulses of the points; separations as the step began stay with the caller. */
-SHARED support load_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses, item_index i)
+SHARED support load_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses,
+                            item_index i)
 {
   support s;
   for (uint k = 0; k < 4u; ++k) {
@@ -121,14 +130,17 @@ SHARED support load_support(GLOBAL const row *constraint_points, uint stride, co
 }
 
 /* What a manifold's impulses amount to: one impulse, and its moments about the two bodies. */
-typedef struct { vec3 impulse, turn_a, turn_b; } wrench;
+typedef struct {
+  vec3 impulse, turn_a, turn_b;
+} wrench;
 
 /* friction: along the two tangents at the centre, and about the normal. */
 SHARED wrench wrench_of(contact c, support s, vec3 center_a, vec3 center_b, vec4 friction)
 {
   tangents t = tangents_of(c.normal);
   vec3 slide = add(scale(t.first, friction.x), scale(t.second, friction.y));
-  wrench w = {slide, add(outer(center_a, slide), scale(c.normal, friction.z)), add(outer(center_b, slide), scale(c.normal, friction.z))};
+  wrench w = {slide, add(outer(center_a, slide), scale(c.normal, friction.z)),
+              add(outer(center_b, slide), scale(c.normal, friction.z))};
   for (uint k = 0; k < 4u; ++k) {
     w.impulse = add_scaled(w.impulse, c.normal, s.impulse[k]);
     w.turn_a = add_scaled(w.turn_a, s.turn_a[k], s.impulse[k]);
@@ -138,39 +150,46 @@ SHARED wrench wrench_of(contact c, support s, vec3 center_a, vec3 center_b, vec4
 }
 
 /* The first substep of a step: the impulses of the last step. Later ones find theirs in solver_push. */
-SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                            GLOBAL row *solver_velocity, item_index i)
+SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                            GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
+                            GLOBAL const row *constraint_friction_impulse, GLOBAL const row *solver_inertia,
+                            GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                            item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
   support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
+       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }
 
-/* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: the impulse and the
- * moment that each body's constraints will push it by, in the order of the colours. A pass of its own would read every
- * constraint once more. */
+/* The warm start of the next substep, gathered while the last pass of this one knows all that it takes: the impulse and
+ * the moment that each body's constraints will push it by, in the order of the colours. A pass of its own would read
+ * every constraint once more. */
 SHARED void add_push_if(mask wanted, GLOBAL row *solver_push, contact c, wrench w)
 {
   mask moves_a = wanted & (c.motion_a.inverse_mass > R(0.0)), moves_b = wanted & (c.motion_b.inverse_mass > R(0.0));
-  vec3 impulse_a = subtract(xyz(load_row(solver_push, c.a * 2u)), w.impulse), turn_a = subtract(xyz(load_row(solver_push, c.a * 2u + 1u)), w.turn_a);
-  vec3 impulse_b = add(xyz(load_row(solver_push, c.b * 2u)), w.impulse), turn_b = add(xyz(load_row(solver_push, c.b * 2u + 1u)), w.turn_b);
+  vec3 impulse_a = subtract(xyz(load_row(solver_push, c.a * 2u)), w.impulse),
+       turn_a = subtract(xyz(load_row(solver_push, c.a * 2u + 1u)), w.turn_a);
+  vec3 impulse_b = add(xyz(load_row(solver_push, c.b * 2u)), w.impulse),
+       turn_b = add(xyz(load_row(solver_push, c.b * 2u + 1u)), w.turn_b);
   store_row_if(moves_a, solver_push, c.a * 2u, extend(impulse_a, R(0.0)));
   store_row_if(moves_a, solver_push, c.a * 2u + 1u, extend(turn_a, R(0.0)));
   store_row_if(moves_b, solver_push, c.b * 2u, extend(impulse_b, R(0.0)));
   store_row_if(moves_b, solver_push, c.b * 2u + 1u, extend(turn_b, R(0.0)));
 }
 
-typedef struct { contact c; vec4 impulse; } solved;
+typedef struct {
+  contact c;
+  vec4 impulse;
+} solved;
 
-/* Bodies that have turned by less, in radians, or slid by a smaller share of their arms, are as heavy to each other as when the step
- * began. Of a thin rod that is much: its axis has left the arm of its end by a part of its thickness. */
+/* Bodies that have turned by less, in radians, or slid by a smaller share of their arms, are as heavy to each other as
+ * when the step began. Of a thin rod that is much: its axis has left the arm of its end by a part of its thickness. */
 #define SAME_PLACE R(0.02)
 /* So much more mobility than that of the stored mass does not make an iteration diverge. */
 #define SAME_MOBILITY R(1.05)
@@ -189,8 +208,8 @@ SHARED body_pair bodies_of(contact c)
   return bodies;
 }
 
-/* What has turned, or whose arms have followed it, would be turned faster by an impulse for the stored mass than it slides, each time
- * more: it gets the mass of its slide now. slide: along the tangents. */
+/* What has turned, or whose arms have followed it, would be turned faster by an impulse for the stored mass than it
+ * slides, each time more: it gets the mass of its slide now. slide: along the tangents. */
 SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, vec3 arm_a, vec3 arm_b)
 {
   if (!any_of(stale)) return stored;
@@ -199,8 +218,10 @@ SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, ve
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }
 
-/* Twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the masses are. */
-SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse, real pressure)
+/* Twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the masses
+ * are. */
+SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse,
+                             real pressure)
 {
   real limit = c.friction * pressure;
   real spin = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular));
@@ -221,11 +242,14 @@ SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - impulse.x), scale(t.second, second - impulse.y));
-  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), {first, second, twist, impulse.w}};
+  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)),
+              {first, second, twist, impulse.w}};
   return s;
 }
 
-typedef struct { real rate, mass_scale, impulse_scale; } softness;
+typedef struct {
+  real rate, mass_scale, impulse_scale;
+} softness;
 
 SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
 {
@@ -237,13 +261,14 @@ SHARED softness softness_of(GLOBAL const Parameters *parameters, contact c)
 }
 
 /* One normal row. Ahead of contact the bodies may close the gap but not more; in penetration the bias
- * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it would
- * limit comes later. Returns the new accumulated impulse, which may pull: press_together cuts that off. */
-SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop_or_deep, real separation, real speed, real mass, real old,
-                           uint biased)
+ * pushes them apart, unless relaxing: then a point still ahead that has carried nothing stays so, for the motion it
+ * would limit comes later. Returns the new accumulated impulse, which may pull: press_together cuts that off. */
+SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, real slop_or_deep, real separation,
+                           real speed, real mass, real old, uint biased)
 {
   mask ahead = separation > R(0.0);
-  real push = maximum(soft.rate * minimum(separation + slop_of(slop_or_deep), R(0.0)), -push_limit(parameters, slop_or_deep));
+  real push =
+      maximum(soft.rate * minimum(separation + slop_of(slop_or_deep), R(0.0)), -push_limit(parameters, slop_or_deep));
   mask rigid = ahead | (push == R(0.0));
   real bias = choose(ahead, separation * parameters->inverse_substep, biased != 0u ? push : (real)R(0.0));
   real mass_scale = biased != 0u ? choose(rigid, (real)R(1.0), soft.mass_scale) : (real)R(1.0);
@@ -253,9 +278,9 @@ SHARED real normal_impulse(GLOBAL const Parameters *parameters, softness soft, r
 }
 
 /* Gives all points their wished impulses at once, so that a box on four corners does not tilt towards the one that is
- * solved first. Wishes that pull end at 0. The changes are one direction; the share of it that brings the points as near to their
- * wishes as they can come together is own / whole: the energy that the wishes, uncut, would do along it with the points apart, over
- * its energy with them coupled. */
+ * solved first. Wishes that pull end at 0. The changes are one direction; the share of it that brings the points as
+ * near to their wishes as they can come together is own / whole: the energy that the wishes, uncut, would do along it
+ * with the points apart, over its energy with them coupled. */
 SHARED contact press_together(contact c, support *s, const real *wished)
 {
   real change[4], sum = R(0.0), own = R(0.0);
@@ -268,7 +293,8 @@ SHARED contact press_together(contact c, support *s, const real *wished)
     turn_a = add_scaled(turn_a, s->turn_a[k], change[k]);
     turn_b = add_scaled(turn_b, s->turn_b[k], change[k]);
   }
-  real whole = (c.motion_a.inverse_mass + c.motion_b.inverse_mass) * sum * sum + inner(turn_a, symmetric_times(c.inertia_a, turn_a)) +
+  real whole = (c.motion_a.inverse_mass + c.motion_b.inverse_mass) * sum * sum +
+               inner(turn_a, symmetric_times(c.inertia_a, turn_a)) +
                inner(turn_b, symmetric_times(c.inertia_b, turn_b));
   real share = minimum(own / choose(whole > R(0.0), whole, (real)R(1.0)), R(2.0));
   mask pulls = s->impulse[0] + share * change[0] < R(0.0);
@@ -281,22 +307,23 @@ SHARED contact press_together(contact c, support *s, const real *wished)
 }
 
 /* One pass over the points, as they are after the bodies have moved. */
-SHARED contact press_once(GLOBAL const Parameters *parameters, contact c, support *s, drift moved, GLOBAL const row *constraint_points, uint stride,
-                          real slop, uint biased, item_index i)
+SHARED contact press_once(GLOBAL const Parameters *parameters, contact c, support *s, drift moved,
+                          GLOBAL const row *constraint_points, uint stride, real slop, uint biased, item_index i)
 {
   softness soft = softness_of(parameters, c);
   real closed = inner(c.normal, moved.translation), wished[4];
   for (uint k = 0; k < 4u; ++k) {
     real started = load_row(constraint_points, stride * k + i).w;
-    real separation = started + closed + (inner(s->turn_b[k], moved.rotation_b) - inner(s->turn_a[k], moved.rotation_a));
+    real separation =
+        started + closed + (inner(s->turn_b[k], moved.rotation_b) - inner(s->turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s->turn_a[k], s->turn_b[k]);
     wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
   }
   return press_together(c, s, wished);
 }
 
-/* The points of an impact are coupled, and one pass would leave a fast body on its way: further ones bring all of them to
- * rest. */
+/* The points of an impact are coupled, and one pass would leave a fast body on its way: further ones bring all of them
+ * to rest. */
 #define IMPACT_ROUNDS 15u
 
 /* Impulses that change the rows of a manifold, at once, so that momentum is rounded once. */
@@ -314,20 +341,26 @@ SHARED contact apply_changes(contact c, const support *s, vec4 changes)
   return apply_turn(c, turn_a, turn_b, R(1.0));
 }
 
-SHARED vec4 impulses_of(const support *s) { return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]); }
+SHARED vec4 impulses_of(const support *s)
+{
+  return make_vec4(s->impulse[0], s->impulse[1], s->impulse[2], s->impulse[3]);
+}
 
 /* The most that each point has carried within the step: only what was pressed bounces. */
 SHARED vec4 highest_impulses(vec4 highest, vec4 pressed)
 {
-  return make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z), maximum(highest.w, pressed.w));
+  return make_vec4(maximum(highest.x, pressed.x), maximum(highest.y, pressed.y), maximum(highest.z, pressed.z),
+                   maximum(highest.w, pressed.w));
 }
 
-/* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the others pay for no
- * register of it. */
-SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                          GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                          GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, uint stride,
-                          GLOBAL row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
+/* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the
+ * others pay for no register of it. */
+SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                          GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                          GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                          GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia,
+                          GLOBAL const row *solver_delta, uint stride, GLOBAL row *constraint_normal_impulse,
+                          GLOBAL const row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
                           GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass, item_index i)
 {
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -338,25 +371,32 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint
   support s = load_support(constraint_points, stride, c, shift, before, i);
   real slop = load_real(constraint_slop, i);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
-  for (uint round = 0; round < IMPACT_ROUNDS; ++round) c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
+  for (uint round = 0; round < IMPACT_ROUNDS; ++round)
+    c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
   vec4 pressed = impulses_of(&s);
   store_row_if(at_impact, constraint_normal_impulse, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row_if(at_impact, constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_row_if(at_impact, constraint_bounce, stride + i,
+                 highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   vec4 changes = make_vec4(pressed.x - before.x, pressed.y - before.y, pressed.z - before.z, pressed.w - before.w);
   c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   c = apply_changes(c, &s, changes);
   store_contact_motion_if(at_impact, solver_velocity, c);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
-  if (pass == PASS_RELAXING) add_push_if(at_impact, solver_push, c, wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i)));
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
+       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  if (pass == PASS_RELAXING)
+    add_push_if(at_impact, solver_push, c,
+                wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i)));
 }
 
-SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                                GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass,
-                                item_index i)
+SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                                GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                                GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia,
+                                GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, GLOBAL row *solver_push,
+                                uint pass, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   uint biased = pass == PASS_BIASED ? 1u : 0u;
@@ -385,20 +425,23 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
   store_contact_motion(solver_velocity, c);
   mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)
-    add_push_if(!at_impact, solver_push, c, wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
+    add_push_if(!at_impact, solver_push, c,
+                wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
   if (any_of(at_impact))
-    settle_impact(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center, constraint_slop, solver_inertia,
-                  solver_delta, stride, constraint_normal_impulse, constraint_friction_impulse, constraint_bounce, solver_velocity, solver_push, pass, i);
+    settle_impact(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
+                  constraint_slop, solver_inertia, solver_delta, stride, constraint_normal_impulse,
+                  constraint_friction_impulse, constraint_bounce, solver_velocity, solver_push, pass, i);
 }
 
 /* The points of a manifold are coupled; a few rounds bring all of them to their speeds. */
 #define RESTITUTION_ROUNDS 8u
 
 /* After the last substep: points that were pressed part at their wished speed. */
-SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                   GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
-                                   GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                                   GLOBAL row *solver_velocity, item_index i)
+SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                   GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                                   GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
+                                   GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                                   GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
@@ -419,7 +462,8 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
     }
     c = press_together(c, &s, pressed);
   }
-  store_row_if(bounces, constraint_normal_impulse, i, make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
+  store_row_if(bounces, constraint_normal_impulse, i,
+               make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]));
   store_contact_motion(solver_velocity, with_motion_if(bounces, before, c));
 }
 

@@ -1,17 +1,19 @@
 /* mass_split.h - contact rows that are solved all at once: bodies split into as many parts as they have constraints.
  *
- * Colours let one constraint after the other change a body. Here every constraint works on parts of its bodies that are its
- * own, of mass m / n and inertia I / n where the body has n constraints; then the n parts are joined again, at their mean
- * velocity (Tonge, Benevolenski and Voroshilov, "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012):
+ * Colours let one constraint after the other change a body. Here every constraint works on parts of its bodies that are
+ * its own, of mass m / n and inertia I / n where the body has n constraints; then the n parts are joined again, at
+ * their mean velocity (Tonge, Benevolenski and Voroshilov, "Mass Splitting for Jitter-Free Parallel Rigid Body
+ * Simulation", 2012):
  *
  *           n = 3                    P1 acts on m/3:   v1 = v + 3 P1 / m
  *        1  2  3                     P2, P3 alike
  *        |  |  |                     mean of the parts:  v + (P1 + P2 + P3) / m
  *      [ m/3|m/3|m/3 ]
  *
- * So a row leaves the impulse it gave, and split_apply adds those of a body in the order of its list: both bodies of a row
- * get the same impulse, and momentum is kept to rounding however far the iteration has come. It never overshoots, but a body
- * of n constraints is n times as soft in each of them, so it takes more iterations than solving colour after colour.
+ * So a row leaves the impulse it gave, and split_apply adds those of a body in the order of its list: both bodies of a
+ * row get the same impulse, and momentum is kept to rounding however far the iteration has come. It never overshoots,
+ * but a body of n constraints is n times as soft in each of them, so it takes more iterations than solving colour after
+ * colour.
  *
  * The rows are those of shared/solve/contact.h, with the same fixed points. The solver `jacobi` uses them for all
  * constraints, the others for the tail, which has no colours.
@@ -21,8 +23,8 @@
 
 #include "shared/solve/contact.h"
 
-/* A body of more entries than this has them added in a tree (mass_split_sum.h). More than there are colours, so that only a
- * scene with a tail has one. */
+/* A body of more entries than this has them added in a tree (mass_split_sum.h). More than there are colours, so that
+ * only a scene with a tail has one. */
 #define SPLIT_DIRECT 64u
 #define SPLIT_CHUNK 32u
 /* Each body's partial sums have a place of their own: one of 32 entries needs less than two for each 32. */
@@ -30,9 +32,11 @@
 
 /* A body's constraints with what cannot move carry all that rests on it: together they get as much of it as the others
  * together. */
-SHARED real parts_of(GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports, natural body, mask supported)
+SHARED real parts_of(GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports, natural body,
+                     mask supported)
 {
-  natural all = load_natural(incidence_start, body + 1u) - load_natural(incidence_start, body), supports = load_natural(split_supports, body);
+  natural all = load_natural(incidence_start, body + 1u) - load_natural(incidence_start, body),
+          supports = load_natural(split_supports, body);
   mask mixed = (supports > (natural)0u) & (supports < all);
   return to_real(choose(mixed, choose(supported, supports, all - supports) * 2u, all));
 }
@@ -54,15 +58,18 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
 }
 
 /* Effective masses between parts, and how many parts there are; once a step. */
-SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                              GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, GLOBAL const row *solver_velocity,
-                              GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports,
-                              GLOBAL const uint *counts, GLOBAL row *split_mass, item_index i)
+SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                              GLOBAL const row *constraint_center, GLOBAL const row *solver_velocity,
+                              GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start,
+                              GLOBAL const uint *split_supports, GLOBAL const uint *counts, GLOBAL row *split_mass,
+                              item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   mask supported = (c.motion_a.inverse_mass == R(0.0)) | (c.motion_b.inverse_mass == R(0.0));
-  real parts_a = parts_of(incidence_start, split_supports, c.a, supported), parts_b = parts_of(incidence_start, split_supports, c.b, supported);
+  real parts_a = parts_of(incidence_start, split_supports, c.a, supported),
+       parts_b = parts_of(incidence_start, split_supports, c.b, supported);
   c = split_contact(c, parts_a, parts_b);
   body_pair parts = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
   real mass[4];
@@ -73,7 +80,9 @@ SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   }
   vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
   store_row(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
-  store_row(split_mass, stride + i, make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
+  store_row(
+      split_mass, stride + i,
+      make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
 }
 
 SHARED wrench choose_wrench(mask m, wrench a, wrench b)
@@ -98,24 +107,26 @@ SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real fi
   return w;
 }
 
-SHARED void split_warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                  GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                  GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                                  GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+SHARED void split_warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                  GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                                  GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
+                                  GLOBAL const row *constraint_friction_impulse, GLOBAL const row *solver_velocity,
+                                  GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
                                   GLOBAL const uint *counts, GLOBAL row *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
   support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
+       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_wrench(split_impulse, stride, i, w);
 }
 
 /* The points of a manifold between parts. */
-SHARED support load_split_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift, vec4 impulses, vec4 masses,
-                                  item_index i)
+SHARED support load_split_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift,
+                                  vec4 impulses, vec4 masses, item_index i)
 {
   support s = load_support(constraint_points, stride, c, shift, impulses, i);
   for (uint k = 0; k < 4u; ++k) s.mass[k] = component(masses, (natural)k);
@@ -146,7 +157,8 @@ SHARED wrench add_wrench(wrench a, wrench b)
 /* Nesterov's extrapolation: on past `now` by a share of the last change. */
 SHARED vec4 extrapolated(vec4 now, vec4 before, real share)
 {
-  return make_vec4(now.x + share * (now.x - before.x), now.y + share * (now.y - before.y), now.z + share * (now.z - before.z), now.w);
+  return make_vec4(now.x + share * (now.x - before.x), now.y + share * (now.y - before.y),
+                   now.z + share * (now.z - before.z), now.w);
 }
 
 SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
@@ -156,21 +168,26 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
                    maximum(now.w + share * (now.w - before.w), R(0.0)));
 }
 
-/* momentum: the number of the iteration, from 0, and 0 again for the last, which shall end within the cones. Iterations before
- * go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to Accelerate
- * Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above, which is what the
- * method asks for. */
-SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                             GLOBAL const memory_real *constraint_slop, GLOBAL const row *split_mass, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
-                             GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL row *split_pushed,
-                             GLOBAL row *split_rubbed, GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
+/* momentum: the number of the iteration, from 0, and 0 again for the last, which shall end within the cones. Iterations
+ * before go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to
+ * Accelerate Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above,
+ * which is what the method asks for. */
+SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                             GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                             GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                             GLOBAL const memory_real *constraint_slop, GLOBAL const row *split_mass,
+                             GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                             GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                             GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                             GLOBAL row *constraint_bounce, GLOBAL row *split_pushed, GLOBAL row *split_rubbed,
+                             GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
 {
   real share = (real)momentum / ((real)momentum + R(3.0));
   uint stride = counts[CAPACITY_PAIRS];
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
-  contact c = split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i), other.z, other.w);
+  contact c =
+      split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i),
+                    other.z, other.w);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
@@ -182,13 +199,15 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
     vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
     vec4 old = load_row(constraint_friction_impulse, i);
     mask stale = masses_are_stale(moved, shift, center_a, center_b);
-    solved sliding = solve_friction(c, stale, shift, extend(xyz(center_a), other.x), extend(xyz(center_b), other.y), old, pressure);
+    solved sliding =
+        solve_friction(c, stale, shift, extend(xyz(center_a), other.x), extend(xyz(center_b), other.y), old, pressure);
     c = with_motion_if(rough, c, sliding.c);
     vec4 next = sliding.impulse;
     if (momentum != 0u) next = extrapolated(next, load_row(split_rubbed, i), share);
     store_row_if(rough, split_rubbed, i, sliding.impulse);
     store_row_if(rough, constraint_friction_impulse, i, next);
-    rubbed = friction_wrench(c.normal, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), next.x - old.x, next.y - old.y, next.z - old.z);
+    rubbed = friction_wrench(c.normal, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), next.x - old.x,
+                             next.y - old.y, next.z - old.z);
   }
 
   softness soft = softness_of(parameters, c);
@@ -196,10 +215,12 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   support s = load_split_support(constraint_points, stride, c, shift, impulses, masses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_row(constraint_points, stride * k + i).w, whole = load_row(constraint_points, stride * (k + 4u) + i).w;
+    real started = load_row(constraint_points, stride * k + i).w,
+         whole = load_row(constraint_points, stride * (k + 4u) + i).w;
     real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
-    soft.impulse_scale = leak * (s.mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
+    soft.impulse_scale =
+        leak * (s.mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
     wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
   }
   c = press_together(c, &s, wished);
@@ -214,22 +235,27 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 /* One round of restitution: points that were pressed towards their wished speed. */
-SHARED void split_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                   GLOBAL const row *constraint_points, GLOBAL const row *constraint_bounce, GLOBAL const row *split_mass,
-                                   GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *split_impulse, item_index i)
+SHARED void split_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                   GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                                   GLOBAL const row *constraint_bounce, GLOBAL const row *split_mass,
+                                   GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                                   GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                                   GLOBAL row *constraint_normal_impulse, GLOBAL row *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
-  contact c = split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i), other.z, other.w);
+  contact c =
+      split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i),
+                    other.z, other.w);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   support s = load_split_support(constraint_points, stride, c, load_arm_shift(solver_delta, c), impulses, masses, i);
   real pressed[4];
   for (uint k = 0; k < 4u; ++k) {
     real target = component(wished, (natural)k);
     mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
-    real wanted = maximum(s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target), R(0.0));
+    real wanted =
+        maximum(s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target), R(0.0));
     pressed[k] = choose(applies, wanted, s.impulse[k]);
   }
   c = press_together(c, &s, pressed);
@@ -238,15 +264,19 @@ SHARED void split_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   store_wrench(split_impulse, stride, i, wrench_of_points(c, &s, impulses, parted));
 }
 
-typedef struct { vec3 linear, angular; } impulse_sum;
+typedef struct {
+  vec3 linear, angular;
+} impulse_sum;
 
 /* What entry `at` of the lists gives its body. */
-SHARED impulse_sum load_entry(GLOBAL const uint *incidence, GLOBAL const row *split_impulse, uint stride, mask wanted, natural at)
+SHARED impulse_sum load_entry(GLOBAL const uint *incidence, GLOBAL const row *split_impulse, uint stride, mask wanted,
+                              natural at)
 {
   natural entry = load_natural(incidence, choose(wanted, at, (natural)0u));
   natural constraint = choose(wanted, entry >> 1u, (natural)0u), side = choose(wanted, entry & 1u, (natural)0u);
   vec3 push = xyz(load_row(split_impulse, constraint));
-  impulse_sum sum = {choose3(side == 0u, negate(push), push), xyz(load_row(split_impulse, (side + 1u) * stride + constraint))};
+  impulse_sum sum = {choose3(side == 0u, negate(push), push),
+                     xyz(load_row(split_impulse, (side + 1u) * stride + constraint))};
   return sum;
 }
 
@@ -269,9 +299,10 @@ SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint
 SHARED mask is_nonzero(vec3 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)); }
 
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been made. */
-SHARED void split_apply_item(GLOBAL const uint *incidence_start, GLOBAL const uint *incidence, GLOBAL const row *split_impulse,
-                             GLOBAL const row *split_partial, GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
-                             GLOBAL row *solver_velocity, uint trees, item_index i)
+SHARED void split_apply_item(GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
+                             GLOBAL const row *split_impulse, GLOBAL const row *split_partial,
+                             GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                             uint trees, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   natural start = load_natural(incidence_start, i), entries = load_natural(incidence_start, i + 1u) - start;
@@ -288,7 +319,8 @@ SHARED void split_apply_item(GLOBAL const uint *incidence_start, GLOBAL const ui
     natural sums = choose(long_list, (entries + (natural)(SPLIT_CHUNK * SPLIT_CHUNK - 1u)) >> 10u, (natural)0u);
     for (uint k = 0; any_of((natural)k < sums); ++k) {
       mask more = (natural)k < sums;
-      sum = add_term(sum, load_partial(split_partial, more, SPLIT_FIRST_SUM(start) + (natural)(k * SPLIT_CHUNK)), more, k);
+      sum = add_term(sum, load_partial(split_partial, more, SPLIT_FIRST_SUM(start) + (natural)(k * SPLIT_CHUNK)), more,
+                     k);
     }
   }
   motion m = load_motion(solver_velocity, i);

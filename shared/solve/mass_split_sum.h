@@ -1,7 +1,7 @@
 /* mass_split_sum.h - the impulses on a body of very many constraints, added in a tree that no backend changes.
  *
- * A floor that moves may carry ten thousand boxes. One item would add for ever; so items add runs of SPLIT_CHUNK entries of
- * its list, other items runs of such sums, and split_apply the few that are left:
+ * A floor that moves may carry ten thousand boxes. One item would add for ever; so items add runs of SPLIT_CHUNK
+ * entries of its list, other items runs of such sums, and split_apply the few that are left:
  *
  *   entries of a body   | 32 | 32 | 32 | .. | 32 |  ..          split_sum:   a sum at the first of each run
  *   sums                  s0   s1   s2  ..   s31  | s32 ..      split_join:  s0 = s0 + .. + s31
@@ -14,20 +14,23 @@
 #include "shared/solve/mass_split.h"
 
 /* Counts the constraints that each moving body has with what cannot move. */
-SHARED void split_supports_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const uint *body_traits,
-                                GLOBAL uint *split_supports, uint i)
+SHARED void split_supports_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                GLOBAL const uint *body_traits, GLOBAL uint *split_supports, uint i)
 {
   uint a = constraint_a[i], b = constraint_b[i];
-  uint moving_a = motion_of(body_traits[a]) == (uint)MOTION_DYNAMIC, moving_b = motion_of(body_traits[b]) == (uint)MOTION_DYNAMIC;
+  uint moving_a = motion_of(body_traits[a]) == (uint)MOTION_DYNAMIC,
+       moving_b = motion_of(body_traits[b]) == (uint)MOTION_DYNAMIC;
   if (moving_a != moving_b) ATOMIC_ADD(split_supports + (moving_a ? a : b), 1u);
 }
 
 /* A run of a long list that starts at an entry. */
-typedef struct { uint starts, place, length; } list_run;
+typedef struct {
+  uint starts, place, length;
+} list_run;
 
 /* every: entries between the starts of two runs. Lengths are in units of `unit` entries. */
-SHARED list_run run_at(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start, GLOBAL const uint *counts, uint every, uint unit,
-                       uint i)
+SHARED list_run run_at(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start, GLOBAL const uint *counts,
+                       uint every, uint unit, uint i)
 {
   list_run run = {0u, 0u, 0u};
   uint body = incidence_body[i];
@@ -47,19 +50,21 @@ SHARED void store_partial(GLOBAL row *split_partial, uint place, impulse_sum sum
   store_row(split_partial, 2u * place + 1u, extend(sum.angular, R(0.0)));
 }
 
-SHARED void split_sum_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
-                           GLOBAL const row *split_impulse, GLOBAL const uint *counts, GLOBAL row *split_partial, uint i)
+SHARED void split_sum_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start,
+                           GLOBAL const uint *incidence, GLOBAL const row *split_impulse, GLOBAL const uint *counts,
+                           GLOBAL row *split_partial, uint i)
 {
   list_run run = run_at(incidence_body, incidence_start, counts, SPLIT_CHUNK, 1u, i);
   if (run.starts == 0u) return;
   uint stride = counts[CAPACITY_PAIRS];
   impulse_sum sum = load_entry(incidence, split_impulse, stride, 1, i);
-  for (uint k = 1; k < run.length; ++k) sum = add_term(sum, load_entry(incidence, split_impulse, stride, 1, i + k), 1, k);
+  for (uint k = 1; k < run.length; ++k)
+    sum = add_term(sum, load_entry(incidence, split_impulse, stride, 1, i + k), 1, k);
   store_partial(split_partial, run.place, sum);
 }
 
-SHARED void split_join_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start, GLOBAL const uint *counts,
-                            GLOBAL row *split_partial, uint i)
+SHARED void split_join_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start,
+                            GLOBAL const uint *counts, GLOBAL row *split_partial, uint i)
 {
   list_run run = run_at(incidence_body, incidence_start, counts, SPLIT_CHUNK * SPLIT_CHUNK, SPLIT_CHUNK, i);
   if (run.starts == 0u) return;

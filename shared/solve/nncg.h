@@ -27,8 +27,9 @@ enum { NNCG_SUM_BEFORE, NNCG_BETA };
 #define NNCG_LEAST R(1e-30)
 
 /* Before the first sweep: nothing has changed yet, no direction. */
-SHARED void nncg_begin_item(GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse, GLOBAL const uint *counts,
-                            GLOBAL row *nncg_impulse, GLOBAL row *nncg_direction, item_index i)
+SHARED void nncg_begin_item(GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                            GLOBAL const uint *counts, GLOBAL row *nncg_impulse, GLOBAL row *nncg_direction,
+                            item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
@@ -45,9 +46,10 @@ SHARED real energy_of(real change, real mass)
 }
 
 /* After a sweep: the square of what it changed at this manifold. */
-SHARED void nncg_change_item(GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                             GLOBAL const row *constraint_friction_impulse, GLOBAL const row *nncg_impulse, GLOBAL const uint *counts,
-                             GLOBAL memory_real *nncg_square, item_index i)
+SHARED void nncg_change_item(GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
+                             GLOBAL const row *nncg_impulse, GLOBAL const uint *counts, GLOBAL memory_real *nncg_square,
+                             item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 pushes = load_row(constraint_normal_impulse, i), old = load_row(nncg_impulse, i);
@@ -56,7 +58,8 @@ SHARED void nncg_change_item(GLOBAL const row *constraint_points, GLOBAL const r
   real sum = energy_of(friction.x - old_friction.x, slide_mass) + energy_of(friction.y - old_friction.y, slide_mass) +
              energy_of(friction.z - old_friction.z, twist_mass);
   for (uint k = 0; k < 4u; ++k)
-    sum = sum + energy_of(component(pushes, (natural)k) - component(old, (natural)k), load_row(constraint_points, stride * (k + 4u) + i).w);
+    sum = sum + energy_of(component(pushes, (natural)k) - component(old, (natural)k),
+                          load_row(constraint_points, stride * (k + 4u) + i).w);
   store_real(nncg_square, i, sum);
 }
 
@@ -79,18 +82,22 @@ SHARED vec4 change_between(vec4 before, vec4 now)
 }
 
 /* Goes on along the direction, with impulses and velocities alike. The twist radius, w of friction, never changes. */
-SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                              GLOBAL const row *constraint_points, GLOBAL const row *constraint_center, GLOBAL const row *solver_inertia,
-                              GLOBAL const row *solver_delta, GLOBAL const memory_real *nncg_state, GLOBAL const uint *counts,
-                              GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse, GLOBAL row *nncg_impulse,
+SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+                              GLOBAL const row *constraint_center, GLOBAL const row *solver_inertia,
+                              GLOBAL const row *solver_delta, GLOBAL const memory_real *nncg_state,
+                              GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                              GLOBAL row *constraint_friction_impulse, GLOBAL row *nncg_impulse,
                               GLOBAL row *nncg_direction, GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   real beta = nncg_state[NNCG_BETA];
   vec4 pushes = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  vec4 push_step = scale4(load_row(nncg_direction, i), beta), friction_step = scale4(load_row(nncg_direction, stride + i), beta);
+  vec4 push_step = scale4(load_row(nncg_direction, i), beta),
+       friction_step = scale4(load_row(nncg_direction, stride + i), beta);
   store_row(nncg_direction, i, add4(push_step, change_between(load_row(nncg_impulse, i), pushes)));
-  store_row(nncg_direction, stride + i, add4(friction_step, change_between(load_row(nncg_impulse, stride + i), friction)));
+  store_row(nncg_direction, stride + i,
+            add4(friction_step, change_between(load_row(nncg_impulse, stride + i), friction)));
   pushes = add4(pushes, push_step);
   friction = add4(friction, friction_step);
   store_row(nncg_impulse, i, pushes);
@@ -101,7 +108,8 @@ SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
   support s = load_support(constraint_points, stride, c, shift, push_step, i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a), center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
+       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, friction_step);
   store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }

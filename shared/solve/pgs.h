@@ -28,7 +28,8 @@
 
 /* The new accumulated impulse of a normal row. Without bias a point still ahead that has carried nothing stays so, for
  * the motion it would limit comes later. */
-SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, real separation, real speed, real mass, real old, uint biased)
+SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, real separation, real speed, real mass,
+                        real old, uint biased)
 {
   mask ahead = separation > R(0.0);
   real overlap = minimum(separation + slop_of(slop_or_deep), R(0.0));
@@ -38,11 +39,12 @@ SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, 
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
 }
 
-SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const memory_real *constraint_slop,
-                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                             GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased,
-                             item_index i)
+SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                             GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                             GLOBAL const row *constraint_points, GLOBAL const memory_real *constraint_slop,
+                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                             GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                             GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -53,11 +55,13 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
   real slop = load_real(constraint_slop, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(constraint_points, stride * k + i), point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    vec4 point_a = load_row(constraint_points, stride * k + i),
+         point_b = load_row(constraint_points, stride * (k + 4u) + i);
     vec3 turn_a = outer(add(xyz(point_a), shift.a), c.normal), turn_b = outer(add(xyz(point_b), shift.b), c.normal);
     real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
     real before = component(old, (natural)k);
-    impulse[k] = pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
+    impulse[k] =
+        pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
     c = apply_impulse(c, c.normal, turn_a, turn_b, impulse[k] - before);
   }
   vec4 pressed = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
@@ -67,9 +71,10 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
   store_contact_motion(solver_velocity, c);
 }
 
-SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                              GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                              GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_center,
+                              GLOBAL const row *constraint_normal_impulse, GLOBAL const row *solver_inertia,
+                              GLOBAL const row *solver_delta, GLOBAL const uint *counts,
                               GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
 {
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -79,16 +84,18 @@ SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   real pressure = (pushes.x + pushes.y) + (pushes.z + pushes.w);
   mask stale = rough & (!rough); /* pgs_masses has just made them */
   solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta, c), load_row(constraint_center, i),
-                                  load_row(constraint_center, counts[CAPACITY_PAIRS] + i), load_row(constraint_friction_impulse, i), pressure);
+                                  load_row(constraint_center, counts[CAPACITY_PAIRS] + i),
+                                  load_row(constraint_friction_impulse, i), pressure);
   store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
   store_contact_motion(solver_velocity, with_motion_if(rough, c, sliding.c));
 }
 
 /* Effective masses where the bodies are now. Many sweeps over masses of another place do not converge: where a long
  * body has turned, a row whose mass is more than twice what it should be doubles its error every sweep. */
-SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                            GLOBAL const uint *counts, GLOBAL row *constraint_points, GLOBAL row *constraint_center, item_index i)
+SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                            GLOBAL const row *constraint_normal, GLOBAL const row *solver_velocity,
+                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                            GLOBAL row *constraint_points, GLOBAL row *constraint_center, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -98,10 +105,12 @@ SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *
     vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
     vec3 arm_a = add(xyz(load_row(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
     real mass = inverse_or_zero(response(bodies, arm_a, arm_b, c.normal, c.normal));
-    store_row(constraint_points, stride * (k + 4u) + i, extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
+    store_row(constraint_points, stride * (k + 4u) + i,
+              extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
   }
   vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
-  store_row(constraint_center, i, extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
+  store_row(constraint_center, i,
+            extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
   store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, c.normal)));
 }
 

@@ -9,8 +9,8 @@
  * A ball on a floor slows down by 5/7 rolling_friction g / radius. The coefficients are lengths in metres. Twisting
  * friction (contact.h) comes from the area between contact points and adds to it.
  *
- * The torque is warm started: it is what holds a ball on a slope, and built up anew each step it would let the ball creep.
- * Each solver calls this after its own rows.
+ * The torque is warm started: it is what holds a ball on a slope, and built up anew each step it would let the ball
+ * creep. Each solver calls this after its own rows.
  */
 #ifndef TANDEM_SHARED_SOLVE_ROLLING_H
 #define TANDEM_SHARED_SOLVE_ROLLING_H
@@ -20,8 +20,9 @@
 
 SHARED mask resists(vec4 resistance) { return (resistance.x > R(0.0)) | (resistance.y > R(0.0)); }
 
-SHARED void warm_start_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                    GLOBAL const row *constraint_rolling, GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
+SHARED void warm_start_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                    GLOBAL const row *constraint_normal, GLOBAL const row *constraint_rolling,
+                                    GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                     GLOBAL row *solver_velocity, item_index i)
 {
   mask wanted = resists(load_row(constraint_rolling, counts[CAPACITY_PAIRS] + i));
@@ -40,12 +41,14 @@ SHARED real rolling_mass(contact c)
   vec3 second = add(symmetric_times(c.inertia_a, t.second), symmetric_times(c.inertia_b, t.second));
   real along_first = inner(t.first, first), along_second = inner(t.second, second), mixed = inner(t.second, first);
   real difference = along_first - along_second;
-  return inverse_or_zero(R(0.5) * (along_first + along_second + square_root(difference * difference + R(4.0) * mixed * mixed)));
+  return inverse_or_zero(R(0.5) *
+                         (along_first + along_second + square_root(difference * difference + R(4.0) * mixed * mixed)));
 }
 
 SHARED real spinning_mass(contact c)
 {
-  return inverse_or_zero(inner(c.normal, add(symmetric_times(c.inertia_a, c.normal), symmetric_times(c.inertia_b, c.normal))));
+  return inverse_or_zero(
+      inner(c.normal, add(symmetric_times(c.inertia_a, c.normal), symmetric_times(c.inertia_b, c.normal))));
 }
 
 /* The longest part of v that is no longer than limit. */
@@ -56,8 +59,9 @@ SHARED vec3 onto_disc(vec3 v, real limit)
   return scale(v, choose(outside, limit / square_root(choose(outside, squared, (real)R(1.0))), (real)R(1.0)));
 }
 
-SHARED void solve_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                               GLOBAL const row *constraint_normal_impulse, GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
+SHARED void solve_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                               GLOBAL const row *constraint_normal, GLOBAL const row *constraint_normal_impulse,
+                               GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                GLOBAL row *constraint_rolling, GLOBAL row *solver_velocity, item_index i)
 {
   vec4 resistance = load_row(constraint_rolling, counts[CAPACITY_PAIRS] + i);
@@ -69,7 +73,8 @@ SHARED void solve_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uin
   vec3 old = xyz(load_row(constraint_rolling, i)), speed = subtract(c.motion_b.angular, c.motion_a.angular);
   real old_spin = inner(c.normal, old), spin_speed = inner(c.normal, speed), spin_limit = resistance.y * pressure;
   real spin = clamped(old_spin - spinning_mass(c) * spin_speed, -spin_limit, spin_limit);
-  vec3 rolling = add_scaled(add_scaled(old, c.normal, -old_spin), add_scaled(speed, c.normal, -spin_speed), -rolling_mass(c));
+  vec3 rolling =
+      add_scaled(add_scaled(old, c.normal, -old_spin), add_scaled(speed, c.normal, -spin_speed), -rolling_mass(c));
   vec3 torque = add_scaled(onto_disc(rolling, resistance.x * pressure), c.normal, spin);
   vec3 change = subtract(torque, old);
   store_row_if(wanted, constraint_rolling, i, extend(torque, R(0.0)));

@@ -8,13 +8,13 @@
  *   move           x += h v
  *   velocities     no point that was pressed parts, but by bouncing; friction takes what is left of sliding
  *
- * The substep's change of position is held as h v and corrected there: the paper's v = (x - x before) / h then holds to the
- * last bit without ever taking a difference of positions, which costs digits far from the origin. A correction lambda of
- * the paper is h times an impulse, and impulses (N s) are what is stored. Contacts are rigid (alpha = 0), and the paper's
- * multipliers start at 0 in each substep: there is no warm start. Where the paper leaves static friction out as soon as it
- * would leave the cone, it is projected on the cone, so that the velocity pass has only the remainder to do. And where the
- * paper undoes the sliding of one substep, what slipped earlier is remembered as long as friction holds, also from step to
- * step, or the little that each iteration leaves adds up: a box creeps, a pyramid spreads.
+ * The substep's change of position is held as h v and corrected there: the paper's v = (x - x before) / h then holds to
+ * the last bit without ever taking a difference of positions, which costs digits far from the origin. A correction
+ * lambda of the paper is h times an impulse, and impulses (N s) are what is stored. Contacts are rigid (alpha = 0), and
+ * the paper's multipliers start at 0 in each substep: there is no warm start. Where the paper leaves static friction
+ * out as soon as it would leave the cone, it is projected on the cone, so that the velocity pass has only the remainder
+ * to do. And where the paper undoes the sliding of one substep, what slipped earlier is remembered as long as friction
+ * holds, also from step to step, or the little that each iteration leaves adds up: a box creeps, a pyramid spreads.
  * Constraints of one colour share no moving body.
  */
 #ifndef TANDEM_SHARED_SOLVE_XPBD_H
@@ -22,9 +22,12 @@
 
 #include "shared/solve/contact.h"
 
-/* What has slipped at the centre since friction last held it: a vector (m) and a twist about the normal (rad), as speeds that
- * would undo it within a substep. */
-typedef struct { vec3 slide; real twist; } slipped;
+/* What has slipped at the centre since friction last held it: a vector (m) and a twist about the normal (rad), as
+ * speeds that would undo it within a substep. */
+typedef struct {
+  vec3 slide;
+  real twist;
+} slipped;
 
 SHARED slipped slip_since(vec4 before, contact c, drift moved, vec3 arm_a, vec3 arm_b, real rate)
 {
@@ -34,8 +37,8 @@ SHARED slipped slip_since(vec4 before, contact c, drift moved, vec3 arm_a, vec3 
   return s;
 }
 
-/* Twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the pressure must be known
- * first. spin, slide: what friction would undo. */
+/* Twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the pressure must be
+ * known first. spin, slide: what friction would undo. */
 SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
 {
   real twist_limit = limit * old.w;
@@ -54,7 +57,8 @@ SHARED solved xpbd_slide(contact c, vec3 slide, vec3 arm_a, vec3 arm_b, real mas
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
-  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)), make_vec4(first, second, old.z, old.w)};
+  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)),
+              make_vec4(first, second, old.z, old.w)};
   return s;
 }
 
@@ -63,11 +67,15 @@ SHARED real limit_of(contact c, vec4 normal_impulses)
   return c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
 }
 SHARED real spin_between(contact c) { return inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)); }
-SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b) { return subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a)); }
+SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b)
+{
+  return subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a));
+}
 
 /* Slip that the same pair still had to undo in the last step. */
-SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached, GLOBAL const uint *cached_color,
-                              GLOBAL const row *cached_slip, GLOBAL const row *constraint_normal, GLOBAL row *constraint_slip, item_index i)
+SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
+                              GLOBAL const uint *cached_color, GLOBAL const row *cached_slip,
+                              GLOBAL const row *constraint_normal, GLOBAL row *constraint_slip, item_index i)
 {
   natural cached = load_natural(pair_cached, load_natural(constraint_pair, i));
   mask is_cached = cached != (natural)INDEX_NONE;
@@ -80,11 +88,14 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
 }
 
 /* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
-SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                                GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint first_iteration, item_index i)
+SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                                GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                                GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia,
+                                GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
+                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint first_iteration,
+                                item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -103,7 +114,8 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     real separation = load_row(constraint_points, stride * k + i).w + closed +
                       (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
-    wished[k] = maximum(s.impulse[k] - s.mass[k] * (wanted + speed_along(c, c.normal, s.turn_a[k], s.turn_b[k])), R(0.0));
+    wished[k] =
+        maximum(s.impulse[k] - s.mass[k] * (wanted + speed_along(c, c.normal, s.turn_a[k], s.turn_b[k])), R(0.0));
   }
   c = press_together(c, &s, wished);
   vec4 pressed = impulses_of(&s);
@@ -117,20 +129,22 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     real limit = limit_of(c, pressed);
     slipped slip = slip_since(load_row(constraint_slip, i), c, moved, arm_a, arm_b, parameters->inverse_substep);
     solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
-    held = xpbd_slide(held.c, add(slide_between(held.c, arm_a, arm_b), slip.slide), arm_a, arm_b, center_a.w, limit, held.impulse);
+    held = xpbd_slide(held.c, add(slide_between(held.c, arm_a, arm_b), slip.slide), arm_a, arm_b, center_a.w, limit,
+                      held.impulse);
     c = with_motion_if(rough, c, held.c);
     store_row_if(rough, constraint_friction_impulse, i, held.impulse);
   }
   store_contact_motion(solver_velocity, c);
 }
 
-/* Takes out the speed with which positions were pushed apart, at most all of the impulse that did it, and what sliding the
- * pressure of the whole substep still holds. */
-SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                 GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                 GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity,
-                                 item_index i)
+/* Takes out the speed with which positions were pushed apart, at most all of the impulse that did it, and what sliding
+ * the pressure of the whole substep still holds. */
+SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
+                                 GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                                 GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                 GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                                 GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
@@ -161,14 +175,17 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
   store_contact_motion(solver_velocity, with_motion_if(pressing, before, c));
 }
 
-/* Friction at its limit holds nothing: what slipped then is forgotten. Contacts that no longer press hold nothing either. */
+/* Friction at its limit holds nothing: what slipped then is forgotten. Contacts that no longer press hold nothing
+ * either. */
 #define XPBD_HOLDS R(0.999)
 
-SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_center, GLOBAL const row *constraint_slip,
+SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *constraint_a,
+                            GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+                            GLOBAL const row *constraint_center, GLOBAL const row *constraint_slip,
                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                            GLOBAL const uint *counts, GLOBAL row *cached_slip, item_index i)
+                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                            GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *cached_slip,
+                            item_index i)
 {
   contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
   drift moved = load_drift(solver_delta, c);
@@ -180,7 +197,8 @@ SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uin
   mask slides = friction.x * friction.x + friction.y * friction.y >= limit * limit;
   mask twists = magnitude(friction.z) >= limit * friction.w;
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row(cached_slip, load_natural(constraint_pair, i), extend(choose3(slides, none, slip.slide), choose(twists, (real)R(0.0), slip.twist)));
+  store_row(cached_slip, load_natural(constraint_pair, i),
+            extend(choose3(slides, none, slip.slide), choose(twists, (real)R(0.0), slip.twist)));
 }
 
 #endif

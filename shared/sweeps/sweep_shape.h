@@ -1,7 +1,8 @@
 /* sweep_shape.h - the first body that a convex shape touches on each of many straight ways.
  *
- * By conservative advancement (narrowphase/conservative_advancement.h): without turning, its bound is exact along the normal, and a few
- * distance queries a body are enough. The way ends up to the touching distance of that method before the body, never behind.
+ * By conservative advancement (narrowphase/conservative_advancement.h): without turning, its bound is exact along the
+ * normal, and a few distance queries a body are enough. The way ends up to the touching distance of that method before
+ * the body, never behind.
  */
 #ifndef TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
 #define TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
@@ -30,7 +31,8 @@ SHARED vec3 touched_point(const convex *a, const convex *b, impact met)
 SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, mask is_plane, real reach, uint number)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  real length = length_of(moving->linear), least = least_size(&moving->shape), size = bounding_radius_of(&moving->shape);
+  real length = length_of(moving->linear), least = least_size(&moving->shape),
+       size = bounding_radius_of(&moving->shape);
   first_hit hit = nothing_hit();
   impact met;
   if (is_plane) {
@@ -40,7 +42,8 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
     hit.point = add_scaled(support_of(&arrived, met.normal), met.normal, core_radius(&arrived) + met.gap);
   } else {
     moving_convex standing = moving_convex_of(body, body->center, none, none, R(0.0));
-    met = first_impact(&standing, moving, sweep_journey(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
+    met = first_impact(&standing, moving,
+                       sweep_journey(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
     met.normal = negate(met.normal);
     convex arrived = shape_at(moving, none, met.at.time);
     if (met.at.hits) hit.point = touched_point(&arrived, body, met);
@@ -56,7 +59,8 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
 }
 
 /* Query i against all parts of a body. radius: of what is swept. */
-SHARED first_hit sweep_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body, uint i)
+SHARED first_hit sweep_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body,
+                                    uint i)
 {
   first_hit nearest = nothing_hit();
   if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, i)) return nearest;
@@ -71,20 +75,35 @@ SHARED first_hit sweep_against_body(const query_scene *scene, const moving_conve
 }
 
 /* vertices: of the swept shape, if it is a hull; its size and bounding radius in query_shape. */
-SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                             GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *strips,
-                             GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers, GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes,
-                             GLOBAL const uint *tree_leaves, GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                             GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                             GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                             GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
-                             GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
-                             GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit, GLOBAL row *query_point,
-                             GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint structure, uint i)
+SHARED void sweep_shape_item(
+    GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes,
+    GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
+    GLOBAL const row *strips, GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers,
+    GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,
+    GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
+    GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
+    GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+    GLOBAL const uint *cell_start, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
+    GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
+    GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit,
+    GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint structure, uint i)
 {
-  query_scene scene = {parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,
-                       {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE}, {tree_headers, tree_frames, tree_nodes, tree_leaves},
-                       {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, query_body, query_filter, query_start, query_way};
+  query_scene scene = {
+      parameters,
+      traits,
+      convexes,
+      body_trees,
+      shapes,
+      poses,
+      positions,
+      orientations,
+      {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE},
+      {tree_headers, tree_frames, tree_nodes, tree_leaves},
+      {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}},
+      query_body,
+      query_filter,
+      query_start,
+      query_way};
   hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   place start = load_place(query_start, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
@@ -98,7 +117,8 @@ SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, GLOBAL const u
   real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
   body_walk walk;
   start_body_walk(&walk, &scene.bodies, start, way, make_vec3(slack, slack, slack));
-  for (uint body = next_body_on_way(&walk, &scene.bodies, reach); body != INDEX_NONE; body = next_body_on_way(&walk, &scene.bodies, reach)) {
+  for (uint body = next_body_on_way(&walk, &scene.bodies, reach); body != INDEX_NONE;
+       body = next_body_on_way(&walk, &scene.bodies, reach)) {
     nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }

@@ -4,9 +4,9 @@
  * one built-in sine would pass every test on the machine of its author and differ on the next, so the sources are read.
  *
  *   shared/ cl/ minicl/            calls of banned functions, float atomics, fused and approximate intrinsics
- *   host/                          functions of the C library whose last bit differs between machines, where results hang on it, and
- *                                  roundings to float that a compiler may leave out
- *   these, host/, tools/, CMake    compiler and OpenCL options that relax arithmetic, also within strings
+ *   host/                          functions of the C library whose last bit differs between machines, where results
+ * hang on it, and roundings to float that a compiler may leave out these, host/, tools/, CMake    compiler and OpenCL
+ * options that relax arithmetic, also within strings
  *
  * Usage: banned_operations ROOT              lists file:line: operation; exit status 1 if there is any
  *        banned_operations --self-test DIR   plants each operation in a tree under DIR and must find every one
@@ -46,10 +46,12 @@ const std::vector<std::string> banned_functions = {
     "modf",   "fract",  "fmod",   "remainder", "remquo",    "fdim",        "nextafter",     "nearbyint",
     "lrint",  "llrint", "lround", "llround"};
 
-/* Of the C library's mathematics IEEE 754 fixes only what rounds exactly or not at all (sqrt, floor, frexp, ldexp, nextafter). */
-const std::vector<std::string> inexact_functions = {"sin",  "cos",  "tan",   "sincos", "asin",  "acos",  "atan", "atan2", "sinh", "cosh", "tanh",
-                                                    "exp",  "exp2", "exp10", "expm1",  "log",   "log2",  "log10", "log1p", "pow",  "cbrt", "hypot",
-                                                    "erf",  "erfc", "tgamma", "lgamma", "asinh", "acosh", "atanh"};
+/* Of the C library's mathematics IEEE 754 fixes only what rounds exactly or not at all (sqrt, floor, frexp, ldexp,
+ * nextafter). */
+const std::vector<std::string> inexact_functions = {
+    "sin",  "cos",   "tan",  "sincos", "asin",   "acos",   "atan",  "atan2", "sinh",  "cosh",
+    "tanh", "exp",   "exp2", "exp10",  "expm1",  "log",    "log2",  "log10", "log1p", "pow",
+    "cbrt", "hypot", "erf",  "erfc",   "tgamma", "lgamma", "asinh", "acosh", "atanh"};
 
 /* They measure or draw what was simulated, and nothing is simulated with what they find. */
 const std::vector<std::string> measuring_files = {"host/verify/metrics.cpp", "host/io/animation_geometry.cpp"};
@@ -84,7 +86,8 @@ const std::vector<std::string> banned_options = {"-cl-fast-relaxed-math",
                                                  "-ffp-contract=on",
                                                  "FP_CONTRACT ON"};
 
-/* platform.h gives the correctly rounded square root its name, minicl/ gives it to lanes; the dispatcher counts items. */
+/* platform.h gives the correctly rounded square root its name, minicl/ gives it to lanes; the dispatcher counts
+ * items. */
 bool allowed(const std::string &file, const std::string &function)
 {
   const auto any_of = [&](std::initializer_list<const char *> names) {
@@ -156,7 +159,8 @@ bool is_banned_family(const std::string &name)
 }
 
 /* Every name in the code for which is_hit(name, whether it is called). */
-template <class IsHit> void find_names(const std::string &file, const std::string &text, std::vector<Hit> &hits, const IsHit &is_hit)
+template <class IsHit>
+void find_names(const std::string &file, const std::string &text, std::vector<Hit> &hits, const IsHit &is_hit)
 {
   const std::string code = blanked(text, Comments::c_style, true);
   static const std::regex identifier("[A-Za-z_][A-Za-z0-9_]*");
@@ -175,15 +179,18 @@ void find_functions(const std::string &file, const std::string &text, std::vecto
   });
 }
 
-/* In host/: float(x) and static_cast<float>(x) round what may be a double; of whole numbers an initialisation does without. */
+/* In host/: float(x) and static_cast<float>(x) round what may be a double; of whole numbers an initialisation does
+ * without. */
 void find_host_functions(const std::string &file, const std::string &text, std::vector<Hit> &hits)
 {
   if (std::find(measuring_files.begin(), measuring_files.end(), file) == measuring_files.end())
-    find_names(file, text, hits, [&](const std::string &name, bool called) { return called && is_one_of(inexact_functions, name); });
+    find_names(file, text, hits,
+               [&](const std::string &name, bool called) { return called && is_one_of(inexact_functions, name); });
   if (file == "host/include/tandem/round_to_float.h") return;
   find_names(file, text, hits, [&](const std::string &name, bool called) { return called && name == "float"; });
   const std::string code = blanked(text, Comments::c_style, true), cast = "static_cast<float>";
-  for (size_t at = code.find(cast); at != std::string::npos; at = code.find(cast, at + 1)) hits.push_back({file, line_of(code, at), cast});
+  for (size_t at = code.find(cast); at != std::string::npos; at = code.find(cast, at + 1))
+    hits.push_back({file, line_of(code, at), cast});
 }
 
 void find_options(const std::string &file, const std::string &text, std::vector<Hit> &hits)
@@ -280,9 +287,12 @@ void test_host_functions(const fs::path &root)
   const std::string file = "host/scene_planted.cpp";
   for (const std::string &name : inexact_functions)
     expect(scan_text(root, file, "\ndouble y = std::" + name + "(x);"), {{file, 2, name}}, name + " in host/");
-  expect(scan_text(root, file, "return {float(x), float (y)};"), {{file, 1, "float"}, {file, 1, "float"}}, "a functional cast");
+  expect(scan_text(root, file, "return {float(x), float (y)};"), {{file, 1, "float"}, {file, 1, "float"}},
+         "a functional cast");
   expect(scan_text(root, file, "p =\n static_cast<float>(x);"), {{file, 2, "static_cast<float>"}}, "a cast");
-  expect(scan_text(root, file, "float y = round_to_float(x); sizeof(float); std::sqrt(x); parse<float>(text); // float(x), sin(x)"), {}, "harmless host code");
+  expect(scan_text(root, file,
+                   "float y = round_to_float(x); sizeof(float); std::sqrt(x); parse<float>(text); // float(x), sin(x)"),
+         {}, "harmless host code");
   expect(scan_text(root, "host/verify/metrics.cpp", "double y = std::pow(x, 2);"), {}, "a measurement");
   expect(scan_text(root, "tools/planted.cpp", "double y = std::pow(x, 2), z = float(x);"), {}, "tools");
 }

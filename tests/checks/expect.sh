@@ -1,5 +1,6 @@
-# expect.sh - a check of a command's exit status, for the shell tests beside it: `. expect.sh`, then `expect STATUS COMMAND...`.
-# STATUS: a number, or `failed`, which is any from 1 to 125 but 77 (skipped): a crash or a missing program is not what is checked.
+# expect.sh - a check of a command's exit status, for the shell tests beside it: `. expect.sh`, then `expect STATUS
+# COMMAND...`. STATUS: a number, or `failed`, which is any from 1 to 125 but 77 (skipped): a crash or a missing program
+# is not what is checked.
 expect() { # STATUS COMMAND...
   wanted=$1 found=0
   shift

@@ -2,7 +2,8 @@
 # header_syntax.sh - every header of shared/ must stand on its own as strict C99, C++ and OpenCL C.
 #
 # The shared source is compiled by whichever OpenCL compiler a user's driver brings; what all three front ends accept
-# without a warning is the portable part of the language. Each header is included alone, so it must include what it uses.
+# without a warning is the portable part of the language. Each header is included alone, so it must include what it
+# uses.
 #
 # Usage: header_syntax.sh c99|cxx|opencl ROOT     exit status 77 (skipped) where the compiler is not installed
 #        header_syntax.sh --self-test DIR         plants a wrong header for each language and expects its refusal

@@ -1,11 +1,11 @@
 /* include_directions - holds the sources to the table of CONTRIBUTING.md that says which folder may include which.
  *
- * Includes point one way: a folder may include those that stand above it in the table, and of these the ones that its row names. A table
- * whose rows name only rows above them has no circle, so neither have the folders. What is not listed is refused, too: a new folder
- * needs a row.
+ * Includes point one way: a folder may include those that stand above it in the table, and of these the ones that its
+ * row names. A table whose rows name only rows above them has no circle, so neither have the folders. What is not
+ * listed is refused, too: a new folder needs a row.
  *
- * Usage: include_directions ROOT              lists file:line: include; exit status 1 if there is any that the table does not allow
- *        include_directions --self-test DIR   plants what it must find in a tree under DIR
+ * Usage: include_directions ROOT              lists file:line: include; exit status 1 if there is any that the table
+ * does not allow include_directions --self-test DIR   plants what it must find in a tree under DIR
  */
 #include <algorithm>
 #include <filesystem>
@@ -58,7 +58,8 @@ std::vector<std::string> cells_of(const std::string &line)
 Row row_from(const std::string &line, const std::vector<Row> &above)
 {
   const std::vector<std::string> cells = cells_of(line);
-  if (cells.size() != 3 || words_in_backticks(cells[0]).size() != 1) throw std::runtime_error("not a row of three cells: " + line);
+  if (cells.size() != 3 || words_in_backticks(cells[0]).size() != 1)
+    throw std::runtime_error("not a row of three cells: " + line);
   Row row{words_in_backticks(cells[0])[0], {}};
   const auto known = [&](const std::string &folder) {
     return std::any_of(above.begin(), above.end(), [&](const Row &other) { return other.folder == folder; });
@@ -66,7 +67,8 @@ Row row_from(const std::string &line, const std::vector<Row> &above)
   if (cells[2].find("all above") != std::string::npos)
     for (const Row &other : above) row.may_include.insert(other.folder);
   for (const std::string &folder : words_in_backticks(cells[2])) {
-    if (!known(folder)) throw std::runtime_error(row.folder + " may include " + folder + ", which does not stand above it");
+    if (!known(folder))
+      throw std::runtime_error(row.folder + " may include " + folder + ", which does not stand above it");
     row.may_include.insert(folder);
   }
   return row;
@@ -76,9 +78,9 @@ std::vector<Row> table_in(const fs::path &document)
 {
   std::ifstream in(document);
   std::string line;
-  while (std::getline(in, line) && line != table_head) {
-  }
-  if (!std::getline(in, line)) throw std::runtime_error(document.string() + " has no table that begins with: " + table_head);
+  while (std::getline(in, line) && line != table_head) {}
+  if (!std::getline(in, line))
+    throw std::runtime_error(document.string() + " has no table that begins with: " + table_head);
   std::vector<Row> rows;
   while (std::getline(in, line) && line.starts_with("|")) rows.push_back(row_from(line, rows));
   return rows;
@@ -106,7 +108,8 @@ std::optional<std::string> included_by(const std::string &line)
   return {};
 }
 
-void find_faults(const std::vector<Row> &table, const fs::path &root, const std::string &file, std::vector<Fault> &faults)
+void find_faults(const std::vector<Row> &table, const fs::path &root, const std::string &file,
+                 std::vector<Fault> &faults)
 {
   const std::optional<Row> own = row_of(table, file);
   if (!own) return faults.push_back({file, 1, "stands in a folder without a row"});
@@ -142,7 +145,8 @@ int check(const fs::path &root)
 {
   int files = 0;
   const std::vector<Fault> faults = faults_under(root, files);
-  for (const Fault &fault : faults) std::cout << fault.file << ':' << fault.line << ": " << fault.what << " (CONTRIBUTING.md)\n";
+  for (const Fault &fault : faults)
+    std::cout << fault.file << ':' << fault.line << ": " << fault.what << " (CONTRIBUTING.md)\n";
   if (files == 0) throw std::runtime_error("no source under " + root.string());
   std::cout << files << " files read, " << faults.size() << " includes that the table does not allow\n";
   return !faults.empty();
@@ -154,8 +158,9 @@ void plant(const fs::path &file, const std::string &text)
   std::ofstream(file) << text;
 }
 
-const std::string planted_table = table_head + "\n|---|---|---|\n| `shared` | kernels | |\n| `host/include` | public | |\n"
-                                  "| `minicl` | lanes | `shared`, `host/include` |\n| `host/world` | worlds | all above |\n";
+const std::string planted_table =
+    table_head + "\n|---|---|---|\n| `shared` | kernels | |\n| `host/include` | public | |\n"
+                 "| `minicl` | lanes | `shared`, `host/include` |\n| `host/world` | worlds | all above |\n";
 
 std::vector<Fault> faults_with(const fs::path &root, const std::string &file, const std::string &text)
 {
@@ -182,13 +187,18 @@ int self_test(const fs::path &root)
   const auto expect = [&](bool right, const char *what) {
     if (!right) ++failures, std::cerr << "self-test: " << what << '\n';
   };
-  expect(faults_with(root, "minicl/a.cpp", "#include <vector>\n#include \"shared/math.h\"\n#include <tandem/world.h>\n").empty(), "what is allowed");
+  expect(faults_with(root, "minicl/a.cpp", "#include <vector>\n#include \"shared/math.h\"\n#include <tandem/world.h>\n")
+             .empty(),
+         "what is allowed");
   expect(faults_with(root, "minicl/a.cpp", "\n#include \"host/world/world.h\"\n") ==
-             std::vector<Fault>{{"minicl/a.cpp", 2, "minicl may not include host/world/world.h"}}, "upwards");
+             std::vector<Fault>{{"minicl/a.cpp", 2, "minicl may not include host/world/world.h"}},
+         "upwards");
   expect(faults_with(root, "shared/a.h", "# include <tandem/world.h>\n").size() == 1, "a public header from below");
-  expect(faults_with(root, "host/world/a.cpp", "#include \"host/new/b.h\"\n").size() == 1, "an include of a folder without a row");
+  expect(faults_with(root, "host/world/a.cpp", "#include \"host/new/b.h\"\n").size() == 1,
+         "an include of a folder without a row");
   expect(faults_with(root, "host/new/b.h", "").size() == 1, "a folder without a row");
-  expect(faults_with(root, "host/world/a.cpp", "#include \"minicl/b.h\"\n#include \"shared/b.h\"\n").empty(), "all above");
+  expect(faults_with(root, "host/world/a.cpp", "#include \"minicl/b.h\"\n#include \"shared/b.h\"\n").empty(),
+         "all above");
   plant(root / "CONTRIBUTING.md", table_head + "\n|---|---|---|\n| `a` | x | `b` |\n| `b` | x | `a` |\n");
   int files = 0;
   expect(is_refused([&] { faults_under(root, files); }), "a table with a circle");
@@ -204,7 +214,8 @@ int self_test(const fs::path &root)
 int main(int count, char **arguments)
 try {
   const std::vector<std::string> given(arguments + 1, arguments + count);
-  if (given.size() == 2 && given[0] == "--self-test") return self_test(fs::path(given[1]) / "include-directions-self-test");
+  if (given.size() == 2 && given[0] == "--self-test")
+    return self_test(fs::path(given[1]) / "include-directions-self-test");
   if (given.size() == 1) return check(given[0]);
   throw std::runtime_error("usage: include_directions ROOT | --self-test DIR");
 } catch (const std::exception &error) {

@@ -51,7 +51,12 @@ expect() {
   fi
 }
 
-expect_call() { grep -q -- "$1" "$fake/calls" || { echo "apt-get was not asked for '$1' but:"; cat "$fake/calls"; failed=1; }; }
+expect_call() {
+  grep -q -- "$1" "$fake/calls" && return
+  echo "apt-get was not asked for '$1' but:"
+  cat "$fake/calls"
+  failed=1
+}
 expect_no_call() { [ ! -s "$fake/calls" ] || { echo "apt-get ran:"; cat "$fake/calls"; failed=1; }; }
 
 : >"$fake/absent"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# skip_test.sh TESTS TANDEM SCRIPTS DIRECTORY - where a device or data is missing, every test that needs it is skipped: not one passes.
-# Where CI=true a missing device fails.
+# skip_test.sh TESTS TANDEM SCRIPTS DIRECTORY - where a device or data is missing, every test that needs it is skipped:
+# not one passes. Where CI=true a missing device fails.
 set -eu
 tests=$1 tandem=$2 scripts=$3 directory=$4
 export OCL_ICD_VENDORS=/nonexistent OPENCL_VENDOR_PATH=/nonexistent TANDEM_SHARED_DATA=/nonexistent

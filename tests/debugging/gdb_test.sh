@@ -15,7 +15,10 @@ seen=$(gdb -batch -nx -ex 'set confirm off' \
   -ex 'set $impulses = constraint_normal_impulse' -ex finish \
   -ex 'printf "bits 0x%x\n", *(unsigned int *)&$impulses[17].x' -ex kill "$probe" 2>&1) || true
 case $seen in
-  *"ptrace: Operation not permitted"* | *"Could not trace the inferior"*) echo "skipped: this machine lets gdb trace nothing"; exit 77 ;;
+  *"ptrace: Operation not permitted"* | *"Could not trace the inferior"*)
+    echo "skipped: this machine lets gdb trace nothing"
+    exit 77
+    ;;
 esac
 
 check() {
@@ -28,6 +31,7 @@ check "bits $expected"
 # A worker knows the step as well as the thread that launches: it would say 0 if only that one did.
 seen=$(gdb -batch -nx -ex 'set confirm off' \
   -ex 'break tandem::scalar::compute_bounds_item if $_thread != 1 && tandem::step_of_launch >= 2' -ex run \
-  -ex 'printf "a worker after %d steps\n", tandem::step_of_launch >= 2 ? 2 : 0' -ex kill --args "$probe" threads 2>&1) || true
+  -ex 'printf "a worker after %d steps\n", tandem::step_of_launch >= 2 ? 2 : 0' -ex kill --args "$probe" threads \
+      2>&1) || true
 check "a worker after 2 steps"
 echo "gdb and the library agree: $expected"

@@ -1,17 +1,18 @@
 /* probe.cpp - runs a small scene for gdb to stop in, and says what gdb must then see.
  *
- * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the buffer:
- * the value that a debugger sees there at the end of that item, read without one. `probe threads` runs a scene of which
- * several threads have a share, for gdb to ask one of them for its step.
+ * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the
+ * buffer: the value that a debugger sees there at the end of that item, read without one. `probe threads` runs a scene
+ * of which several threads have a share, for gdb to ask one of them for its step.
  */
 #include <cinttypes>
 #include <cstdio>
 #include <cstring>
 
+#include <tandem/world.h>
+
 #include "host/catalog/catalog.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
-#include <tandem/world.h>
 
 using namespace tandem;
 

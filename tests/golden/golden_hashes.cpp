@@ -1,12 +1,13 @@
 /* golden_hashes.cpp - what every compiler, optimisation level, processor and width must compute: hashes written down.
  *
- * A program of its own, which needs the library alone, so that trees of other compilers and processors build little. A change of the
- * physics or of a scene changes the hashes; then, and only then, write them anew and say why in the commit:
+ * A program of its own, which needs the library alone, so that trees of other compilers and processors build little. A
+ * change of the physics or of a scene changes the hashes; then, and only then, write them anew and say why in the
+ * commit:
  *
  *     build/release/bin/golden_hashes --write
  *
- * Rows of tests/golden/hashes.txt: scene, solver, steps, and three hashes - of the bodies after the last step, of the whole state then
- * (contact cache and counts), and of the contact events of every step.
+ * Rows of tests/golden/hashes.txt: scene, solver, steps, and three hashes - of the bodies after the last step, of the
+ * whole state then (contact cache and counts), and of the contact events of every step.
  */
 #include <fstream>
 #include <iostream>
@@ -16,9 +17,10 @@
 
 #include <fmt/format.h>
 
+#include <tandem/world.h>
+
 #include "host/base/hash.h"
 #include "host/catalog/catalog.h"
-#include <tandem/world.h>
 
 namespace {
 
@@ -30,13 +32,18 @@ struct Row {
   std::string bodies, state, events;
 };
 
-template <class Number> uint64_t hash_of(const Number &number, uint64_t seed) { return hash_bytes(&number, sizeof number, seed); }
+template <class Number> uint64_t hash_of(const Number &number, uint64_t seed)
+{
+  return hash_bytes(&number, sizeof number, seed);
+}
 
 /* Field by field: what fills the gaps between them is no result. */
 uint64_t hash_of_event(const ContactEvent &event, uint64_t hash)
 {
-  for (const uint32_t x : {static_cast<uint32_t>(event.kind), event.a, event.b, event.trigger ? 1u : 0u, event.points}) hash = hash_of(x, hash);
-  for (const float x : {event.impulse, event.separation, event.normal[0], event.normal[1], event.normal[2]}) hash = hash_of(x, hash);
+  for (const uint32_t x : {static_cast<uint32_t>(event.kind), event.a, event.b, event.trigger ? 1u : 0u, event.points})
+    hash = hash_of(x, hash);
+  for (const float x : {event.impulse, event.separation, event.normal[0], event.normal[1], event.normal[2]})
+    hash = hash_of(x, hash);
   for (const double x : event.point) hash = hash_of(x, hash);
   return hash;
 }
@@ -60,7 +67,8 @@ Row computed(Row row, const std::string &backend)
 
 std::string text_of(const Row &row)
 {
-  return fmt::format("{:<40} {:<9} {:>5}  {}  {}  {}", row.scene, row.solver, row.steps, row.bodies, row.state, row.events);
+  return fmt::format("{:<40} {:<9} {:>5}  {}  {}  {}", row.scene, row.solver, row.steps, row.bodies, row.state,
+                     row.events);
 }
 
 bool is_comment(const std::string &line) { return line.empty() || line[0] == '#'; }
@@ -79,7 +87,8 @@ Row row_of_line(const std::string &line)
 {
   Row row;
   std::istringstream text(line);
-  if (!(text >> row.scene >> row.solver >> row.steps)) throw InputError(fmt::format("'{}' is no row; scene, solver and steps are needed", line));
+  if (!(text >> row.scene >> row.solver >> row.steps))
+    throw InputError(fmt::format("'{}' is no row; scene, solver and steps are needed", line));
   text >> row.bodies >> row.state >> row.events;
   return row;
 }

@@ -2,8 +2,8 @@
  * back.
  *
  * All operators new and delete of that program are replaced, so this is what the library, the libraries that it uses
- * and the threads of TBB allocate by C++. Buffers do not come from here (host/runtime/interface/faults.h lets those fail), nor what C
- * code takes from malloc.
+ * and the threads of TBB allocate by C++. Buffers do not come from here (host/runtime/interface/faults.h lets those
+ * fail), nor what C code takes from malloc.
  */
 #pragma once
 

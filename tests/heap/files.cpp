@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
 #include "host/io/animation.h"
 #include "host/io/contact_problem_file.h"
-#include "host/catalog/catalog.h"
 #include "host/io/json/scene.h"
-#include <tandem/world.h>
 #include "tests/heap/attempt.h"
 #include "tests/host/io/gltf/gltf_text.h"
 #include "tests/tools/command_line.h"
@@ -34,10 +35,13 @@ std::vector<std::string> write_scenes(const Scratch &folder)
   write(folder.file("tip.obj"), "# a tip\nv 0 0 0\nv 3 0 0\nv 0 2 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   write(
       folder.file("obj.json"),
-      R"({"tandem_scene": 1, "shapes": [{"type": "mesh", "obj": "tip.obj"}, {"type": "hull", "obj": "tip.obj", "scale": [2, 2, 2]}],
- "bodies": [{"name": "a rather long name of a body", "shape": 0, "density": 1000}, {"shape": 1, "density": 3, "position": [9, 0, 0]}]})");
+      R"({"tandem_scene": 1, "shapes": [{"type": "mesh", "obj": "tip.obj"}, {"type": "hull", "obj": "tip.obj",)"
+      R"( "scale": [2, 2, 2]}],
+ "bodies": [{"name": "a rather long name of a body", "shape": 0, "density": 1000}, {"shape": 1, "density": 3,)"
+      R"( "position": [9, 0, 0]}]})");
   const std::string materials =
-      R"("physicsMaterials":[{"restitution":0.25}],"collisionFilters":[{"collisionSystems":["a"],"collideWithSystems":["b"]}])";
+      R"("physicsMaterials":[{"restitution":0.25}],"collisionFilters":[{"collisionSystems":["a"],)"
+      R"("collideWithSystems":["b"]}])";
   write(folder.file("mesh.gltf"),
         gltf({.nodes = cup_of(R"("mesh":0)"), .document = materials, .more = with_mesh(tip_points, tip_triangles)}));
   write(folder.file("hull.gltf"), gltf({.nodes = cup_of(R"("mesh":0,"convexHull":true)"),
@@ -47,7 +51,8 @@ std::vector<std::string> write_scenes(const Scratch &folder)
       folder.file("compound.gltf"),
       gltf(
           {.nodes =
-               R"({"name":"Cup","children":[1],"extensions":{"KHR_physics_rigid_bodies":{"motion":{},"collider":{"geometry":{"shape":0},"physicsMaterial":0}}}},)" +
+               R"({"name":"Cup","children":[1],"extensions":{"KHR_physics_rigid_bodies":{"motion":{},)"
+               R"("collider":{"geometry":{"shape":0},"physicsMaterial":0}}}},)" +
                collider(1, R"("translation":[0,2,0],)", R"(,"collisionFilter":0)"),
            .document = materials}));
   std::vector<std::string> scenes;

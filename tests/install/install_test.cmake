@@ -1,4 +1,5 @@
-# cmake -D BUILD=... -D SCRATCH=... -P install_test.cmake: what a user of find_package(Tandem) does, from an empty folder.
+# cmake -D BUILD=... -D SCRATCH=... -P install_test.cmake: what a user of find_package(Tandem) does, from an empty
+# folder.
 file(REMOVE_RECURSE ${SCRATCH})
 
 function(step)

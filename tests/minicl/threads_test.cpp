@@ -1,17 +1,18 @@
-/* The dispatcher hands each item of a range to exactly one thread and width, and a launch sees what the one before it wrote. */
-#include "tests/catch.h"
-
+/* The dispatcher hands each item of a range to exactly one thread and width, and a launch sees what the one before it
+ * wrote. */
 #include <algorithm>
 #include <array>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "host/runtime/make_backend.h"
-#include "host/runtime/interface/debug.h"
-#include "host/catalog/catalog.h"
 #include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
+#include "host/runtime/interface/debug.h"
+#include "host/runtime/make_backend.h"
 #include "minicl/dispatcher.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
@@ -84,7 +85,8 @@ TEST_CASE("a launch overwrites what other threads wrote in the one before", "[sa
 /* More bodies and pairs than a task takes, for every family of kernels that threads share. */
 TEST_CASE("several threads take part in the steps of scenes of more than a task's items", "[sanitizer]")
 {
-  for (const char *scene : {"box-grid:nx=9,ny=7,nz=9", "mixed:n=500", "spheres:n=600,height=0,restitution=0.5", "hulls-on-mesh:n=300"}) {
+  for (const char *scene :
+       {"box-grid:nx=9,ny=7,nz=9", "mixed:n=500", "spheres:n=600,height=0,restitution=0.5", "hulls-on-mesh:n=300"}) {
     World world(load_scene(scene), {}, on("tbb:threads=4,lanes=4"));
     CAPTURE(scene);
     CHECK(threads_seen(world, 3) > 1);
@@ -118,7 +120,8 @@ TEST_CASE("worlds that step in two threads at the same time have the bits that e
   CHECK(other_hash == hash_after(other_alone, 6));
 }
 
-/* What a debugger's condition reads: while a launch of one world is looked at, another world steps in another thread. */
+/* What a debugger's condition reads: while a launch of one world is looked at, another world steps in another
+ * thread. */
 TEST_CASE("the step that a thread tells a debugger is that of its own world", "[sanitizer]")
 {
   const Scene scene = load_scene("box-grid:nx=2,ny=2,nz=2");

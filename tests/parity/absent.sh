@@ -1,4 +1,5 @@
-# absent.sh - what a script says when a device is missing: CTest shows status 77 as skipped; where CI=true nothing may be left out.
+# absent.sh - what a script says when a device is missing: CTest shows status 77 as skipped; where CI=true nothing may
+# be left out.
 absent() { # NAME
   if [ "${CI:-}" = true ]; then
     echo "no $1, which CI=true requires"

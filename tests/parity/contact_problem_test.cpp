@@ -71,10 +71,12 @@ TEST_CASE("parity on CPU: levels of a contact problem give the bits of the plain
     free.push_back({number(q[0]), number(q[1]), number(q[2]), number(problem.friction[i])});
   }
   const uint32_t *start = problem.start.data(), *column = problem.column.data();
-  for (uint32_t i = 0; i < 1000; ++i) problem_prepare_item(start, column, blocks.data(), free.data(), step.data(), trace.data(), reference.data(), i);
+  for (uint32_t i = 0; i < 1000; ++i)
+    problem_prepare_item(start, column, blocks.data(), free.data(), step.data(), trace.data(), reference.data(), i);
   for (int sweep = 0; sweep < 12; ++sweep)
     for (uint32_t i = 0; i < 1000; ++i)
-      solve_problem_contact(start, column, blocks.data(), free.data(), step.data(), impulse.data(), impulse.data(), 0, i);
+      solve_problem_contact(start, column, blocks.data(), free.data(), step.data(), impulse.data(), impulse.data(), 0,
+                            i);
   const ContactSolution found = solved(problem, "pgs", "tbb");
   REQUIRE(contact_levels(problem).start.size() > 300);
   for (size_t i = 0; i < 1000; ++i) {
@@ -85,7 +87,10 @@ TEST_CASE("parity on CPU: levels of a contact problem give the bits of the plain
 
 TEST_CASE("parity on CPU: contact problems") { require_equal(chain(5000), cpu_backends()); }
 
-TEST_CASE("parity on CPU: threads share a contact problem", "[sanitizer]") { require_equal(chain(5000), {"tbb:threads=4"}); }
+TEST_CASE("parity on CPU: threads share a contact problem", "[sanitizer]")
+{
+  require_equal(chain(5000), {"tbb:threads=4"});
+}
 
 TEST_CASE("parity on OpenCL: contact problems")
 {

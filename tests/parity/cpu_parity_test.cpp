@@ -81,7 +81,8 @@ TEST_CASE("parity on CPU: supports of hulls")
 /* Broadphases find the same pairs in different ways: each must be exact by itself. */
 TEST_CASE("parity on CPU: every broadphase")
 {
-  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"};
+  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled",
+                                             "tbb:threads=7"};
   for (const std::string &broadphase : broadphase_names()) {
     Settings settings;
     settings.broadphase = broadphase;
@@ -92,8 +93,8 @@ TEST_CASE("parity on CPU: every broadphase")
 
 TEST_CASE("parity on CPU: every batching, width and number of threads")
 {
-  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=1,lanes=1",
-                                             "tbb:threads=7"};
+  const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled",
+                                             "tbb:threads=1,lanes=1", "tbb:threads=7"};
   for (const std::string &batching : batching_names()) {
     Settings settings;
     settings.batching = batching;
@@ -118,8 +119,10 @@ TEST_CASE("parity on CPU: broadphases lead to one state")
 
 TEST_CASE("parity on CPU: a few bodies of every shape", "[sanitizer]")
 {
-  const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4", "tbb:threads=4,lanes=1"};
-  const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30", every_shape(), few_trees()};
+  const std::vector<std::string> backends = {"serial", "serial:order=shuffled", "tbb:threads=4",
+                                             "tbb:threads=4,lanes=1"};
+  const std::vector<std::string> scenes = {"box-grid:nx=5,ny=3,nz=5", "spheres:n=300,height=0", "mixed:n=30",
+                                           every_shape(), few_trees()};
   for (const std::string &scene : scenes) require_parity(scene, backends, 5);
   Settings settings;
   settings.midphase = "subtrees";

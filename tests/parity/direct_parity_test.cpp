@@ -1,8 +1,9 @@
-/* The solver direct, whose islands are solved by the host wherever it is placed: the bits are those of the serial backend. */
+/* The solver direct, whose islands are solved by the host wherever it is placed: the bits are those of the serial
+ * backend. */
 #include <tandem/scene.h>
-#include "tests/parity/parity.h"
 
 #include "host/runtime/memory.h"
+#include "tests/parity/parity.h"
 
 using namespace tandem;
 using namespace tandem::parity;
@@ -11,13 +12,15 @@ namespace {
 
 const std::vector<std::string> &direct_scenes()
 {
-  static const std::vector<std::string> scenes = {"mixed:n=60", "box-stack:n=12,height=4", "spheres:n=40,height=0,restitution=0.5"};
+  static const std::vector<std::string> scenes = {"mixed:n=60", "box-stack:n=12,height=4",
+                                                  "spheres:n=40,height=0,restitution=0.5"};
   return scenes;
 }
 
 std::vector<std::string> backends_of_the_cpu()
 {
-  std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=1"};
+  std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled",
+                                       "tbb:threads=7,lanes=1"};
   for (const uint32_t lanes : {4u, 8u, 16u})
     if (minicl::lanes_table(lanes)) backends.push_back("tbb:threads=7,lanes=" + std::to_string(lanes));
   return backends;
@@ -34,7 +37,8 @@ const Backend &backend_of_islands(const Placement &placement)
 
 TEST_CASE("parity on CPU: the solver direct")
 {
-  for (const std::string &scene : direct_scenes()) require_parity(scene, backends_of_the_cpu(), 20, settings_for("direct"));
+  for (const std::string &scene : direct_scenes())
+    require_parity(scene, backends_of_the_cpu(), 20, settings_for("direct"));
 }
 
 TEST_CASE("parity on OpenCL: the solver direct")
@@ -47,8 +51,9 @@ TEST_CASE("parity on OpenCL: the solver direct")
 
 TEST_CASE("parity on CPU: a stage of the host stays there wherever it is placed, and says so")
 {
-  for (const Placement &placement : {Placement{"serial", {}, false}, Placement{"tbb", {{"solve_islands", "serial"}}, false},
-                                     Placement{"tbb", {{"solve", "reference"}}, false}}) {
+  for (const Placement &placement :
+       {Placement{"serial", {}, false}, Placement{"tbb", {{"solve_islands", "serial"}}, false},
+        Placement{"tbb", {{"solve", "reference"}}, false}}) {
     CHECK(backend_of_islands(placement).name() == "host (CPU only)");
   }
   CHECK_THROWS_AS(backend_of_islands(Placement{"serial", {{"solve_islands", "no-such-backend"}}, false}), InputError);
@@ -58,7 +63,8 @@ TEST_CASE("parity on OpenCL: islands solved on the host between stages on a devi
 {
   require_pocl();
   const uint64_t expected = state_after("mixed:n=20", "serial", 8, settings_for("direct"));
-  World world(load_scene("mixed:n=20"), settings_for("direct"), Placement{"tbb", {{"setup", "cl:pocl"}, {"integrate", "cl:pocl"}}, false});
+  World world(load_scene("mixed:n=20"), settings_for("direct"),
+              Placement{"tbb", {{"setup", "cl:pocl"}, {"integrate", "cl:pocl"}}, false});
   for (int k = 0; k < 8; ++k) world.step();
   CHECK(world.state_hash() == expected);
 }
@@ -69,7 +75,8 @@ TEST_CASE("parity on CPU: the solver direct in double does not round what passes
   const auto position = [](bool observed) {
     World world(load_scene("mixed:n=8"), settings_for("direct"), Placement{"reference", {}, false});
     if (observed)
-      world.set_observer([&](const Launch &) { world.memory().acquire(Buffer::solver_velocity, host_storage(), Access::in); });
+      world.set_observer(
+          [&](const Launch &) { world.memory().acquire(Buffer::solver_velocity, host_storage(), Access::in); });
     for (int k = 0; k < 10; ++k) world.step();
     return world.precise_bodies().back().position;
   };

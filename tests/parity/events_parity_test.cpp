@@ -25,7 +25,8 @@ Settings with_all()
 
 void require_same_events(const std::string &backend)
 {
-  World one(load_scene(triggers()), with_all(), Placement{"serial", {}, false}), other(load_scene(triggers()), with_all(), Placement{backend, {}, false});
+  World one(load_scene(triggers()), with_all(), Placement{"serial", {}, false}),
+      other(load_scene(triggers()), with_all(), Placement{backend, {}, false});
   size_t compared = 0;
   for (int step = 0; step < 60; ++step) {
     one.step();
@@ -46,8 +47,14 @@ void require_same_events(const std::string &backend)
 } // namespace
 
 TEST_CASE("parity on CPU: events") { require_parity("mixed:n=60", cpu_backends(), 40, with_events()); }
-TEST_CASE("parity on CPU: events of more pairs than a tile has items") { require_parity("box-grid:nx=7,ny=6,nz=7", cpu_backends(), 5, with_events()); }
-TEST_CASE("parity on CPU: triggers", "[sanitizer]") { require_parity(triggers(), {"serial", "serial:order=backward", "tbb:threads=4"}, 40, with_events()); }
+TEST_CASE("parity on CPU: events of more pairs than a tile has items")
+{
+  require_parity("box-grid:nx=7,ny=6,nz=7", cpu_backends(), 5, with_events());
+}
+TEST_CASE("parity on CPU: triggers", "[sanitizer]")
+{
+  require_parity(triggers(), {"serial", "serial:order=backward", "tbb:threads=4"}, 40, with_events());
+}
 
 TEST_CASE("parity on CPU: events with every solver")
 {

@@ -1,6 +1,5 @@
 /* Mass-split rows give equal bits on every backend: for all contacts, and for a tail beside colours. */
 #include "tests/parity/parity.h"
-
 #include "tests/physics/laden.h"
 
 using namespace tandem;
@@ -8,7 +7,8 @@ using namespace tandem::parity;
 
 namespace {
 
-const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=8", "tbb"};
+const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled",
+                                      "tbb:threads=7,lanes=8", "tbb"};
 
 Settings all_features(Settings settings)
 {
@@ -32,7 +32,10 @@ TEST_CASE("parity on CPU: the tail")
 }
 
 /* Long enough for a second level of the tree. */
-TEST_CASE("parity on CPU: a list of more than a thousand") { require_parity(physics_tests::laden_slab(35), {"serial", cpu[2], cpu[3]}, 3, {}); }
+TEST_CASE("parity on CPU: a list of more than a thousand")
+{
+  require_parity(physics_tests::laden_slab(35), {"serial", cpu[2], cpu[3]}, 3, {});
+}
 
 TEST_CASE("parity on OpenCL: jacobi and the tail")
 {

@@ -1,5 +1,6 @@
 #!/bin/sh
-# on_rusticl.sh TANDEM SCENE [OPTION...] - lockstep of serial and Mesa's rusticl, which lends the CPU as an OpenCL device.
+# on_rusticl.sh TANDEM SCENE [OPTION...] - lockstep of serial and Mesa's rusticl, which lends the CPU as an OpenCL
+# device.
 set -eu
 tandem=$1
 shift

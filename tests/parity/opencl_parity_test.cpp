@@ -1,7 +1,7 @@
 /* PoCL, the OpenCL that runs everywhere, gives the serial backend's bits, kernel by kernel.
  *
- * It compiles every kernel again for each set of features and each group size, which takes far longer than the steps. So all
- * scenes share the build of all features here; specialised builds are for specialised_test.cpp.
+ * It compiles every kernel again for each set of features and each group size, which takes far longer than the steps.
+ * So all scenes share the build of all features here; specialised builds are for specialised_test.cpp.
  */
 #include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
@@ -77,7 +77,8 @@ TEST_CASE("parity on OpenCL: trees by subtrees")
   require_parity(few_trees(), {"serial", "cl:pocl"}, 20, settings);
 }
 
-/* Groups smaller and larger than the pairs, subtrees and nodes of a phase. The other stages, which take long to build, stay on the CPU. */
+/* Groups smaller and larger than the pairs, subtrees and nodes of a phase. The other stages, which take long to build,
+ * stay on the CPU. */
 TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
 {
   require_pocl();

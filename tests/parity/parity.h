@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "host/verify/compare.h"
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
+#include "host/verify/compare.h"
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/pocl.h"
@@ -19,22 +19,32 @@ inline std::string every_shape() { return TANDEM_SOURCE_DIR "/tests/scenes/every
 /* Meshes and compounds on and beside each other. */
 inline std::string few_trees() { return TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json"; }
 
-/* One of each built-in scene. The grid has more pairs than a tile has items, so that scans and sorts cross tiles; the others
- * start low, so that they collide within the first steps. */
+/* One of each built-in scene. The grid has more pairs than a tile has items, so that scans and sorts cross tiles; the
+ * others start low, so that they collide within the first steps. */
 inline const std::vector<std::string> &small_scenes()
 {
   static const std::vector<std::string> scenes = {
-      "box-grid:nx=7,ny=6,nz=7",          "falling-boxes:n=100,height=0", "box-stack:n=50",
-      "pyramid:rows=8", "spheres:n=125,height=0,restitution=0.5", "mixed:n=100",
-      "shapes:n=60",                      "convex-hulls:n=60",            "rolling",
-      every_shape(),                      "compounds:n=40",               "hulls-on-mesh:n=40",
+      "box-grid:nx=7,ny=6,nz=7",
+      "falling-boxes:n=100,height=0",
+      "box-stack:n=50",
+      "pyramid:rows=8",
+      "spheres:n=125,height=0,restitution=0.5",
+      "mixed:n=100",
+      "shapes:n=60",
+      "convex-hulls:n=60",
+      "rolling",
+      every_shape(),
+      "compounds:n=40",
+      "hulls-on-mesh:n=40",
       few_trees(),
-      "thin-wall:n=40",               "bullet-stack:rows=2,height=3",
+      "thin-wall:n=40",
+      "bullet-stack:rows=2,height=3",
   };
   return scenes;
 }
 
-/* Boxes that turn and fly towards one middle: a step has hundreds of pairs more than the one before, and most are followed. */
+/* Boxes that turn and fly towards one middle: a step has hundreds of pairs more than the one before, and most are
+ * followed. */
 inline Scene imploding_boxes()
 {
   constexpr int side = 9;
@@ -43,7 +53,8 @@ inline Scene imploding_boxes()
   scene.name = "imploding boxes";
   scene.shapes.push_back(box_shape(0.5f, 0.5f, 0.5f));
   for (int i = 0; i < side * side * side; ++i) {
-    const Point at = {2.0 * (i % side) - side + 1, 2.0 * (i / side % side) - side + 1, 2.0 * (i / (side * side)) - side + 1};
+    const Point at = {2.0 * (i % side) - side + 1, 2.0 * (i / side % side) - side + 1,
+                      2.0 * (i / (side * side)) - side + 1};
     Body body;
     body.motion = Motion::dynamic;
     body.position = at;
@@ -67,14 +78,15 @@ inline std::vector<std::string> cpu_backends()
 
 inline std::string describe(const Difference &difference)
 {
-  return "step " + std::to_string(difference.step) + ", " + difference.backends[0] + " and " + difference.backends[1] + ", kernel " +
-         (difference.kernel ? row_of(*difference.kernel).name : "?") + ", buffer " +
-         (difference.buffer ? row_of(*difference.buffer).name : "?") + ", number " + std::to_string(difference.scalar) + ": " +
-         difference.note;
+  return "step " + std::to_string(difference.step) + ", " + difference.backends[0] + " and " + difference.backends[1] +
+         ", kernel " + (difference.kernel ? row_of(*difference.kernel).name : "?") + ", buffer " +
+         (difference.buffer ? row_of(*difference.buffer).name : "?") + ", number " + std::to_string(difference.scalar) +
+         ": " + difference.note;
 }
 
 /* Every kernel of every step compared; nothing compared would be no proof. */
-inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps, const Settings &settings = {})
+inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps,
+                           const Settings &settings = {})
 {
   ComparisonRequest request;
   request.settings = settings;
@@ -95,7 +107,8 @@ inline void require_parity(const std::string &scene, const std::vector<std::stri
 }
 
 /* Hash of the bodies and the contact cache after so many steps. */
-inline uint64_t state_after(const std::string &scene, const std::string &backend, uint64_t steps, const Settings &settings = {})
+inline uint64_t state_after(const std::string &scene, const std::string &backend, uint64_t steps,
+                            const Settings &settings = {})
 {
   World world(load_scene(scene), settings, Placement{backend, {}, false});
   for (uint64_t k = 0; k < steps; ++k) world.step();

@@ -24,13 +24,15 @@ size_t backends_in_use(World &world)
 }
 
 /* Each frame every kernel moves; each frame's state is that of a world where nothing moves. */
-void require_same_states(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps, uint64_t seed, const std::string &broadphase = "grid")
+void require_same_states(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,
+                         uint64_t seed, const std::string &broadphase = "grid")
 {
   Settings settings;
   settings.broadphase = broadphase;
   settings.specialise = false; /* one build serves all scenes on OpenCL */
   settings.events = true;      /* their part of the state is in the hash then */
-  World still(load_scene(scene), settings, Placement{"serial", {}, false}), moving(load_scene(scene), settings, Placement{"serial", {}, false});
+  World still(load_scene(scene), settings, Placement{"serial", {}, false}),
+      moving(load_scene(scene), settings, Placement{"serial", {}, false});
   Random random(seed);
   CAPTURE(scene, seed);
   for (uint64_t step = 0; step < steps; ++step) {
@@ -47,10 +49,12 @@ void require_same_states(const std::string &scene, const std::vector<std::string
 
 TEST_CASE("parity on CPU: kernels placed at random in each frame", "[sanitizer]")
 {
-  for (uint64_t seed : {1u, 2u}) require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, seed);
+  for (uint64_t seed : {1u, 2u})
+    require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, seed);
   require_same_states(every_shape(), {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 3);
   require_same_states(few_trees(), {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 3);
-  for (const char *keeping : {"trees", "sap3", "bvh"}) require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 4, keeping);
+  for (const char *keeping : {"trees", "sap3", "bvh"})
+    require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 4, keeping);
 }
 
 TEST_CASE("parity on OpenCL: kernels placed at random in each frame")
@@ -59,7 +63,8 @@ TEST_CASE("parity on OpenCL: kernels placed at random in each frame")
   require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 30, 1);
   require_same_states("box-grid:nx=4,ny=4,nz=4", {"serial", "tbb", "cl:pocl"}, 30, 2);
   require_same_states(every_shape(), {"serial", "tbb", "cl:pocl"}, 30, 3);
-  for (const char *keeping : {"trees", "sap3", "bvh"}) require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 20, 4, keeping);
+  for (const char *keeping : {"trees", "sap3", "bvh"})
+    require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 20, 4, keeping);
   require_same_states(few_trees(), {"serial", "tbb", "cl:pocl"}, 30, 3);
 }
 

@@ -7,8 +7,9 @@ using namespace tandem::parity;
 
 namespace {
 
-const std::vector<std::string> cpu = {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=2,lanes=4", "tbb:threads=7,lanes=8",
-                                      "tbb:threads=7"}; /* as wide as the processor */
+const std::vector<std::string> cpu = {
+    "serial",       "serial:order=backward", "serial:order=shuffled", "tbb:threads=2,lanes=4", "tbb:threads=7,lanes=8",
+    "tbb:threads=7"}; /* as wide as the processor */
 
 } // namespace
 

@@ -18,7 +18,8 @@ struct Answers {
   size_t found = 0;
 };
 
-Answers ask(const std::string &scene, const std::string &broadphase, const std::string &backend, size_t queries, int steps)
+Answers ask(const std::string &scene, const std::string &broadphase, const std::string &backend, size_t queries,
+            int steps)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -26,7 +27,9 @@ Answers ask(const std::string &scene, const std::string &broadphase, const std::
   World world(load_scene(scene), settings, Placement{backend, {}, false});
   for (int k = 0; k < steps; ++k) world.step();
   Random random(5);
-  const auto uniform3 = [&](double size) { return Point{random.uniform(-size, size), random.uniform(0, 2 * size), random.uniform(-size, size)}; };
+  const auto uniform3 = [&](double size) {
+    return Point{random.uniform(-size, size), random.uniform(0, 2 * size), random.uniform(-size, size)};
+  };
   std::vector<Ray> rays(queries);
   std::vector<Pose> poses(queries);
   std::vector<Vec3> ways(queries);
@@ -41,7 +44,8 @@ Answers ask(const std::string &scene, const std::string &broadphase, const std::
   }
   Answers answers;
   std::vector<QueryBox> boxes(queries);
-  for (size_t k = 0; k < queries; ++k) boxes[k] = {poses[k].position, {0.3f, 0.2f, 0.1f}, k % 2 ? ways[k] : Vec3{0, 0, 0}, {}};
+  for (size_t k = 0; k < queries; ++k)
+    boxes[k] = {poses[k].position, {0.3f, 0.2f, 0.1f}, k % 2 ? ways[k] : Vec3{0, 0, 0}, {}};
   answers.rays = world.cast_rays(rays);
   answers.blocked = world.find_blocked_rays(rays);
   answers.through = world.cast_rays_through(rays);
@@ -59,23 +63,30 @@ Answers ask(const std::string &scene, const std::string &broadphase, const std::
 bool same_bits(const std::vector<QueryHit> &a, const std::vector<QueryHit> &b)
 {
   return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin(), [](const QueryHit &p, const QueryHit &q) {
-           return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0 && std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 &&
+           return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0 &&
+                  std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 &&
                   std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
          });
 }
 
 bool same_bits(const std::vector<std::vector<BoxHit>> &a, const std::vector<std::vector<BoxHit>> &b)
 {
-  const auto same = [](const BoxHit &p, const BoxHit &q) { return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const auto &p, const auto &q) { return std::equal(p.begin(), p.end(), q.begin(), q.end(), same); });
+  const auto same = [](const BoxHit &p, const BoxHit &q) {
+    return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](const auto &p, const auto &q) {
+    return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
+  });
 }
 
 bool same_bits(const std::vector<std::vector<RayHit>> &a, const std::vector<std::vector<RayHit>> &b)
 {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto &p, const auto &q) { return same_bits(p, q); });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const auto &p, const auto &q) { return same_bits(p, q); });
 }
 
-void require_equal_answers(const std::string &scene, const std::vector<std::string> &backends, size_t queries, int steps)
+void require_equal_answers(const std::string &scene, const std::vector<std::string> &backends, size_t queries,
+                           int steps)
 {
   const Answers expected = ask(scene, "bvh", "serial", queries, steps);
   CAPTURE(scene);
@@ -96,13 +107,18 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
 
 TEST_CASE("parity on CPU: queries")
 {
-  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40", "convex-hulls:n=30"}) require_equal_answers(scene, cpu_backends(), 300, 5);
+  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40", "convex-hulls:n=30"})
+    require_equal_answers(scene, cpu_backends(), 300, 5);
 }
 
-TEST_CASE("parity on CPU: threads share queries", "[sanitizer]") { require_equal_answers("shapes:n=30", {"tbb:threads=4"}, 500, 1); }
+TEST_CASE("parity on CPU: threads share queries", "[sanitizer]")
+{
+  require_equal_answers("shapes:n=30", {"tbb:threads=4"}, 500, 1);
+}
 
 TEST_CASE("parity on OpenCL: queries")
 {
   require_pocl();
-  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40"}) require_equal_answers(scene, {"cl:pocl"}, 300, 2);
+  for (const char *scene : {"shapes:n=60", "mixed:n=60", "thin-wall:n=40"})
+    require_equal_answers(scene, {"cl:pocl"}, 300, 2);
 }

@@ -7,8 +7,9 @@ using namespace tandem::parity;
 
 namespace {
 
-const std::vector<std::string> processors{"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=8",
-                                          "tbb:threads=16", "tbb:threads=2,lanes=4", "tbb:threads=1,lanes=1"}; /* one as wide as the processor */
+const std::vector<std::string> processors{
+    "serial",         "serial:order=backward", "serial:order=shuffled", "tbb:threads=7,lanes=8",
+    "tbb:threads=16", "tbb:threads=2,lanes=4", "tbb:threads=1,lanes=1"}; /* one as wide as the processor */
 const std::vector<std::string> devices{"serial", "cl:pocl"};
 
 Scene rolling(const std::string &name)
@@ -43,7 +44,8 @@ Scene laden_slab()
   return scene;
 }
 
-void require_same(const Scene &scene, const Settings &settings, const std::vector<std::string> &backends, uint64_t steps)
+void require_same(const Scene &scene, const Settings &settings, const std::vector<std::string> &backends,
+                  uint64_t steps)
 {
   ComparisonRequest request;
   request.settings = settings;
@@ -78,13 +80,15 @@ TEST_CASE("parity on CPU: pgs and nncg")
 /* More constraints than a tile of the reduction. */
 TEST_CASE("parity on CPU: nncg over several tiles of its sums")
 {
-  require_same(load_scene("spheres:n=2500,height=0"), settings_of("nncg", 1, 3), {"serial", "tbb:threads=7,lanes=8"}, 2);
+  require_same(load_scene("spheres:n=2500,height=0"), settings_of("nncg", 1, 3), {"serial", "tbb:threads=7,lanes=8"},
+               2);
 }
 
 TEST_CASE("parity on CPU: pgs, nncg and rolling friction with a tail")
 {
   for (const char *solver : {"soft-step", "pgs", "nncg"})
-    require_same(laden_slab(), settings_of(solver, 1, 3), {"serial", "serial:order=backward", "tbb:threads=7,lanes=8"}, 4);
+    require_same(laden_slab(), settings_of(solver, 1, 3), {"serial", "serial:order=backward", "tbb:threads=7,lanes=8"},
+                 4);
 }
 
 TEST_CASE("parity on CPU: rolling friction")

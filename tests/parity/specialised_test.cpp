@@ -6,7 +6,8 @@ using namespace tandem::parity;
 
 namespace {
 
-void require_same_state(const std::string &scene, const std::string &backend, uint64_t steps, const Settings &settings = {})
+void require_same_state(const std::string &scene, const std::string &backend, uint64_t steps,
+                        const Settings &settings = {})
 {
   Settings everything = settings;
   everything.specialise = false;
@@ -14,7 +15,8 @@ void require_same_state(const std::string &scene, const std::string &backend, ui
   CHECK(state_after(scene, backend, steps, settings) == state_after(scene, backend, steps, everything));
 }
 
-void require_same_state_on_pocl(const std::string &scene, const std::string &narrowphase = "sat", const std::string &support = "brute-force")
+void require_same_state_on_pocl(const std::string &scene, const std::string &narrowphase = "sat",
+                                const std::string &support = "brute-force")
 {
   Settings settings;
   settings.narrowphase = narrowphase;
@@ -50,5 +52,8 @@ TEST_CASE("parity on OpenCL: specialised trees") { require_same_state_on_pocl(fe
 TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); }
 TEST_CASE("parity on OpenCL: specialised convex-hulls") { require_same_state_on_pocl(small_scenes()[7]); }
 TEST_CASE("parity on OpenCL: specialised gjk-sampled") { require_same_state_on_pocl(small_scenes()[7], "gjk-sampled"); }
-TEST_CASE("parity on OpenCL: specialised cube-map and hill-climbing") { require_same_state_on_pocl(small_scenes()[7], "cube-map", "hill-climbing"); }
+TEST_CASE("parity on OpenCL: specialised cube-map and hill-climbing")
+{
+  require_same_state_on_pocl(small_scenes()[7], "cube-map", "hill-climbing");
+}
 TEST_CASE("parity on OpenCL: specialised rolling") { require_same_state_on_pocl(small_scenes()[8]); }

@@ -1,7 +1,7 @@
 #!/bin/sh
-# under_oclgrind.sh TANDEM DIRECTORY SCENE [OPTION...] - lockstep of serial and Oclgrind, which watches every access of every
-# work-item: accesses out of bounds, data races, divergent barriers. It ends with status 0 whatever it saw, so its log decides.
-# under_oclgrind.sh --self-test DIRECTORY - shows that a log with a line in it, and a failed command, fail.
+# under_oclgrind.sh TANDEM DIRECTORY SCENE [OPTION...] - lockstep of serial and Oclgrind, which watches every access of
+# every work-item: accesses out of bounds, data races, divergent barriers. It ends with status 0 whatever it saw, so its
+# log decides. under_oclgrind.sh --self-test DIRECTORY - shows that a log with a line in it, and a failed command, fail.
 set -eu
 
 verdict() { # LOG STATUS
@@ -30,7 +30,8 @@ log=$(mktemp "$2/oclgrind.XXXXXX")
 shift 2
 status=0
 # A sort of 64-bit keys takes 57 KiB of local memory; Oclgrind's device has 32 unless told.
-oclgrind --local-mem-size 65536 --log "$log" --data-races --check-api "$tandem" diff "$@" --between serial,cl:oclgrind || status=$?
+oclgrind --local-mem-size 65536 --log "$log" --data-races --check-api "$tandem" diff "$@" --between \
+    serial,cl:oclgrind || status=$?
 outcome=0
 verdict "$log" "$status" || outcome=$?
 rm -f "$log"

@@ -1,11 +1,10 @@
 /* The promise of batching: constraints of one colour share no body that can move. */
-#include "tests/catch.h"
-
 #include <set>
 
 #include "host/catalog/catalog.h"
 #include "host/runtime/memory.h"
 #include "shared/records.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -45,7 +44,8 @@ void check_colors(const Coloring &coloring)
       if (color == COLOR_TAIL) continue;
       CAPTURE(color, i);
       for (uint32_t body : {coloring.a[i], coloring.b[i]})
-        if (coloring.moves[body] && !touched.insert(body).second) FAIL("body " << body << " stands twice in colour " << color);
+        if (coloring.moves[body] && !touched.insert(body).second)
+          FAIL("body " << body << " stands twice in colour " << color);
     }
   }
   CHECK(pairs.size() == coloring.a.size());
@@ -58,7 +58,9 @@ Scene laden_slab()
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 100; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f}).mass = 0.5f;
+    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+             {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f})
+        .mass = 0.5f;
   return scene;
 }
 
@@ -102,7 +104,9 @@ TEST_CASE("a body that touches more than 63 others goes to the tail and still wo
   CHECK(world.statistics().max_penetration < 0.0075);
   double moved = 0;
   const std::vector<BodyState> now = world.bodies();
-  for (size_t i = 1; i < now.size(); ++i) moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
-  INFO("100 boxes on a slab, tail of " << coloring.starts[COLOR_TAIL + 1] - coloring.starts[COLOR_TAIL] << ": moved " << moved << " m");
+  for (size_t i = 1; i < now.size(); ++i)
+    moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
+  INFO("100 boxes on a slab, tail of " << coloring.starts[COLOR_TAIL + 1] - coloring.starts[COLOR_TAIL] << ": moved "
+                                       << moved << " m");
   CHECK(moved < 0.02);
 }

@@ -1,13 +1,12 @@
-/* Colours of bodies: no constraint joins two moving bodies of one colour, and each body has the lowest colour that those of
- * higher priority beside it leave, as one pass in order of priority finds it. */
-#include "tests/catch.h"
-
+/* Colours of bodies: no constraint joins two moving bodies of one colour, and each body has the lowest colour that
+ * those of higher priority beside it leave, as one pass in order of priority finds it. */
 #include <numeric>
 #include <set>
 
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/batching/coloring.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -29,10 +28,12 @@ Coloring coloring_of(World &world)
   Memory &memory = world.memory();
   const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
   const uint32_t bodies = counts[COUNT_BODIES], constraints = counts[COUNT_CONSTRAINTS];
-  const auto a = memory.read<uint32_t>(Buffer::constraint_a, constraints), b = memory.read<uint32_t>(Buffer::constraint_b, constraints);
+  const auto a = memory.read<uint32_t>(Buffer::constraint_a, constraints),
+             b = memory.read<uint32_t>(Buffer::constraint_b, constraints);
   const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * bodies);
   const auto sorted = memory.read<uint32_t>(Buffer::sort_value, bodies);
-  Coloring coloring{std::vector<std::set<uint32_t>>(bodies), std::vector<bool>(bodies), std::vector<uint32_t>(bodies, uncolored)};
+  Coloring coloring{std::vector<std::set<uint32_t>>(bodies), std::vector<bool>(bodies),
+                    std::vector<uint32_t>(bodies, uncolored)};
   const auto moves = [&](uint32_t body) { return velocity[2 * body].w > 0; };
   for (uint32_t i = 0; i < constraints; ++i) {
     if (moves(a[i])) coloring.takes_part[a[i]] = true;
@@ -42,7 +43,8 @@ Coloring coloring_of(World &world)
     coloring.neighbors[b[i]].insert(a[i]);
   }
   for (uint32_t color = 0; color <= COLOR_TAIL; ++color)
-    for (uint32_t i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + color + 1]; ++i) coloring.colors[sorted[i]] = color;
+    for (uint32_t i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + color + 1]; ++i)
+      coloring.colors[sorted[i]] = color;
   return coloring;
 }
 

@@ -1,11 +1,10 @@
 /* Every broadphase finds the pairs that brute force finds, hence the same bits. */
-#include "tests/catch.h"
-
 #include <set>
 
-#include "host/pipeline/broadphases/choice.h"
 #include "host/catalog/catalog.h"
+#include "host/pipeline/broadphases/choice.h"
 #include "host/runtime/memory.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -23,7 +22,8 @@ Scene many_sizes()
     const float size = float(0.01 * std::pow(1000.0, random.uniform()));
     const float reach = 15;
     const Point place{random.uniform(-reach, reach), 0.5 + random.uniform(0, 2 * reach), random.uniform(-reach, reach)};
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.3f * size, 0.6f * size), place);
+    Body &body =
+        add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.3f * size, 0.6f * size), place);
     body.mass = 1000 * size * size * size;
     body.orientation = random.orientation();
     body.linear_velocity = {float(random.uniform(-5, 5)), 0, float(random.uniform(-5, 5))};
@@ -78,8 +78,8 @@ std::vector<uint64_t> hashes_with(const std::string &broadphase, const Scene &sc
 
 TEST_CASE("every broadphase leads to the bits of brute force", "[physics]")
 {
-  const std::string name = GENERATE("box-grid:nx=5,ny=5,nz=5", "falling-boxes:n=150", "mixed:n=200", "spheres:n=200", "pyramid:rows=8", "many sizes",
-                                    "flat", "one point", "scattered");
+  const std::string name = GENERATE("box-grid:nx=5,ny=5,nz=5", "falling-boxes:n=150", "mixed:n=200", "spheres:n=200",
+                                    "pyramid:rows=8", "many sizes", "flat", "one point", "scattered");
   CAPTURE(name);
   const Scene scene = scene_of(name);
   const std::vector<uint64_t> oracle = hashes_with("brute-force", scene);
@@ -109,18 +109,21 @@ TEST_CASE("pairs come near once, persist and leave once, and touch only while th
       kinds.push_back(event.kind);
     }
     for (const ContactEvent &contact : world.contact_events())
-      if (contact.kind != ContactEvent::Kind::end) CHECK((!events.empty() && events[0].kind != ContactEvent::Kind::end));
+      if (contact.kind != ContactEvent::Kind::end)
+        CHECK((!events.empty() && events[0].kind != ContactEvent::Kind::end));
   }
   REQUIRE(kinds.size() > 2);
   CHECK(kinds.front() == ContactEvent::Kind::begin);
   CHECK(kinds.back() == ContactEvent::Kind::end);
-  CHECK(std::all_of(kinds.begin() + 1, kinds.end() - 1, [](ContactEvent::Kind kind) { return kind == ContactEvent::Kind::persist; }));
+  CHECK(std::all_of(kinds.begin() + 1, kinds.end() - 1,
+                    [](ContactEvent::Kind kind) { return kind == ContactEvent::Kind::persist; }));
   CHECK_THROWS_AS(World(scene).pair_events(), InputError);
 }
 
 TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
 {
-  const std::string name = GENERATE("mixed:n=120", "compounds:n=30"), broadphase = GENERATE("grid", "sap3", "trees", "bvh");
+  const std::string name = GENERATE("mixed:n=120", "compounds:n=30"),
+                    broadphase = GENERATE("grid", "sap3", "trees", "bvh");
   Settings settings;
   settings.pair_events = true;
   settings.broadphase = broadphase;
@@ -134,19 +137,27 @@ TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
     oracle.step();
     CAPTURE(name, broadphase, step);
     const uint32_t count = world.memory().read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).front();
-    const auto a = world.memory().read<uint32_t>(Buffer::pair_a, count), b = world.memory().read<uint32_t>(Buffer::pair_b, count);
+    const auto a = world.memory().read<uint32_t>(Buffer::pair_a, count),
+               b = world.memory().read<uint32_t>(Buffer::pair_b, count);
     std::set<std::pair<uint32_t, uint32_t>> now;
     for (uint32_t k = 0; k < count; ++k) now.insert(std::minmax(world.scene_body(a[k]), world.scene_body(b[k])));
     std::vector<PairEvent> expected;
     std::set<std::pair<uint32_t, uint32_t>> either = before;
     either.insert(now.begin(), now.end());
     for (const auto &pair : either)
-      expected.push_back({!before.contains(pair) ? ContactEvent::Kind::begin : now.contains(pair) ? ContactEvent::Kind::persist : ContactEvent::Kind::end, pair.first, pair.second});
+      expected.push_back({!before.contains(pair) ? ContactEvent::Kind::begin
+                          : now.contains(pair)   ? ContactEvent::Kind::persist
+                                                 : ContactEvent::Kind::end,
+                          pair.first, pair.second});
     const std::vector<PairEvent> events = world.pair_events(), of_oracle = oracle.pair_events();
-    const auto same = [](const PairEvent &p, const PairEvent &q) { return p.kind == q.kind && p.a == q.a && p.b == q.b; };
+    const auto same = [](const PairEvent &p, const PairEvent &q) {
+      return p.kind == q.kind && p.a == q.a && p.b == q.b;
+    };
     REQUIRE(std::equal(events.begin(), events.end(), expected.begin(), expected.end(), same));
     REQUIRE(std::equal(events.begin(), events.end(), of_oracle.begin(), of_oracle.end(), same));
-    ends += static_cast<size_t>(std::count_if(expected.begin(), expected.end(), [](const PairEvent &event) { return event.kind == ContactEvent::Kind::end; }));
+    ends += static_cast<size_t>(std::count_if(expected.begin(), expected.end(), [](const PairEvent &event) {
+      return event.kind == ContactEvent::Kind::end;
+    }));
     before = now;
   }
   CHECK(ends > 0);
@@ -154,7 +165,9 @@ TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
 
 TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and changes no bit")
 {
-  const auto choice = [](const std::string &scene, const char *backend) { return choose_broadphase(scene_of(scene), backend); };
+  const auto choice = [](const std::string &scene, const char *backend) {
+    return choose_broadphase(scene_of(scene), backend);
+  };
   CHECK(choice("scattered", "serial").name == "brute-force");
   CHECK(choice("box-grid:nx=6,ny=6,nz=6", "tbb").name == "trees");
   CHECK(choice("box-grid:nx=6,ny=6,nz=6", "cl").name == "brute-force");
@@ -163,7 +176,8 @@ TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and cha
   Scene sizes = empty_scene();
   for (int i = 0; i < 300; ++i) add_body(sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
   Scene many_sizes = empty_scene();
-  for (int i = 0; i < 2000; ++i) add_body(many_sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
+  for (int i = 0; i < 2000; ++i)
+    add_body(many_sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
   CHECK(choose_broadphase(many_sizes, "cl").name == "trees");
   CHECK(choose_broadphase(many_sizes, "cl").why.find("667 are more than") != std::string::npos);
   for (const std::string name : {"scattered", "falling-boxes:n=150", "many sizes"}) {

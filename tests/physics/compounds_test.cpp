@@ -1,6 +1,5 @@
 /* Compounds behave as the bodies they are made of, joined. */
 #include "tests/catch.h"
-
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -22,17 +21,24 @@ Shape box_of_boxes(float half)
 {
   std::vector<Child> children;
   for (int k = 0; k < 8; ++k)
-    children.push_back(child_of(box_shape(half / 2, half / 2, half / 2), {k & 1 ? half / 2 : -half / 2, k & 2 ? half / 2 : -half / 2, k & 4 ? half / 2 : -half / 2}));
+    children.push_back(
+        child_of(box_shape(half / 2, half / 2, half / 2),
+                 {k & 1 ? half / 2 : -half / 2, k & 2 ? half / 2 : -half / 2, k & 4 ? half / 2 : -half / 2}));
   return compound_shape(std::move(children));
 }
 
-Shape dumbbell() { return compound_shape({child_of(sphere_shape(0.2f), {-0.4, 0, 0}), child_of(sphere_shape(0.2f), {0.4, 0, 0}), child_of(box_shape(0.3f, 0.05f, 0.05f), {0, 0, 0})}); }
+Shape dumbbell()
+{
+  return compound_shape({child_of(sphere_shape(0.2f), {-0.4, 0, 0}), child_of(sphere_shape(0.2f), {0.4, 0, 0}),
+                         child_of(box_shape(0.3f, 0.05f, 0.05f), {0, 0, 0})});
+}
 
 } // namespace
 
 TEST_CASE("mass, centre and inertia of a compound are those of its children together", "[physics]")
 {
-  const MassProperties whole = mass_properties_of(box_of_boxes(0.5f)), box = mass_properties_of(box_shape(0.5f, 0.5f, 0.5f));
+  const MassProperties whole = mass_properties_of(box_of_boxes(0.5f)),
+                       box = mass_properties_of(box_shape(0.5f, 0.5f, 0.5f));
   CHECK(whole.mass == Approx(box.mass).epsilon(1e-12));
   CHECK(whole.inertia.xx == Approx(box.inertia.xx).epsilon(1e-12));
   CHECK(std::abs(whole.inertia.xy) < 1e-12);
@@ -63,7 +69,8 @@ TEST_CASE("compounds in free space keep their momentum", "[physics]")
   Scene scene = empty_scene({0, 0, 0});
   Random random(9);
   for (int k = 0; k < 20; ++k) {
-    Body &body = add_solid(scene, k % 2 ? dumbbell() : box_of_boxes(0.2f), {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random.orientation());
+    Body &body = add_solid(scene, k % 2 ? dumbbell() : box_of_boxes(0.2f),
+                           {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random.orientation());
     body.linear_velocity = vec3_of(-2 * vector_of(body.position));
   }
   World world(scene);
@@ -83,7 +90,8 @@ TEST_CASE("each child has its own material", "[physics]")
   const uint32_t slippery = add_material(scene, 0);
   Body &ground = add_ground(scene);
   ground.orientation = turn_about({0, 0, 1}, 0.2);
-  Child foot = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, -0.3, 0}), head = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, 0.3, 0});
+  Child foot = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, -0.3, 0}),
+        head = child_of(box_shape(0.5f, 0.05f, 0.5f), {0, 0.3, 0});
   head.material = slippery;
   const Shape column = compound_shape({foot, head, child_of(box_shape(0.1f, 0.3f, 0.1f), {0, 0, 0})});
   const Vector up(-std::sin(0.2), std::cos(0.2), 0);
@@ -114,7 +122,8 @@ TEST_CASE("a mesh can be a child", "[physics]")
   const Shape cube = mesh_of_box(0.3f, 0.3f, 0.3f);
   Scene scene = empty_scene();
   add_ground(scene);
-  add_solid(scene, compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}), {0, 0.3, 0});
+  add_solid(scene, compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}),
+            {0, 0.3, 0});
   add_solid(scene, box_shape(0.1f, 0.1f, 0.1f), {0, 1.11, 0});
   World world(scene);
   run(world, 200);

@@ -1,8 +1,8 @@
 /* contact_oracle.h - small contact problems solved by brute force in double, from bodies and points alone.
  *
  * Nothing of the library's solvers is used: J and M are written as matrices, W = J M^-1 J^T, and impulses follow the
- * projected fixed point x <- P(x - r (W x + c)) with one small step r for all rows until nothing moves. It takes a hundred
- * thousand rounds and cannot go wrong in the same way as anything clever.
+ * projected fixed point x <- P(x - r (W x + c)) with one small step r for all rows until nothing moves. It takes a
+ * hundred thousand rounds and cannot go wrong in the same way as anything clever.
  *
  * Laws: normal speeds at each point, one friction cone and one twist for each manifold, at the centre of its points.
  */
@@ -15,14 +15,14 @@
 namespace tandem::physics_tests {
 
 struct OracleBody {
-  double inverse_mass = 0; /* 0: cannot move */
+  double inverse_mass = 0;                 /* 0: cannot move */
   Matrix inverse_inertia = Matrix::Zero(); /* world axes */
   Vector position = Vector::Zero(), linear = Vector::Zero(), angular = Vector::Zero();
 };
 
 struct OracleManifold {
   size_t a, b;
-  Vector normal; /* from a to b */
+  Vector normal;              /* from a to b */
   std::vector<Vector> points; /* world */
   double friction = 0;
   std::vector<double> wished; /* m/s at least, at each point; empty: 0 */
@@ -36,7 +36,8 @@ struct OracleSolution {
 
 class ContactOracle {
 public:
-  ContactOracle(std::vector<OracleBody> bodies, std::vector<OracleManifold> manifolds) : bodies_(std::move(bodies)), manifolds_(std::move(manifolds))
+  ContactOracle(std::vector<OracleBody> bodies, std::vector<OracleManifold> manifolds)
+      : bodies_(std::move(bodies)), manifolds_(std::move(manifolds))
   {
     const auto columns = Eigen::Index(6 * bodies_.size());
     Eigen::Index rows = 0;
@@ -46,7 +47,8 @@ public:
     velocity_ = Eigen::VectorXd::Zero(columns);
     wished_ = Eigen::VectorXd::Zero(rows);
     for (size_t i = 0; i < bodies_.size(); ++i) {
-      inverse_mass_.block<3, 3>(Eigen::Index(6 * i), Eigen::Index(6 * i)) = bodies_[i].inverse_mass * Matrix::Identity();
+      inverse_mass_.block<3, 3>(Eigen::Index(6 * i), Eigen::Index(6 * i)) =
+          bodies_[i].inverse_mass * Matrix::Identity();
       inverse_mass_.block<3, 3>(Eigen::Index(6 * i + 3), Eigen::Index(6 * i + 3)) = bodies_[i].inverse_inertia;
       velocity_.segment<3>(Eigen::Index(6 * i)) = bodies_[i].linear;
       velocity_.segment<3>(Eigen::Index(6 * i + 3)) = bodies_[i].angular;
@@ -168,7 +170,8 @@ inline std::vector<OracleBody> oracle_bodies(const Scene &scene, double h)
   return bodies;
 }
 
-/* The corners of the lower face (along `down` in the body's axes: 1 is y) of a box, as its contact with what is below. */
+/* The corners of the lower face (along `down` in the body's axes: 1 is y) of a box, as its contact with what is
+ * below. */
 inline OracleManifold box_on_face(const Scene &scene, size_t below, size_t box, double friction)
 {
   const Body &body = scene.bodies[box];
@@ -176,7 +179,8 @@ inline OracleManifold box_on_face(const Scene &scene, size_t below, size_t box, 
   const Vec3 &size = scene.shapes[body.shape].size;
   OracleManifold m{below, box, axes.col(1), {}, friction, {}};
   for (const double x : {-1.0, 1.0})
-    for (const double z : {-1.0, 1.0}) m.points.push_back(vector_of(body.position) + axes * Vector(x * size[0], -size[1], z * size[2]));
+    for (const double z : {-1.0, 1.0})
+      m.points.push_back(vector_of(body.position) + axes * Vector(x * size[0], -size[1], z * size[2]));
   return m;
 }
 

@@ -1,7 +1,6 @@
 /* Continuous collision: what is fast stops at what is thin, and what misses is left alone. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -28,7 +27,8 @@ Scene shot(Random &random, size_t kind, double speed, bool continuous)
   const double thickness = random.uniform(0.001, 0.01);
   add_body(scene, Motion::fixed, box_shape(float(thickness / 2), 100, 100), {0, 0, 0});
   const double angle = random.uniform(0, 80) * radians, turn = random.uniform(0, 2 * pi);
-  const Vector velocity = speed * Vector(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
+  const Vector velocity =
+      speed * Vector(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
   const double away = random.uniform(0.1, std::max(0.2, speed / 60));
   const Shape shape = bullets(random, float(random.uniform(0.005, 0.05)))[kind];
   Body &body = add_solid(scene, shape, velocity * (-away / velocity.x()), random.orientation(), 0.1f);
@@ -80,11 +80,13 @@ TEST_CASE("bullets stay in a room of thin walls, also where one turns them into 
   for (int room = 0; room < 20; ++room) {
     Scene scene = empty_scene();
     const double thickness = random.uniform(0.001, 0.01);
-    std::vector<Vector> walls = {Vector::UnitX(), -Vector::UnitX(), Vector::UnitY(), -Vector::UnitY(), Vector::UnitZ(), -Vector::UnitZ()};
+    std::vector<Vector> walls = {Vector::UnitX(),  -Vector::UnitX(), Vector::UnitY(),
+                                 -Vector::UnitY(), Vector::UnitZ(),  -Vector::UnitZ()};
     for (int k = 0; k < 4; ++k) walls.push_back(direction(random));
     for (const Vector &normal : walls) {
       const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector::UnitY(), normal);
-      Body &wall = add_body(scene, Motion::fixed, box_shape(3, float(thickness / 2), 3), point_of(normal * (1 + thickness / 2)));
+      Body &wall =
+          add_body(scene, Motion::fixed, box_shape(3, float(thickness / 2), 3), point_of(normal * (1 + thickness / 2)));
       wall.orientation = {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
     }
     for (const Shape &shape : bullets(random, float(random.uniform(0.01, 0.08)))) {
@@ -110,8 +112,9 @@ TEST_CASE("bullets stay in a room of thin walls, also where one turns them into 
 
 TEST_CASE("built-in scenes of thin walls hold", "[physics]")
 {
-  const std::string spec = GENERATE(as<std::string>{}, "thin-wall:n=60,speed=10", "thin-wall:n=60", "thin-wall:n=60,speed=10000,thickness=0.001", "bullet-stack",
-                                    "bullet-stack:speed=10000,thickness=0.001", "bullet-stack:speed=100,rows=1,height=1");
+  const std::string spec = GENERATE(
+      as<std::string>{}, "thin-wall:n=60,speed=10", "thin-wall:n=60", "thin-wall:n=60,speed=10000,thickness=0.001",
+      "bullet-stack", "bullet-stack:speed=10000,thickness=0.001", "bullet-stack:speed=100,rows=1,height=1");
   const Scene scene = load_scene(spec);
   World world(scene);
   uint32_t through = 0, turned = 0;
@@ -149,7 +152,8 @@ TEST_CASE("a bullet that passes a millimetre beside an edge keeps its velocity t
       body.continuous = continuous;
       World world(scene, {}, {"serial", {}});
       run(world, 8);
-      const Vec3 expected{speed, 0, 0}, found = world.bodies()[1].linear_velocity, spin = world.bodies()[1].angular_velocity;
+      const Vec3 expected{speed, 0, 0}, found = world.bodies()[1].linear_velocity,
+                                        spin = world.bodies()[1].angular_velocity;
       changed += found != expected || spin != Vec3{0, 0, 0};
       ++cases;
     }
@@ -190,7 +194,8 @@ TEST_CASE("a bullet and a free target share their momentum", "[physics]")
     scene.materials[0].restitution = k % 2 ? 0.0f : 0.5f;
     const Vector away = direction(random), aside = 0.05 * direction(random);
     add_solid(scene, box_shape(0.2f, 0.3f, 0.25f), {0, 0, 0}, random.orientation(), 3);
-    Body &bullet = add_solid(scene, bullets(random, 0.02f)[size_t(k) % 7], away * random.uniform(0.5, speed / 60 + 0.5) + aside, random.orientation(), 0.1f);
+    Body &bullet = add_solid(scene, bullets(random, 0.02f)[size_t(k) % 7],
+                             away * random.uniform(0.5, speed / 60 + 0.5) + aside, random.orientation(), 0.1f);
     bullet.linear_velocity = vec3_of(-speed * away);
     bullet.continuous = true;
     World world(scene, {}, {"serial", {}});
@@ -210,5 +215,6 @@ TEST_CASE("a half-space is never continuous", "[physics]")
 {
   Scene scene = empty_scene();
   add_ground(scene).continuous = true;
-  CHECK_THROWS_WITH(World(scene), Catch::Matchers::ContainsSubstring("half_space") && Catch::Matchers::ContainsSubstring("continuous"));
+  CHECK_THROWS_WITH(World(scene), Catch::Matchers::ContainsSubstring("half_space") &&
+                                      Catch::Matchers::ContainsSubstring("continuous"));
 }

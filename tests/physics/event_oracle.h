@@ -1,17 +1,17 @@
 /* event_oracle.h - the events of each step once more, from the buffers the step leaves, by maps and in double.
  *
- * It watches the launches: at the start of each substep and at the end it adds up what the contacts have accumulated, and once the
- * step is known to be whole it sets the pairs that touch beside those of the step before. Nothing of shared/events is used.
+ * It watches the launches: at the start of each substep and at the end it adds up what the contacts have accumulated,
+ * and once the step is known to be whole it sets the pairs that touch beside those of the step before. Nothing of
+ * shared/events is used.
  */
 #pragma once
 
 #include <map>
 
-#include "shared/platform.h"
-#include "tests/physics/physics.h"
-
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
+#include "shared/platform.h"
+#include "tests/physics/physics.h"
 
 namespace tandem::physics_tests {
 
@@ -73,7 +73,8 @@ private:
       for (uint32_t k = 0; k < points[i]; ++k) {
         const row &r = rows[k * counts[CAPACITY_PAIRS] + i];
         if (r.w > 0 && impulses[k] == 0) continue;
-        const Vector at = vector_of(states[first].position) + double(normals[i].w) * vector_of(states[first].linear_velocity) + Vector(r.x, r.y, r.z);
+        const Vector at = vector_of(states[first].position) +
+                          double(normals[i].w) * vector_of(states[first].linear_velocity) + Vector(r.x, r.y, r.z);
         ++found.points;
         found.impulse += impulses[k];
         found.separation = std::min(found.separation, double(r.w));

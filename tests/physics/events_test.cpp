@@ -1,11 +1,11 @@
-/* Contact events: when they come, what they carry against closed forms and momentum, and all of them against an oracle. */
-#include "tests/catch.h"
-
+/* Contact events: when they come, what they carry against closed forms and momentum, and all of them against an
+ * oracle. */
 #include <cstdint>
 #include <limits>
 #include <map>
 
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/event_oracle.h"
 #include "tests/physics/solids.h"
 
@@ -64,7 +64,8 @@ Scene ball_above_ground(double height, float restitution)
 void require_oracle(World &world, const EventOracle &oracle)
 {
   std::map<std::pair<uint32_t, uint32_t>, Kind> expected;
-  for (const auto &[bodies, contact] : oracle.now()) expected[bodies] = oracle.before().count(bodies) ? Kind::persist : Kind::begin;
+  for (const auto &[bodies, contact] : oracle.now())
+    expected[bodies] = oracle.before().count(bodies) ? Kind::persist : Kind::begin;
   for (const auto &[bodies, contact] : oracle.before())
     if (!oracle.now().count(bodies)) expected[bodies] = Kind::end;
   const std::vector<ContactEvent> events = world.contact_events();
@@ -146,8 +147,9 @@ TEST_CASE("the events of a smooth pile account for the momentum of every body in
   Random random(7);
   for (int i = 0; i < 24; ++i) {
     const Shape shapes[] = {sphere_shape(0.3f), box_shape(0.3f, 0.25f, 0.35f), capsule_shape(0.2f, 0.2f)};
-    add_solid(scene, shapes[i % 3], {0.5 * (i % 2) + random.uniform(-0.1, 0.1), 0.4 + 0.45 * (i / 4), 0.5 * (i / 2 % 2)}, random.orientation(),
-              float(random.uniform(0.5, 2)));
+    add_solid(scene, shapes[i % 3],
+              {0.5 * (i % 2) + random.uniform(-0.1, 0.1), 0.4 + 0.45 * (i / 4), 0.5 * (i / 2 % 2)},
+              random.orientation(), float(random.uniform(0.5, 2)));
   }
   World world(scene, with_events(solver), {"serial", {}});
   size_t events = 0;
@@ -176,7 +178,8 @@ TEST_CASE("a ball that slides over an edge ceases to touch where the edge is", "
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
   add_body(scene, Motion::fixed, box_shape(1, 0.5f, 1), {0, -0.5, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.2f), {-0.5, 0.2, 0}).linear_velocity = {3, 0, 0}; /* v^2 / r > g: it flies off */
+  add_body(scene, Motion::dynamic, sphere_shape(0.2f), {-0.5, 0.2, 0}).linear_velocity = {
+      3, 0, 0}; /* v^2 / r > g: it flies off */
   World world(scene, with_events(), {"serial", {}});
   const std::string history = run_history(world, 60);
   /* The centre is over the edge after 1.5 m, 30 steps: it starts step 30 there, and falls free. */
@@ -238,7 +241,8 @@ TEST_CASE("every event of a random pile, against the oracle", "[physics]")
     }
 }
 
-/* Balls in a heap, and triggers that fly into it: all against all, so that pairs outgrow their buffers in the middle of the run. */
+/* Balls in a heap, and triggers that fly into it: all against all, so that pairs outgrow their buffers in the middle of
+ * the run. */
 TEST_CASE("a step that runs again with larger buffers tells its events once", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
@@ -278,9 +282,11 @@ TEST_CASE("events change no motion, cost nothing unless asked for, and are refus
   CHECK_THROWS_AS(silent.contact_events(), InputError);
   CHECK(!telling.contact_events().empty());
   const std::vector<Kernel> kernels = silent.kernels();
-  CHECK(std::none_of(kernels.begin(), kernels.end(), [](Kernel kernel) { return row_of(kernel).stage == Stage::events; }));
-  for (const Buffer buffer : {Buffer::constraint_impulse, Buffer::pair_impulse, Buffer::pair_touching, Buffer::event_start, Buffer::event_bodies,
-                              Buffer::event_contact, Buffer::cached_touching}) {
+  CHECK(std::none_of(kernels.begin(), kernels.end(),
+                     [](Kernel kernel) { return row_of(kernel).stage == Stage::events; }));
+  for (const Buffer buffer :
+       {Buffer::constraint_impulse, Buffer::pair_impulse, Buffer::pair_touching, Buffer::event_start,
+        Buffer::event_bodies, Buffer::event_contact, Buffer::cached_touching}) {
     CHECK(silent.memory().bytes(buffer) == 0);
     CHECK(telling.memory().bytes(buffer) > 0);
   }
@@ -317,12 +323,14 @@ TEST_CASE("a ball that meets a wall within the step is told to have done so wher
   }
 }
 
-TEST_CASE("an impulse that has faded away has no place of its own: the event names the middle of the points", "[physics]")
+TEST_CASE("an impulse that has faded away has no place of its own: the event names the middle of the points",
+          "[physics]")
 {
   Settings settings = settings_for("pgs"); /* whose impulses fade to denormal numbers */
   settings.events = true;
   size_t faded = 0;
-  for (const char *scene : {"mixed:n=12", "mixed:n=16", "mixed:n=20", "mixed:n=24", "falling-boxes:n=12", "falling-boxes:n=20"}) {
+  for (const char *scene :
+       {"mixed:n=12", "mixed:n=16", "mixed:n=20", "mixed:n=24", "falling-boxes:n=12", "falling-boxes:n=20"}) {
     World world(load_scene(scene), settings);
     for (int step = 0; step < 300; ++step) {
       world.step();

@@ -1,6 +1,5 @@
 /* Far from the origin a scene moves as at the origin: positions are two numbers, and stages work on differences. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -14,7 +13,8 @@ Scene yard(const Point &origin)
   Scene scene = empty_scene();
   const auto at = [&](double x, double y, double z) { return Point{origin[0] + x, origin[1] + y, origin[2] + z}; };
   add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
-  for (int i = 0; i < 4; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0.1 * i, 0.5 + i, 0.03 * i));
+  for (int i = 0; i < 4; ++i)
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0.1 * i, 0.5 + i, 0.03 * i));
   add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.4f), at(-8.3, 0.27, 3.1)).linear_velocity = {5, 0, 0.3f};
   add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(-8.7, 0.913, -3.3)).angular_velocity = {0, 2, -7};
   return scene;
@@ -39,7 +39,8 @@ TEST_CASE("far from the origin everything moves as at the origin", "[physics]")
     run(near, 120);
     run(far, 120);
     INFO(distance << " m away");
-    /* They start apart by what two 24-bit numbers lose, 4 nm at most; then speeds of 3 m/s are rounded otherwise, 0.2 um/s at a time. */
+    /* They start apart by what two 24-bit numbers lose, 4 nm at most; then speeds of 3 m/s are rounded otherwise, 0.2
+     * um/s at a time. */
     CHECK(farthest_apart(far, near, origin) < 1e-5);
   }
 }

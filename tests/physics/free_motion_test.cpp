@@ -1,6 +1,5 @@
 /* Bodies that touch nothing: parabolas, damping, and the free spin of a rigid body, against closed forms. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 #include "tools/stability/flip.h"
 
@@ -36,8 +35,10 @@ TEST_CASE("free fall and projectiles follow the parabola to float rounding", "[p
     const double position_error = (vector_of(state.position) - position).norm();
     const double velocity_error = (vector_of(state.linear_velocity) - (speed + t * pull)).norm();
     /* Each substep rounds a velocity of up to 20 m/s to half an ulp and the substep itself is rounded; the
-     * position gathers that over 2 s and rounds 30 m once a step. Euler's method would be off by 5 t h: ten times more. */
-    const double velocity_bound = 20 * epsilon * steps * substeps, position_bound = t * velocity_bound + 30 * epsilon * steps;
+     * position gathers that over 2 s and rounds 30 m once a step. Euler's method would be off by 5 t h: ten times
+     * more. */
+    const double velocity_bound = 20 * epsilon * steps * substeps,
+                 position_bound = t * velocity_bound + 30 * epsilon * steps;
     CAPTURE(step, substeps, i, position_error, position_bound, velocity_error, velocity_bound);
     CHECK(velocity_error < velocity_bound);
     CHECK(position_error < position_bound);
@@ -49,7 +50,8 @@ TEST_CASE("gravity_factor scales the fall", "[physics]")
 {
   Scene scene = empty_scene();
   for (float factor : {0.0f, 0.5f, 2.0f, -1.0f})
-    add_body(scene, Motion::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0}).gravity_factor = factor;
+    add_body(scene, Motion::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0}).gravity_factor =
+        factor;
   World world(scene);
   run(world, 60);
   for (size_t i = 0; i < scene.bodies.size(); ++i)
@@ -102,14 +104,17 @@ TEST_CASE("free spin keeps its angular momentum and its energy", "[physics]")
     for (size_t i = 0; i < now.size(); ++i) {
       const Body &body = scene.bodies[i];
       const Vector before = spin_momentum(scene, body, start[i]), after = spin_momentum(scene, body, now[i]);
-      const double energy_before = before.dot(vector_of(start[i].angular_velocity)), energy_after = after.dot(vector_of(now[i].angular_velocity));
+      const double energy_before = before.dot(vector_of(start[i].angular_velocity)),
+                   energy_after = after.dot(vector_of(now[i].angular_velocity));
       worst_momentum = std::max(worst_momentum, (after - before).norm() / before.norm());
       worst_energy = std::max(worst_energy, std::abs(energy_after / energy_before - 1));
     }
   }
-  INFO("free spin at " << speed << " rad/s, 10 s: drift of angular momentum " << worst_momentum << ", of energy " << worst_energy);
+  INFO("free spin at " << speed << " rad/s, 10 s: drift of angular momentum " << worst_momentum << ", of energy "
+                       << worst_energy);
   CHECK(worst_momentum < 1e-4);
-  /* The explicit midpoint rule keeps L by construction, up to rounding, and energy to second order in angle per substep. */
+  /* The explicit midpoint rule keeps L by construction, up to rounding, and energy to second order in angle per
+   * substep. */
   CHECK(worst_energy < (speed > 20 ? 3e-2 : speed > 5 ? 1e-3 : 1e-4));
 }
 
@@ -125,11 +130,14 @@ TEST_CASE("a body spinning about its middle axis flips on time", "[physics]")
     world.step();
     const std::vector<BodyState> states = world.bodies();
     for (size_t i = 0; i < 2; ++i)
-      clocks[i].note(step / 60.0, (axes_of(states[i].orientation).transpose() * vector_of(states[i].angular_velocity)).y());
+      clocks[i].note(step / 60.0,
+                     (axes_of(states[i].orientation).transpose() * vector_of(states[i].angular_velocity)).y());
   }
   for (size_t i = 0; i < 2; ++i) {
-    const double expected = flip_interval(moments_of(scene, scene.bodies[i]), vector_of(scene.bodies[i].angular_velocity));
-    INFO("flip of body " << i << " tilted by " << tilt << ": " << clocks[i].interval() << " s, theory " << expected << " s, " << clocks[i].flips() << " flips");
+    const double expected =
+        flip_interval(moments_of(scene, scene.bodies[i]), vector_of(scene.bodies[i].angular_velocity));
+    INFO("flip of body " << i << " tilted by " << tilt << ": " << clocks[i].interval() << " s, theory " << expected
+                         << " s, " << clocks[i].flips() << " flips");
     REQUIRE(clocks[i].flips() >= 3);
     CHECK(clocks[i].interval() == Approx(expected).epsilon(0.01));
   }

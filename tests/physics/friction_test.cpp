@@ -1,6 +1,5 @@
 /* Friction: the cone on an incline, stopping distances, rolling. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -53,7 +52,8 @@ TEST_CASE("a box on an incline slips at atan mu", "[physics]")
       const double expected = 0.5 * 4 * gravity * (std::sin(angles[i]) - coefficients[k] * std::cos(angles[i]));
       if (side * finest >= 2) CHECK(slid == Approx(expected).epsilon(0.05));
     }
-    INFO("mu " << coefficients[k] << ": slips at " << slips_at << " degrees, theory " << std::atan(coefficients[k]) / radians);
+    INFO("mu " << coefficients[k] << ": slips at " << slips_at << " degrees, theory "
+               << std::atan(coefficients[k]) / radians);
     CHECK(std::abs(slips_at - std::atan(coefficients[k]) / radians) <= 2);
   }
   INFO("largest creep in 2 s, 2 degrees and more below the cone: " << creep << " m");
@@ -65,12 +65,15 @@ TEST_CASE("a sliding box stops after v^2 / (2 mu g)", "[physics]")
   Scene scene = empty_scene();
   add_ground(scene).material = add_material(scene, 0);
   scene.materials.back().friction_combine = Combine::maximum;
-  struct Slide { double mu, speed; };
+  struct Slide {
+    double mu, speed;
+  };
   const std::vector<Slide> slides{{0.2, 2}, {0.2, 5}, {0.5, 2}, {0.5, 5}, {0.9, 5}};
   for (const Slide &slide : slides) {
     const uint32_t material = add_material(scene, float(slide.mu));
     scene.materials[material].friction_combine = Combine::maximum;
-    Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 3.0f * float(scene.bodies.size())});
+    Body &box =
+        add_body(scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 3.0f * float(scene.bodies.size())});
     box.linear_velocity = {float(slide.speed), 0, 0};
     box.material = material;
   }
@@ -79,7 +82,8 @@ TEST_CASE("a sliding box stops after v^2 / (2 mu g)", "[physics]")
   for (size_t i = 0; i < slides.size(); ++i) {
     const BodyState box = world.bodies()[i + 1];
     const double expected = slides[i].speed * slides[i].speed / (2 * slides[i].mu * gravity);
-    INFO("mu " << slides[i].mu << ", " << slides[i].speed << " m/s: stops after " << box.position[0] << " m, theory " << expected);
+    INFO("mu " << slides[i].mu << ", " << slides[i].speed << " m/s: stops after " << box.position[0] << " m, theory "
+               << expected);
     CHECK(box.position[0] == Approx(expected).epsilon(0.03));
     CHECK(vector_of(box.linear_velocity).norm() < 1e-3);
   }
@@ -96,7 +100,9 @@ TEST_CASE("static friction holds what dynamic friction would not", "[physics]")
   World world(scene);
   const std::vector<BodyState> start = world.bodies();
   run(world, 60);
-  const auto slid = [&](size_t i) { return (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm(); };
+  const auto slid = [&](size_t i) {
+    return (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm();
+  };
   CHECK(slid(1) < 0.005);
   const double angle = std::atan(0.6), speed = std::hypot(1, 0.6);
   CHECK(slid(3) == Approx(speed + 0.5 * gravity * (std::sin(angle) - 0.3 * std::cos(angle))).epsilon(0.05));
@@ -115,7 +121,8 @@ TEST_CASE("a sliding ball ends up rolling at 5/7 of its speed", "[physics]")
   const double rolling = world.bodies()[1].linear_velocity[0];
   run(world, 600);
   const BodyState ball = world.bodies()[1];
-  INFO("rolling ball: " << rolling / speed << " after slipping, " << ball.linear_velocity[0] / speed << " 10 s later, theory " << 5.0 / 7);
+  INFO("rolling ball: " << rolling / speed << " after slipping, " << ball.linear_velocity[0] / speed
+                        << " 10 s later, theory " << 5.0 / 7);
   CHECK(rolling == Approx(5.0 / 7 * speed).epsilon(0.001));
   CHECK(ball.linear_velocity[0] == Approx(5.0 / 7 * speed).epsilon(0.002));
   CHECK(-ball.angular_velocity[2] * radius == Approx(ball.linear_velocity[0]).epsilon(0.001));
@@ -124,9 +131,10 @@ TEST_CASE("a sliding ball ends up rolling at 5/7 of its speed", "[physics]")
 /* Sliding boxes on platforms of another material: the deceleration tells the coefficient in effect. */
 TEST_CASE("materials combine by the rule that stands first, and geometric mean yields", "[physics]")
 {
-  const std::vector<Combine> rules{Combine::average, Combine::minimum, Combine::maximum, Combine::multiply, Combine::geometric_mean};
+  const std::vector<Combine> rules{Combine::average, Combine::minimum, Combine::maximum, Combine::multiply,
+                                   Combine::geometric_mean};
   const double mu[2] = {0.2, 0.8}, bounce[2] = {0.25, 0.75};
-  const auto combine = [](Combine a, Combine b, const double (&v)[2]) {
+  const auto combine = [](Combine a, Combine b, const double(&v)[2]) {
     switch (std::min(a, b)) {
     case Combine::average: return 0.5 * (v[0] + v[1]);
     case Combine::minimum: return v[0];

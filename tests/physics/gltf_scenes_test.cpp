@@ -1,13 +1,14 @@
-/* The scenes that come with the glTF physics extensions do what their tables say: one row a scene, closed forms where there are any.
+/* The scenes that come with the glTF physics extensions do what their tables say: one row a scene, closed forms where
+ * there are any.
  *
  * They lie beside the source, not in it (tests/host/io/gltf/gltf_scenes.h); without them the tests are skipped. */
-#include "tests/catch.h"
+#include <map>
 
 #include <fmt/format.h>
-#include <map>
 
 #include "host/geometry/convex_hull.h"
 #include "host/io/gltf/scene.h"
+#include "tests/catch.h"
 #include "tests/host/io/gltf/gltf_scenes.h"
 #include "tests/parity/parity.h"
 #include "tests/physics/solids.h"
@@ -28,12 +29,18 @@ struct Course {
     while (double(world.statistics().steps) < std::round(60 * seconds)) world.step();
   }
   BodyState state(size_t body) { return world.bodies()[body]; }
-  Vector place(size_t body) { return middle_of(scene.bodies[body], state(body)); } /* of the shape's frame, which is the node */
+  Vector place(size_t body)
+  {
+    return middle_of(scene.bodies[body], state(body));
+  } /* of the shape's frame, which is the node */
   Vector velocity(size_t body) { return vector_of(state(body).linear_velocity); }
   Vector spin(size_t body) { return vector_of(state(body).angular_velocity); }
   Vector moved(size_t body) { return vector_of(state(body).position) - vector_of(start[body].position); }
   Quat orientation(size_t body) { return state(body).orientation; }
-  bool stands_still(size_t body) { return moved(body) == Vector(0, 0, 0) && orientation(body) == start[body].orientation; }
+  bool stands_still(size_t body)
+  {
+    return moved(body) == Vector(0, 0, 0) && orientation(body) == start[body].orientation;
+  }
 
   Scene scene;
   World world;
@@ -46,7 +53,7 @@ double angle_between(const Quat &a, const Quat &b)
   return std::acos(std::clamp((turn.trace() - 1) / 2, -1.0, 1.0));
 }
 
-/* --- CollisionFilter: one body rests on the floor (its top at y = 0), the other sinks in or falls through ---------------------------- */
+/* --- CollisionFilter: one body rests on the floor (its top at y = 0), the other sinks in or falls through --- */
 
 void rests(Course &course, size_t body, double height)
 {
@@ -63,7 +70,8 @@ void left_rests_right_falls_through(Course &course)
   CHECK(course.moved(1).y() == Approx(-0.5 * earth * 4).epsilon(1e-4));
 }
 
-/* Two cubes one above the other, of which the filters let the upper one through the floor; the right pair stands on its head. */
+/* Two cubes one above the other, of which the filters let the upper one through the floor; the right pair stands on its
+ * head. */
 void left_rests_right_sinks_to_its_upper_cube(Course &course)
 {
   course.until(3);
@@ -72,7 +80,7 @@ void left_rests_right_sinks_to_its_upper_cube(Course &course)
   for (size_t body : {0, 1}) CHECK(angle_between(course.orientation(body), course.start[body].orientation) < 0.002);
 }
 
-/* --- Materials ------------------------------------------------------------------------------------------------------------------------ */
+/* --- Materials --- */
 
 /* From the height 4 of the lowest point: bounces to e^2 of it. */
 double height_of_bounce(Course &course, size_t body)
@@ -108,7 +116,8 @@ void left_stays_right_bounces_to_a_quarter(Course &course)
   bounce(course.scene, 1, 0.5);
 }
 
-/* On a slope of 45 degrees: the average of 0 and the default 0.6 lets slide at g (sin - 0.3 cos), that of 10 and 0.6 holds. */
+/* On a slope of 45 degrees: the average of 0 and the default 0.6 lets slide at g (sin - 0.3 cos), that of 10 and 0.6
+ * holds. */
 void left_slides_right_sticks(Course &course)
 {
   course.until(1);
@@ -120,7 +129,7 @@ void left_slides_right_sticks(Course &course)
   CHECK(course.moved(1).norm() < 0.005);
 }
 
-/* --- MotionProperties ----------------------------------------------------------------------------------------------------------------- */
+/* --- MotionProperties --- */
 
 void floats(Course &course)
 {
@@ -179,10 +188,11 @@ void stands_on_a_corner_without_turning(Course &course)
   CHECK(tipping.place(1).y() < 0);
 }
 
-/* --- ColliderTypeMatrix: the second body comes to rest on the first, which is fixed --------------------------------------------------- */
+/* --- ColliderTypeMatrix: the second body comes to rest on the first, which is fixed --- */
 
-/* sphere, box, capsule, cylinder, hull, mesh: the top of the fixed one, and how high the origin of the other stands on it. The table asks
- * for bodies "above the XZ plane"; the fixed box lies half a metre below it, and what it carries stands there. */
+/* sphere, box, capsule, cylinder, hull, mesh: the top of the fixed one, and how high the origin of the other stands on
+ * it. The table asks for bodies "above the XZ plane"; the fixed box lies half a metre below it, and what it carries
+ * stands there. */
 constexpr double tops[] = {1, -0.5, 1, 1, 0, 0}, heights[] = {1, 0.5, 0.75, 0.5, 0, 0};
 
 void stays_on_top(Course &course, size_t below, size_t above)
@@ -200,7 +210,8 @@ void stays_on_top(Course &course, size_t below, size_t above)
   }
 }
 
-/* The surface of the hull: what the table calls a triangle mesh. The file's meshes are closed and convex, and load as hulls. */
+/* The surface of the hull: what the table calls a triangle mesh. The file's meshes are closed and convex, and load as
+ * hulls. */
 void make_mesh(Shape &shape)
 {
   if (!shape.hull) return;
@@ -216,10 +227,13 @@ struct Row {
   void (*holds)(Course &);
 };
 const Row rows[] = {
-    {"CollisionFilter_00", "collideWithSystems: the left ball rests, the right one falls through", left_rests_right_falls_through},
+    {"CollisionFilter_00", "collideWithSystems: the left ball rests, the right one falls through",
+     left_rests_right_falls_through},
     {"CollisionFilter_01", "notCollideWithSystems: the same", left_rests_right_falls_through},
-    {"CollisionFilter_02", "collideWithSystems of two colliders each: the left pair rests, the right one sinks in", left_rests_right_sinks_to_its_upper_cube},
-    {"CollisionFilter_03", "notCollideWithSystems of two colliders each: the same", left_rests_right_sinks_to_its_upper_cube},
+    {"CollisionFilter_02", "collideWithSystems of two colliders each: the left pair rests, the right one sinks in",
+     left_rests_right_sinks_to_its_upper_cube},
+    {"CollisionFilter_03", "notCollideWithSystems of two colliders each: the same",
+     left_rests_right_sinks_to_its_upper_cube},
     {"Materials_00", "high and low restitution", left_bounces_to_a_quarter_right_to_all},
     {"Materials_01", "combine modes minimum and maximum", left_stays_right_bounces_to_a_quarter},
     {"Materials_02", "high and low friction", left_slides_right_sticks},
@@ -293,5 +307,6 @@ TEST_CASE("parity on OpenCL: glTF's own scenes")
   settings.specialise = false;
   const std::vector<Scene> scenes = all_scenes();
   const size_t stride = std::getenv("TANDEM_ALL_GLTF_SCENES") ? 1 : 7;
-  for (size_t i = 2; i < scenes.size() + 2; i += stride) parity::require_parity(scenes[i % scenes.size()], {"serial", "cl:pocl"}, 90, settings);
+  for (size_t i = 2; i < scenes.size() + 2; i += stride)
+    parity::require_parity(scenes[i % scenes.size()], {"serial", "cl:pocl"}, 90, settings);
 }

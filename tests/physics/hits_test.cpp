@@ -1,8 +1,7 @@
-/* What hits is noticed in the step in which it hits, however fast it comes and wherever it starts: no solver can stop what no contact
- * was made for.
+/* What hits is noticed in the step in which it hits, however fast it comes and wherever it starts: no solver can stop
+ * what no contact was made for.
  */
 #include "tests/catch.h"
-
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -12,7 +11,8 @@ namespace {
 
 constexpr double step = 1.0 / 60, half = 0.25, apart = 40; /* s, m, m between the lanes */
 
-/* Cubes start where the balls around them and around a fixed cube are apart; their middles come into it within one step. */
+/* Cubes start where the balls around them and around a fixed cube are apart; their middles come into it within one
+ * step. */
 Scene hits(const Shape &flying, const Shape &standing, int lanes)
 {
   Random random(11);
@@ -97,7 +97,8 @@ TEST_CASE("what hits hardly ever passes: one in a hundred of fast bodies that fr
 TEST_CASE("what hits is noticed: fast boxes and hulls that start beside what they meet within the step", "[physics]")
 {
   const float size = float(half);
-  const Shape box = box_shape(size, size, size), hull = hull_of_box(size, size, size), mesh = mesh_of_box(size, size, size);
+  const Shape box = box_shape(size, size, size), hull = hull_of_box(size, size, size),
+              mesh = mesh_of_box(size, size, size);
   CHECK(unnoticed(hits(box, box, 2000), {}) == 0);
   CHECK(unnoticed(hits(box, hull, 2000), {}) == 0);
   CHECK(unnoticed(hits(hull, hull, 2000), {}) == 0);

@@ -1,10 +1,8 @@
-/* Constraints solved all at once on bodies split by mass: momentum stays whatever the iteration has reached, a plate under many
- * spheres parts from them as theory says, and the tail of a laden body carries its load. */
-#include "tests/catch.h"
-
-#include "tests/physics/laden.h"
-
+/* Constraints solved all at once on bodies split by mass: momentum stays whatever the iteration has reached, a plate
+ * under many spheres parts from them as theory says, and the tail of a laden body carries its load. */
 #include "host/runtime/interface/kernel_list.h"
+#include "tests/catch.h"
+#include "tests/physics/laden.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -39,13 +37,14 @@ TEST_CASE("a body of very many constraints keeps momentum", "[physics]")
   const float restitution = GENERATE(0.0f, 0.5f);
   const int side = GENERATE(12, 36);
   const Drift drift = momentum_drift(laden_slab(side, restitution), settings_for(solver), "tbb", side == 12 ? 30 : 6);
-  INFO(solver << ", " << side * side << " boxes, restitution " << restitution << ": momentum " << drift.linear << ", angular " << drift.angular);
+  INFO(solver << ", " << side * side << " boxes, restitution " << restitution << ": momentum " << drift.linear
+              << ", angular " << drift.angular);
   CHECK(drift.linear < 1e-5);
   CHECK(drift.angular < 1e-5);
 }
 
-/* n spheres of mass m fall at the same speed u on a free plate of mass M: one inelastic impact, v = n m u / (n m + M). (The soft step lets
- * colours push one after the other, so the first to be solved overshoot and part.) */
+/* n spheres of mass m fall at the same speed u on a free plate of mass M: one inelastic impact, v = n m u / (n m + M).
+ * (The soft step lets colours push one after the other, so the first to be solved overshoot and part.) */
 TEST_CASE("spheres that land on a free plate at once move on with it", "[physics]")
 {
   const float plate_mass = GENERATE(2.0f, 200.0f);
@@ -71,8 +70,8 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
   CHECK(worst < 0.02 * speed);
 }
 
-/* Twenty by twenty boxes of ten times the mass of the slab on it, on the ground. With the tail solved in order by one item they
- * sank in by 6.1 mm and never came to rest. */
+/* Twenty by twenty boxes of ten times the mass of the slab on it, on the ground. With the tail solved in order by one
+ * item they sank in by 6.1 mm and never came to rest. */
 TEST_CASE("a tail carries its load at rest", "[physics]")
 {
   const std::string solver = GENERATE("soft-step", "pgs", "nncg", "xpbd", "direct");
@@ -86,7 +85,8 @@ TEST_CASE("a tail carries its load at rest", "[physics]")
   CHECK(world.statistics().kinetic_energy < 1e-6);
   double moved = 0;
   const std::vector<BodyState> now = world.bodies();
-  for (size_t i = 0; i < now.size(); ++i) moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
+  for (size_t i = 0; i < now.size(); ++i)
+    moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
   INFO(solver << ", 400 boxes on a slab: moved " << moved << " m, penetration " << world.statistics().max_penetration);
   CHECK(moved < 0.02);
 }

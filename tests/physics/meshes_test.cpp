@@ -1,9 +1,9 @@
-/* Triangle meshes as ground and as bodies: their inner edges are felt by nobody, their valleys and ridges by everybody. */
-#include "tests/catch.h"
-
+/* Triangle meshes as ground and as bodies: their inner edges are felt by nobody, their valleys and ridges by
+ * everybody. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -18,7 +18,8 @@ Shape profile_mesh(const std::vector<std::array<double, 2>> &profile)
   std::vector<uint32_t> indices;
   for (const auto &[x, y] : profile)
     for (float z : {-4.0f, 4.0f}) vertices.push_back({float(x), float(y), z});
-  for (uint32_t i = 0; i + 3 < vertices.size(); i += 2) indices.insert(indices.end(), {i, i + 1, i + 2, i + 2, i + 1, i + 3});
+  for (uint32_t i = 0; i + 3 < vertices.size(); i += 2)
+    indices.insert(indices.end(), {i, i + 1, i + 2, i + 2, i + 1, i + 3});
   return mesh_shape(vertices, indices, "profile");
 }
 
@@ -127,7 +128,8 @@ TEST_CASE("what comes from behind passes a mesh, what comes from before does not
 {
   Scene scene = empty_scene({0, 0, 0});
   add_mesh(scene, profile_mesh({{-3, 0}, {0, 0}, {3, 0}}));
-  const Shape shapes[] = {sphere_shape(0.2f), box_shape(0.2f, 0.2f, 0.2f), capsule_shape(0.1f, 0.1f), hull_of_box(0.2f, 0.2f, 0.2f)};
+  const Shape shapes[] = {sphere_shape(0.2f), box_shape(0.2f, 0.2f, 0.2f), capsule_shape(0.1f, 0.1f),
+                          hull_of_box(0.2f, 0.2f, 0.2f)};
   for (int k = 0; k < 4; ++k) {
     add_solid(scene, shapes[k], {k - 1.5, -1, 1}).linear_velocity = {0, 3, 0};
     add_solid(scene, shapes[k], {k - 1.5, 1, -1}).linear_velocity = {0, -3, 0};
@@ -152,7 +154,8 @@ TEST_CASE("a closed mesh falls, rests and turns as the box it is", "[physics]")
   add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {6, 1.25, 0});
   add_solid(scene, mesh_of_box(0.5f, 0.5f, 0.5f), {9, 0.5, 0});
   add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {9.03, 1.25, 0.02}, turn_about({0, 1, 0}, 0.3));
-  const Vec3 moments = inertia_of(scene.shapes[scene.bodies[1].shape], 1), expected = inertia_of(box_shape(0.3f, 0.2f, 0.4f), 1);
+  const Vec3 moments = inertia_of(scene.shapes[scene.bodies[1].shape], 1),
+             expected = inertia_of(box_shape(0.3f, 0.2f, 0.4f), 1);
   for (size_t k = 0; k < 3; ++k) CHECK(moments[k] == Approx(expected[k]).epsilon(1e-6));
   World world(scene);
   run(world, 400);
@@ -163,7 +166,8 @@ TEST_CASE("a closed mesh falls, rests and turns as the box it is", "[physics]")
     CHECK(vector_of(states[size_t(body)].linear_velocity).norm() < 0.01);
   }
   const double heights[] = {0.2, 0.3, 0.4}; /* the thrown one lies on some side */
-  CHECK(std::any_of(std::begin(heights), std::end(heights), [&](double height) { return std::abs(states[2].position[1] - height) < 0.01; }));
+  CHECK(std::any_of(std::begin(heights), std::end(heights),
+                    [&](double height) { return std::abs(states[2].position[1] - height) < 0.01; }));
   CHECK(world.statistics().max_penetration < 0.008);
 }
 
@@ -172,7 +176,9 @@ TEST_CASE("closed meshes collide in free space and keep their momentum", "[physi
   Scene scene = empty_scene({0, 0, 0});
   Random random(5);
   for (int k = 0; k < 12; ++k) {
-    Body &body = add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)}, random.orientation());
+    Body &body = add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f),
+                           {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)},
+                           random.orientation());
     body.linear_velocity = vec3_of(-2 * vector_of(body.position));
   }
   World world(scene);

@@ -1,10 +1,9 @@
 /* What misses goes on: bodies that fly by something without touching it keep their kinetic energy, in every solver.
  *
- * Whatever stands below lies under the plane y = 0 and reaches up to it; whatever flies stays above y = clearance, for it only
- * turns about the vertical. So none touches, however fast it is and wherever it stands when a step starts.
+ * Whatever stands below lies under the plane y = 0 and reaches up to it; whatever flies stays above y = clearance, for
+ * it only turns about the vertical. So none touches, however fast it is and wherever it stands when a step starts.
  */
 #include "tests/catch.h"
-
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -37,8 +36,9 @@ Shape roof(float half_length, float half_width, float height)
 }
 
 enum class Obstacle { face, edge, corner, thin, mesh_edge, mesh_box, compound, flat_rotor, upright_rotor };
-constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,     Obstacle::corner,     Obstacle::thin,         Obstacle::mesh_edge,
-                                  Obstacle::mesh_box, Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
+constexpr Obstacle obstacles[] = {Obstacle::face,     Obstacle::edge,       Obstacle::corner,
+                                  Obstacle::thin,     Obstacle::mesh_edge,  Obstacle::mesh_box,
+                                  Obstacle::compound, Obstacle::flat_rotor, Obstacle::upright_rotor};
 
 Child child(const Shape &shape, const Vec3 &position)
 {
@@ -52,7 +52,8 @@ Child child(const Shape &shape, const Vec3 &position)
 void add_obstacle(Scene &scene, Obstacle kind, double z, double yaw)
 {
   const Eigen::Quaterniond about(Eigen::AngleAxisd(yaw, Vector::UnitY()));
-  const auto stand = [&](const Shape &shape, double height, const Vector &axis = Vector::UnitX(), double angle = 0) -> Body & {
+  const auto stand = [&](const Shape &shape, double height, const Vector &axis = Vector::UnitX(),
+                         double angle = 0) -> Body & {
     const Eigen::Quaterniond turn = about * Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
     Body &body = add_body(scene, Motion::fixed, shape, {0, height, z});
     body.orientation = {float(turn.x()), float(turn.y()), float(turn.z()), float(turn.w())};
@@ -73,7 +74,8 @@ void add_obstacle(Scene &scene, Obstacle kind, double z, double yaw)
   case Obstacle::mesh_edge: stand(roof(0.5f, 0.2f, 0.4f), 0); break;
   case Obstacle::mesh_box: stand(mesh_of_box(0.3f, 0.2f, 0.25f), -0.2f); break;
   case Obstacle::compound:
-    stand(compound_shape({child(box_shape(0.2f, 0.2f, 0.3f), {0.21f, -0.2f, 0}), child(sphere_shape(0.2f), {-0.2f, -0.2f, 0}),
+    stand(compound_shape({child(box_shape(0.2f, 0.2f, 0.3f), {0.21f, -0.2f, 0}),
+                          child(sphere_shape(0.2f), {-0.2f, -0.2f, 0}),
                           child(cylinder_shape(0.1f, 0.3f), {0, -0.31f, 0})}),
           0);
     break;
@@ -118,21 +120,25 @@ Scene flights(Obstacle obstacle, double clearance, double speed, uint64_t seed, 
     body.position = {-random.uniform(0.8, 0.8 + speed / 60), below + clearance, z + random.uniform(-0.2, 0.2)};
     body.linear_velocity = {float(speed), 0, 0};
     body.angular_velocity = {0, float(random.below(2) ? random.uniform(-100, 100) : 0), 0};
-    if (shape.type != ShapeType::sphere) body.inertia = {0.001f, 0.001f, 0.001f}; /* so that it keeps turning about the vertical */
+    if (shape.type != ShapeType::sphere)
+      body.inertia = {0.001f, 0.001f, 0.001f}; /* so that it keeps turning about the vertical */
     body.continuous = continuous;
   }
   return scene;
 }
 
-/* Cubes that glide over obstacles, face to face, or fall along their sides. They start before the edge and end beyond it. */
+/* Cubes that glide over obstacles, face to face, or fall along their sides. They start before the edge and end beyond
+ * it. */
 Scene glides(uint64_t seed, int lanes)
 {
   Random random(seed);
   Scene scene = bouncy_scene({0, 0, 0}, 0.3f);
   for (int lane = 0; lane < lanes; ++lane) {
     const float half = lane % 2 ? 0.5f : 2, small = 0.4f * half;
-    const double z = 3 * apart * lane, clearance = logarithmic(random, 0.0005, 0.003), speed = logarithmic(random, 0.05, 0.5);
-    const Shape obstacles[] = {box_shape(half, half, half), mesh_of_box(half, half, half), hull_of_box(half, half, half)};
+    const double z = 3 * apart * lane, clearance = logarithmic(random, 0.0005, 0.003),
+                 speed = logarithmic(random, 0.05, 0.5);
+    const Shape obstacles[] = {box_shape(half, half, half), mesh_of_box(half, half, half),
+                               hull_of_box(half, half, half)};
     const Shape movers[] = {box_shape(small, small, small), hull_of_box(small, small, small)};
     add_body(scene, Motion::fixed, obstacles[lane % 3], {0, 0, z});
     const bool falls = random.below(2) == 1;
@@ -235,7 +241,8 @@ double farthest_from_free_fall(const Scene &scene, Settings settings, double ste
   return farthest;
 }
 
-/* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the other. */
+/* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the other.
+ */
 Scene spinners(uint64_t seed)
 {
   Random random(seed);
@@ -245,7 +252,8 @@ Scene spinners(uint64_t seed)
     const float size = float(logarithmic(random, 0.03, 0.5)), thin = size * float(random.uniform(0.05, 0.3));
     const Shape shapes[] = {box_shape(size, thin, thin), hull_of_box(size, thin, thin), capsule_shape(thin, size)};
     const bool is_wall = random.uniform(0, 1) < 0.5;
-    const double reach = std::hypot(size, thin * std::sqrt(2)) + thin, x = (is_wall ? 0.1 : 0.2) + reach + logarithmic(random, 0.001, 0.02);
+    const double reach = std::hypot(size, thin * std::sqrt(2)) + thin,
+                 x = (is_wall ? 0.1 : 0.2) + reach + logarithmic(random, 0.001, 0.02);
     add_solid(scene, is_wall ? box_shape(0.1f, 1, 1) : sphere_shape(0.2f), {0, 0, z});
     Body &body = add_solid(scene, shapes[lane % 3], {x, 0, z}, any_turn(random));
     body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 20, 400));
@@ -275,19 +283,23 @@ Scene past_turning_boxes(uint64_t seed)
   return scene;
 }
 
-/* Balls that spin fly by round bodies that spin, too, about their axes. All can be pushed, so the arms of what is between them follow half
- * of what they slide, and turn with them. */
+/* Balls that spin fly by round bodies that spin, too, about their axes. All can be pushed, so the arms of what is
+ * between them follow half of what they slide, and turn with them. */
 Scene past_round_spinners(uint64_t seed, double step)
 {
   Random random(seed);
   Scene scene = bouncy_scene({0, 0, 0}, 0.5f);
   for (int lane = 0; lane < 300; ++lane) {
-    const double z = 20.0 * lane, around = logarithmic(random, 0.1, 2), height = around * random.uniform(0.5, 2), radius = logarithmic(random, 0.05, 1);
-    const Shape shapes[] = {sphere_shape(float(around)), cylinder_shape(float(around), float(height)), capsule_shape(float(around), float(height))};
+    const double z = 20.0 * lane, around = logarithmic(random, 0.1, 2), height = around * random.uniform(0.5, 2),
+                 radius = logarithmic(random, 0.05, 1);
+    const Shape shapes[] = {sphere_shape(float(around)), cylinder_shape(float(around), float(height)),
+                            capsule_shape(float(around), float(height))};
     Body &round = add_solid(scene, shapes[lane % 3], {0, 0, z}, {0, 0, 0, 1}, 1000);
     round.angular_velocity = {0, float(logarithmic(random, 0.3, 30)), 0};
-    const double speed = logarithmic(random, 1, 300), start = speed * step * random.uniform(0, 3) + random.uniform(0, 1);
-    const double y = lane % 3 == 0 ? 0 : 0.9 * height * random.uniform(-1, 1), beside = around + radius + logarithmic(random, 1e-3, 2e-2);
+    const double speed = logarithmic(random, 1, 300),
+                 start = speed * step * random.uniform(0, 3) + random.uniform(0, 1);
+    const double y = lane % 3 == 0 ? 0 : 0.9 * height * random.uniform(-1, 1),
+                 beside = around + radius + logarithmic(random, 1e-3, 2e-2);
     Body &ball = add_solid(scene, sphere_shape(float(radius)), {-start - around - radius, y, z + beside});
     ball.linear_velocity = {float(speed), 0, 0};
     ball.angular_velocity = vec3_of(direction(random) * 30.0);

@@ -1,6 +1,6 @@
-/* Closed systems: whatever collides, linear and angular momentum stay, and kinetic energy grows at most by what is stated. */
+/* Closed systems: whatever collides, linear and angular momentum stay, and kinetic energy grows at most by what is
+ * stated. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -64,9 +64,9 @@ TEST_CASE("collisions of many bodies conserve linear and angular momentum", "[ph
   const float friction = GENERATE(0.0f, 0.6f), restitution = GENERATE(0.0f, 0.5f, 1.0f);
   const uint64_t seed = GENERATE(1, 2, 3);
   const Worst worst = run_collision(collision(seed, friction, restitution), {}, {}, 120);
-  INFO("friction " << friction << ", restitution " << restitution << ", seed " << seed << ": momentum " << worst.linear << ", angular "
-                   << worst.angular << ", energy grown " << worst.energy_growth << ", lost " << worst.energy_lost << ", contacts "
-                   << worst.contacts);
+  INFO("friction " << friction << ", restitution " << restitution << ", seed " << seed << ": momentum " << worst.linear
+                   << ", angular " << worst.angular << ", energy grown " << worst.energy_growth << ", lost "
+                   << worst.energy_lost << ", contacts " << worst.contacts);
   CHECK(worst.contacts > 20);
   CHECK(worst.linear < 1e-5);
   CHECK(worst.angular < 1e-5);
@@ -103,14 +103,15 @@ TEST_CASE("an impact of two bodies conserves momentum and adds hardly any energy
   Random random(11);
   Worst worst;
   for (int kind = 0; kind < 30; ++kind) {
-    const Worst one = run_collision(impact(random, kind, friction, restitution), {}, Placement{"serial", {}, false}, 60);
+    const Worst one =
+        run_collision(impact(random, kind, friction, restitution), {}, Placement{"serial", {}, false}, 60);
     CHECK(one.contacts > 0);
     worst.linear = std::max(worst.linear, one.linear);
     worst.angular = std::max(worst.angular, one.angular);
     worst.energy_growth = std::max(worst.energy_growth, one.energy_growth);
   }
-  INFO("pairs, friction " << friction << ", restitution " << restitution << ": momentum " << worst.linear << ", angular " << worst.angular
-                          << ", energy grown " << worst.energy_growth);
+  INFO("pairs, friction " << friction << ", restitution " << restitution << ": momentum " << worst.linear
+                          << ", angular " << worst.angular << ", energy grown " << worst.energy_growth);
   CHECK(worst.linear < 1e-5);
   CHECK(worst.angular < 1e-5);
   /* Pushing out of penetration and taking its speed out again is one step of an iteration each for a box on several

@@ -1,6 +1,5 @@
 /* Kinematic bodies carry and push; filters let bodies pass each other. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -49,14 +48,19 @@ TEST_CASE("a turning kinematic platform turns what stands on it", "[physics]")
 
 TEST_CASE("bodies collide only when both accept the other's group", "[physics]")
 {
-  struct Case { uint32_t group, mask; bool stands; };
-  const std::vector<Case> cases{{1, 0xffffffffu, true}, {2, 0xffffffffu, false}, {1, 2, false}, {1, 4, true}, {3, 6, true}, {2, 1, false}};
+  struct Case {
+    uint32_t group, mask;
+    bool stands;
+  };
+  const std::vector<Case> cases{
+      {1, 0xffffffffu, true}, {2, 0xffffffffu, false}, {1, 2, false}, {1, 4, true}, {3, 6, true}, {2, 1, false}};
   Scene scene = empty_scene();
   Body &platform = add_body(scene, Motion::fixed, box_shape(30, 0.5f, 2), {0, -0.5f, 0});
   platform.filter_group = 4;
   platform.filter_mask = 1;
   for (const Case &each : cases) {
-    Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.25f), {-10 + 2.0f * float(scene.bodies.size()), 0.3f, 0});
+    Body &ball =
+        add_body(scene, Motion::dynamic, sphere_shape(0.25f), {-10 + 2.0f * float(scene.bodies.size()), 0.3f, 0});
     ball.filter_group = each.group;
     ball.filter_mask = each.mask;
   }

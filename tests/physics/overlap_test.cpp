@@ -1,6 +1,5 @@
 /* Starts that should not be: bodies in one place. They part, and neither fly away nor climb. */
 #include "tests/catch.h"
-
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -33,7 +32,8 @@ Energy energy_of(World &world, size_t first)
   return {sum.kinetic / n, (sum.gained + sum.kinetic) / n};
 }
 
-/* Rods, cubes and plates, some continuous, that fly through each other among slabs, a third of which turn and a third of which are heavy. */
+/* Rods, cubes and plates, some continuous, that fly through each other among slabs, a third of which turn and a third
+ * of which are heavy. */
 Scene fast_crowd(uint64_t seed)
 {
   Random random(seed);
@@ -94,8 +94,8 @@ TEST_CASE("bodies in one place in empty space part, keep their momentum and hard
 }
 
 /* 0.3 m deep; deep is more than a tenth of half a metre, and slow a tenth of the push speed. */
-/* Long bodies that turn by radians within a step slide on arms and masses that are no longer theirs; friction for those drives them
- * to any speed. The slabs' rims move at 38 m/s, and what bounces between two of them gains twice that. */
+/* Long bodies that turn by radians within a step slide on arms and masses that are no longer theirs; friction for those
+ * drives them to any speed. The slabs' rims move at 38 m/s, and what bounces between two of them gains twice that. */
 TEST_CASE("bodies that fly through each other gain no speed by friction", "[physics]")
 {
   const std::string solver = GENERATE("soft-step", "pgs");
@@ -119,7 +119,8 @@ TEST_CASE("a box deep in a fixed one comes out slowly, at one speed, and stays w
   for (int i = 0; i < 300; ++i) {
     const double before = world.bodies()[0].position[1];
     world.step();
-    const double out = world.bodies()[0].position[1] - before, slow = 0.1 * world.settings().push_speed * world.settings().step;
+    const double out = world.bodies()[0].position[1] - before,
+                 slow = 0.1 * world.settings().push_speed * world.settings().step;
     if (before < 0.94) REQUIRE(out == Approx(slow).epsilon(0.02));
     REQUIRE(vector_of(world.bodies()[0].linear_velocity).norm() < 0.3);
   }

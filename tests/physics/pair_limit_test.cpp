@@ -1,12 +1,12 @@
 /* Room for pairs has a limit: a step that needs more fails whole, says so, and the world goes on. */
-#include "tests/catch.h"
-
 #include <fmt/format.h>
 
+#include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
-#include "host/catalog/catalog.h"
-#include <tandem/world.h>
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -86,7 +86,8 @@ TEST_CASE("as many pairs as are allowed are found, none fewer, and they change n
 {
   for (const std::string &broadphase : broadphase_names()) {
     CAPTURE(broadphase);
-    World exact(crowd(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}), free(crowd(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
+    World exact(crowd(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}),
+        free(crowd(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
     exact.step();
     free.step();
     CHECK(exact.statistics().pairs == all_pairs);
@@ -123,8 +124,8 @@ InRows in_rows_by_brute_force()
 
 } // namespace
 
-/* The list of changes may be longer than that of the pairs, as where every pair parts and every new one meets: then all that is kept is
- * forgotten, and the step runs again. */
+/* The list of changes may be longer than that of the pairs, as where every pair parts and every new one meets: then all
+ * that is kept is forgotten, and the step runs again. */
 TEST_CASE("a broadphase that keeps its list needs no more room for pairs than others")
 {
   const auto [most, hash] = in_rows_by_brute_force();
@@ -141,7 +142,8 @@ TEST_CASE("a broadphase that keeps its list needs no more room for pairs than ot
   free.step();
   exchange_neighbours(free);
   free.step();
-  CHECK(free.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL)[COUNT_CHANGES_FOUND] > most); /* so there is something to forget for */
+  CHECK(free.memory().read<uint32_t>(Buffer::counts, COUNT_TOTAL)[COUNT_CHANGES_FOUND] >
+        most); /* so there is something to forget for */
 }
 
 TEST_CASE("pairs of leaves count against the limit too")
@@ -171,7 +173,8 @@ TEST_CASE("tables past what kernels can number are refused by name before they a
   sizes.hulls.links = 5461u * 12u * 65536ull;
   CHECK_NOTHROW(check_size(Buffer::hull_link, sizes));
   sizes.hulls.links = 5462u * 12u * 65536ull;
-  CHECK_THROWS_WITH(check_size(Buffer::hull_link, sizes), Catch::Matchers::ContainsSubstring("hull_link") && Catch::Matchers::ContainsSubstring("4295491584"));
+  CHECK_THROWS_WITH(check_size(Buffer::hull_link, sizes), Catch::Matchers::ContainsSubstring("hull_link") &&
+                                                              Catch::Matchers::ContainsSubstring("4295491584"));
   sizes.pairs = 1u << 28;
   CHECK_NOTHROW(check_size(Buffer::split_point, sizes));
   sizes.pairs = (1u << 28) + 1;

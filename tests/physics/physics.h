@@ -5,15 +5,17 @@
  */
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
+#include <tandem/world.h>
+
 #include "host/base/random.h"
 #include "host/scene/specialise.h"
-#include <tandem/world.h>
 
 namespace tandem::physics_tests {
 

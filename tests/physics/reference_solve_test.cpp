@@ -1,15 +1,14 @@
-/* The reference solves contact problems as an independent solver does: a column of balls of unlike masses and random speeds, whose
- * impulses an enumeration of all sets of active contacts finds by dense solves (Eigen).
+/* The reference solves contact problems as an independent solver does: a column of balls of unlike masses and random
+ * speeds, whose impulses an enumeration of all sets of active contacts finds by dense solves (Eigen).
  *
  *   o  m3, v3      u = A p + J (v + h g),  A = J M^-1 J^T,  p >= 0, u >= 0, p u = 0
  *   o  m2, v2      one contact below each ball; of 2^n sets exactly one satisfies the signs, for A is positive definite
  *   o  m1, v1
  *  ---- ground
  */
-#include "tests/catch.h"
-
 #include <Eigen/Dense>
 
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -26,7 +25,8 @@ struct Column {
 Column random_column(Random &random, int n)
 {
   Column column{Values(n), Values(n)};
-  for (int k = 0; k < n; ++k) column.mass[k] = float(random.uniform(0.5, 5)), column.speed[k] = float(random.uniform(-3, 2));
+  for (int k = 0; k < n; ++k)
+    column.mass[k] = float(random.uniform(0.5, 5)), column.speed[k] = float(random.uniform(-3, 2));
   return column;
 }
 
@@ -50,7 +50,8 @@ Values solve_by_enumeration(const Column &column, double step)
       impulse(active) = solved;
     }
     const Values speeds = response * impulse + apart;
-    if (impulse.minCoeff() >= -1e-12 && speeds.minCoeff() >= -1e-12) return free + inverse_mass.cwiseProduct(jacobian.transpose() * impulse);
+    if (impulse.minCoeff() >= -1e-12 && speeds.minCoeff() >= -1e-12)
+      return free + inverse_mass.cwiseProduct(jacobian.transpose() * impulse);
   }
   FAIL("no set of active contacts solves the problem");
   return free;

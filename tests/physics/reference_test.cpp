@@ -1,7 +1,6 @@
-/* The reference backend: the same kernels in double, checked against closed forms and its own order of convergence before
- * anything is measured against it. */
+/* The reference backend: the same kernels in double, checked against closed forms and its own order of convergence
+ * before anything is measured against it. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -10,7 +9,6 @@ using namespace tandem::physics_tests;
 namespace {
 
 const Placement in_double{"reference", {}, false};
-
 
 /* A tumbling brick after half a second. */
 std::array<double, 4> tumbled(uint32_t substeps)
@@ -24,7 +22,8 @@ std::array<double, 4> tumbled(uint32_t substeps)
 
 double distance(const std::array<double, 4> &p, const std::array<double, 4> &q)
 {
-  return std::sqrt(std::pow(p[0] - q[0], 2) + std::pow(p[1] - q[1], 2) + std::pow(p[2] - q[2], 2) + std::pow(p[3] - q[3], 2));
+  return std::sqrt(std::pow(p[0] - q[0], 2) + std::pow(p[1] - q[1], 2) + std::pow(p[2] - q[2], 2) +
+                   std::pow(p[3] - q[3], 2));
 }
 
 /* Twenty boxes fall into a heap; mean height. */
@@ -32,7 +31,9 @@ Scene small_heap()
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int i = 0; i < 20; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.4f, 0.3f), {0.13f * float(i % 5), 1 + 0.9f * float(i), 0.1f * float(i % 3)});
+  for (int i = 0; i < 20; ++i)
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.4f, 0.3f),
+             {0.13f * float(i % 5), 1 + 0.9f * float(i), 0.1f * float(i % 3)});
   return scene;
 }
 
@@ -53,13 +54,15 @@ TEST_CASE("reference: a projectile follows the parabola to the rounding of doubl
 TEST_CASE("reference: free spin converges with the second order of its integrator", "[physics][reference]")
 {
   const auto finest = tumbled(512);
-  const double coarse = distance(tumbled(4), finest), fine = distance(tumbled(8), finest), finer = distance(tumbled(16), finest);
+  const double coarse = distance(tumbled(4), finest), fine = distance(tumbled(8), finest),
+               finer = distance(tumbled(16), finest);
   CHECK(std::log2(coarse / fine) == Approx(2).margin(0.1));
   CHECK(std::log2(fine / finer) == Approx(2).margin(0.1));
   CHECK(finer > 1e-9); /* or the slopes say nothing */
 }
 
-TEST_CASE("reference: spin about a principal axis turns by its angle to the rounding of doubles", "[physics][reference]")
+TEST_CASE("reference: spin about a principal axis turns by its angle to the rounding of doubles",
+          "[physics][reference]")
 {
   Scene scene = empty_scene({0, 0, 0});
   add_body(scene, Motion::dynamic, box_shape(0.2f, 0.5f, 0.9f), {0, 0, 0}).angular_velocity = {0, 0, 2};
@@ -82,7 +85,8 @@ TEST_CASE("reference: any single stage runs in double inside a float step", "[ph
   run(plain, 3);
   CHECK(world.statistics().pairs == plain.statistics().pairs);
   for (size_t i = 0; i < plain.bodies().size(); ++i)
-    CHECK((physics_tests::vector_of(world.bodies()[i].position) - physics_tests::vector_of(plain.bodies()[i].position)).norm() < 1e-5);
+    CHECK((physics_tests::vector_of(world.bodies()[i].position) - physics_tests::vector_of(plain.bodies()[i].position))
+              .norm() < 1e-5);
 }
 
 TEST_CASE("reference: threads do not change its results", "[physics][reference]")

@@ -1,6 +1,5 @@
 /* Bouncing: a ball dropped from height h returns to e^2 h, whatever the step and the moment of impact. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -20,7 +19,8 @@ Scene drop_test()
   for (float e : restitutions) {
     const uint32_t material = add_material(scene, 0.5f, e);
     for (float h : heights)
-      add_body(scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(scene.bodies.size()), radius + h, 0}).material = material;
+      add_body(scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(scene.bodies.size()), radius + h, 0})
+          .material = material;
   }
   return scene;
 }

@@ -1,9 +1,8 @@
 /* Nothing lost, nothing silent: a body that is not finite is named and taken out; buffers that overflow grow. */
-#include "tests/catch.h"
-
 #include <limits>
 
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;

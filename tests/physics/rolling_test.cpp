@@ -3,11 +3,9 @@
  * A ball of radius R that rolls without slipping, with sliding force F and resisting torque c m g:
  *     m v' = -F,  (2/5) m R^2 w' = F R - c m g,  v' = R w'    so    v' = -(5/7) c g / R.
  * One that spins on a point about the normal: (2/5) m R^2 w' = -c m g. */
-#include "tests/catch.h"
-
-#include "tests/physics/physics.h"
-
 #include "host/runtime/memory.h"
+#include "tests/catch.h"
+#include "tests/physics/physics.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -79,13 +77,17 @@ TEST_CASE("a ball stays on a slope below atan of coefficient over radius, and ro
       const float z = 3.0f * float(scene.bodies.size());
       Body &ramp = add_body(scene, Motion::fixed, box_shape(20, 0.5f, 1), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
-      add_body(scene, Motion::dynamic, sphere_shape(radius), point_of((0.5 + radius) * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
+      add_body(scene, Motion::dynamic, sphere_shape(radius),
+               point_of((0.5 + radius) * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
     }
     World world(scene, settings_for(solver));
     const std::vector<BodyState> start = world.bodies();
     run(world, 120);
-    const auto moved = [&](size_t i) { return (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm(); };
-    const double expected = 0.5 * 4 * 5.0 / 7 * gravity * (std::sin(angles[1]) - coefficient / radius * std::cos(angles[1]));
+    const auto moved = [&](size_t i) {
+      return (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm();
+    };
+    const double expected =
+        0.5 * 4 * 5.0 / 7 * gravity * (std::sin(angles[1]) - coefficient / radius * std::cos(angles[1]));
     INFO("below the angle it moved " << moved(1) << " m, above " << moved(3) << " m, theory " << expected);
     CHECK(moved(1) < 0.01);
     CHECK(moved(3) == Approx(expected).epsilon(0.03));
@@ -153,7 +155,9 @@ TEST_CASE("a scene without rolling friction has neither its kernels nor its buff
 {
   const auto rolls = [](World &world) {
     const std::vector<Kernel> kernels = world.kernels();
-    return std::count_if(kernels.begin(), kernels.end(), [](Kernel kernel) { return std::string(row_of(kernel).name).find("rolling") != std::string::npos; });
+    return std::count_if(kernels.begin(), kernels.end(), [](Kernel kernel) {
+      return std::string(row_of(kernel).name).find("rolling") != std::string::npos;
+    });
   };
   World plain(balls_on_floor(0, 0)), rolling(balls_on_floor(0.1f, 0));
   CHECK(rolls(plain) == 0);

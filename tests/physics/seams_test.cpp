@@ -1,6 +1,5 @@
 /* Seams and ledges: boxes rest in one another by the slop, and shall slide over what is no higher than that. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -20,7 +19,8 @@ Scene tiled_floor(double uneven)
   Random random(3);
   for (int x = -tiles_to_each_side; x <= tiles_to_each_side; ++x)
     for (int z = -tiles_to_each_side; z <= tiles_to_each_side; ++z)
-      add_body(scene, Motion::fixed, box_shape(0.5f, 0.25f, 0.5f), {float(x), -0.25f + float(random.uniform(0, uneven)), float(z)});
+      add_body(scene, Motion::fixed, box_shape(0.5f, 0.25f, 0.5f),
+               {float(x), -0.25f + float(random.uniform(0, uneven)), float(z)});
   return scene;
 }
 
@@ -73,14 +73,16 @@ TEST_CASE("a box without friction slides over tiles that differ by a millimetre"
 
 TEST_CASE("a box slides over a seam however slowly", "[physics]")
 {
-  const Slide result = slide(tiled_floor(0), 0, 0, 0.05, 600); /* half a metre: its front goes over a seam in the middle of the way */
+  const Slide result =
+      slide(tiled_floor(0), 0, 0, 0.05, 600); /* half a metre: its front goes over a seam in the middle of the way */
   CHECK(result.slowest > 0.0495);
   CHECK(result.way == Approx(0.5).margin(0.005));
 }
 
 TEST_CASE("a step of three centimetres stops a box", "[physics]")
 {
-  const double heading = GENERATE(0.0, 180.0) * radians, speed = GENERATE(0.2, 1.0, 2.0); /* faster ones tip over its edge */
+  const double heading = GENERATE(0.0, 180.0) * radians,
+               speed = GENERATE(0.2, 1.0, 2.0); /* faster ones tip over its edge */
   CAPTURE(heading, speed);
   Scene scene = tiled_floor(0);
   for (Body &body : scene.bodies)
@@ -97,7 +99,8 @@ TEST_CASE("boxes beside one another and on one another stand, with edges that me
   add_ground(scene);
   for (int x = 0; x < 3; ++x)
     for (int y = 0; y < 3; ++y)
-      for (int z = 0; z < 3; ++z) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {float(x), 0.5f + float(y), float(z)});
+      for (int z = 0; z < 3; ++z)
+        add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {float(x), 0.5f + float(y), float(z)});
   World world(scene);
   run(world, 300);
   for (size_t i = 1; i < scene.bodies.size(); ++i)
@@ -108,7 +111,8 @@ TEST_CASE("a box that lies on a ledge of two centimetres stays there", "[physics
 {
   Scene scene = empty_scene();
   add_body(scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 0});
-  for (float side : {-1.0f, 1.0f}) add_body(scene, Motion::fixed, box_shape(0.5f, 0.5f, 0.5f), {side * 0.98f, -0.5f, 0});
+  for (float side : {-1.0f, 1.0f})
+    add_body(scene, Motion::fixed, box_shape(0.5f, 0.5f, 0.5f), {side * 0.98f, -0.5f, 0});
   World world(scene);
   run(world, 300);
   CHECK(world.bodies()[0].position[1] > 0.09f);

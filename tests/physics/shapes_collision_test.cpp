@@ -1,15 +1,15 @@
 /* Solids that meet: what is conserved, what is lost, and that piles of every shape are carried. */
-#include "tests/catch.h"
-
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
 
-TEST_CASE("a ball bounces off the end and the side of a capsule and the face of a hull at e times its speed", "[physics]")
+TEST_CASE("a ball bounces off the end and the side of a capsule and the face of a hull at e times its speed",
+          "[physics]")
 {
   const float e = GENERATE(0.0f, 0.3f, 0.8f, 1.0f);
   const bool fixed = GENERATE(true, false);
@@ -20,8 +20,10 @@ TEST_CASE("a ball bounces off the end and the side of a capsule and the face of 
     Quat turn;
     double top;
   };
-  const Target targets[] = {{"capsule end", capsule_shape(0.3f, 0.5f), {0, 0, 0, 1}, 0.8}, {"capsule side", capsule_shape(0.3f, 0.5f), across, 0.3},
-                            {"hull", hull_of_box(0.5f, 0.4f, 0.5f), {0, 0, 0, 1}, 0.4},     {"cylinder cap", cylinder_shape(0.4f, 0.3f), {0, 0, 0, 1}, 0.3},
+  const Target targets[] = {{"capsule end", capsule_shape(0.3f, 0.5f), {0, 0, 0, 1}, 0.8},
+                            {"capsule side", capsule_shape(0.3f, 0.5f), across, 0.3},
+                            {"hull", hull_of_box(0.5f, 0.4f, 0.5f), {0, 0, 0, 1}, 0.4},
+                            {"cylinder cap", cylinder_shape(0.4f, 0.3f), {0, 0, 0, 1}, 0.3},
                             {"cone from below", cone_shape(0.4f, 0.3f), turn_about({1, 0, 0}, pi), 0.3}};
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = e;
@@ -38,7 +40,9 @@ TEST_CASE("a ball bounces off the end and the side of a capsule and the face of 
     const double parting = double(ball.linear_velocity[1]) - double(target.linear_velocity[1]);
     CAPTURE(targets[k].name, e, fixed, parting, vector_of(target.angular_velocity).norm());
     CHECK(parting == Approx(3 * double(e)).epsilon(0.002).margin(1e-4));
-    if (!fixed) CHECK(ball.linear_velocity[1] == Approx(-3 + 2 * (1 + double(e))).epsilon(0.002).margin(1e-4)); /* 2 of 3 kg are the target's */
+    if (!fixed)
+      CHECK(ball.linear_velocity[1] ==
+            Approx(-3 + 2 * (1 + double(e))).epsilon(0.002).margin(1e-4)); /* 2 of 3 kg are the target's */
     CHECK(vector_of(target.angular_velocity).norm() < 1e-3);
   }
 }
@@ -52,13 +56,20 @@ Scene collision(uint64_t seed, float friction, float restitution)
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = friction;
   scene.materials[0].restitution = restitution;
   Random random(seed);
-  const auto uniform3 = [&](double size) { return Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)); };
+  const auto uniform3 = [&](double size) {
+    return Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+  };
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    const Shape shapes[] = {sphere_shape(size), box_shape(size, 0.7f * size, 1.2f * size), capsule_shape(0.5f * size, 0.7f * size),
-                            cylinder_shape(0.8f * size, size), cone_shape(size, 0.8f * size), Shape{ShapeType::capsule, {0.8f * size, 0.5f * size, 0.4f * size}},
-                            Shape{ShapeType::cylinder, {0.6f * size, size, 0.9f * size}}, stone(random, 20, 1.3 * size)};
+    const Shape shapes[] = {sphere_shape(size),
+                            box_shape(size, 0.7f * size, 1.2f * size),
+                            capsule_shape(0.5f * size, 0.7f * size),
+                            cylinder_shape(0.8f * size, size),
+                            cone_shape(size, 0.8f * size),
+                            Shape{ShapeType::capsule, {0.8f * size, 0.5f * size, 0.4f * size}},
+                            Shape{ShapeType::cylinder, {0.6f * size, size, 0.9f * size}},
+                            stone(random, 20, 1.3 * size)};
     Body &body = add_solid(scene, shapes[i % 8], place, random.orientation(), float(random.uniform(0.5, 4)));
     body.linear_velocity = vec3_of(-1.5 * place + uniform3(1));
     body.angular_velocity = vec3_of(uniform3(3));
@@ -162,7 +173,8 @@ TEST_CASE("a hundred hulls settle with less than a centimetre of penetration", "
   CHECK(pile.farthest < 6);
 }
 
-/* The sampled directions may miss the least depth: a normal that is not that of the surfaces reports more than there is. */
+/* The sampled directions may miss the least depth: a normal that is not that of the surfaces reports more than there
+ * is. */
 TEST_CASE("every narrowphase carries a pile of every shape", "[physics]")
 {
   const std::string narrowphase = GENERATE(from_range(narrowphase_names()));

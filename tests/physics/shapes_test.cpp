@@ -1,9 +1,9 @@
-/* Round and flat solids on the ground against closed forms: they roll, stand, tip over, slide and rock as theory says. */
-#include "tests/catch.h"
-
+/* Round and flat solids on the ground against closed forms: they roll, stand, tip over, slide and rock as theory
+ * says. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -37,17 +37,24 @@ TEST_CASE("round shapes roll down a ramp at g sin a / (1 + I / m r^2), straight 
 
 TEST_CASE("cylinders, discs, cones and tapered cylinders stand on their ends", "[physics]")
 {
-  const std::vector<Shape> shapes = {cylinder_shape(0.3f, 0.5f), cylinder_shape(0.5f, 0.05f), cylinder_shape(0.1f, 0.5f), cone_shape(0.4f, 0.35f),
-                                     Shape{ShapeType::cylinder, {0.4f, 0.3f, 0.2f}}, Shape{ShapeType::cylinder, {0.2f, 0.3f, 0.4f}}};
+  const std::vector<Shape> shapes = {cylinder_shape(0.3f, 0.5f),
+                                     cylinder_shape(0.5f, 0.05f),
+                                     cylinder_shape(0.1f, 0.5f),
+                                     cone_shape(0.4f, 0.35f),
+                                     Shape{ShapeType::cylinder, {0.4f, 0.3f, 0.2f}},
+                                     Shape{ShapeType::cylinder, {0.2f, 0.3f, 0.4f}}};
   Scene scene = empty_scene();
   add_ground(scene);
-  for (const Shape &shape : shapes) add_solid(scene, shape, {2.0 * double(scene.bodies.size()), shape.size[1], 0}, turn_about({0, 1, 0}, double(scene.bodies.size())));
+  for (const Shape &shape : shapes)
+    add_solid(scene, shape, {2.0 * double(scene.bodies.size()), shape.size[1], 0},
+              turn_about({0, 1, 0}, double(scene.bodies.size())));
   World world(scene);
   const std::vector<BodyState> start = world.bodies();
   run(world, 600);
   for (size_t i = 1; i < scene.bodies.size(); ++i) {
     const BodyState state = world.bodies()[i];
-    const Vector moved = vector_of(state.position) - vector_of(start[i].position), axis = axis_of(scene.bodies[i], state);
+    const Vector moved = vector_of(state.position) - vector_of(start[i].position),
+                 axis = axis_of(scene.bodies[i], state);
     const double tilt = std::hypot(axis.x(), axis.z());
     CAPTURE(i, tilt, moved.x(), moved.y(), moved.z());
     CHECK(tilt < 1e-3);
@@ -77,7 +84,8 @@ TEST_CASE("a solid on its rim falls back below its tipping angle, and over above
     double center, lying; /* of mass, above the base; height of the axis's unit vector once it lies on its side */
   };
   const double apex = std::atan(0.4 / 0.7);
-  const Case cases[] = {{"cylinder", cylinder_shape(0.3f, 0.5f), 0.5, 0}, {"slender", cylinder_shape(0.1f, 0.5f), 0.5, 0},
+  const Case cases[] = {{"cylinder", cylinder_shape(0.3f, 0.5f), 0.5, 0},
+                        {"slender", cylinder_shape(0.1f, 0.5f), 0.5, 0},
                         {"cone", cone_shape(0.4f, 0.35f), 0.175, -std::sin(apex)}};
   for (const Case &one : cases)
     for (double azimuth : {0.0, 0.7}) {
@@ -88,7 +96,8 @@ TEST_CASE("a solid on its rim falls back below its tipping angle, and over above
       add_leaning(scene, one.shape, critical + margin, azimuth, 5);
       World world(scene);
       run(world, 600); /* the slender one rocks for seven seconds, as a box of its size does */
-      const double below = axis_of(scene.bodies[1], world.bodies()[1]).y(), above = axis_of(scene.bodies[2], world.bodies()[2]).y();
+      const double below = axis_of(scene.bodies[1], world.bodies()[1]).y(),
+                   above = axis_of(scene.bodies[2], world.bodies()[2]).y();
       CAPTURE(one.name, azimuth, critical / radians, below, above);
       CHECK(below > std::cos(0.2 * radians));
       CHECK(vector_of(world.bodies()[1].angular_velocity).norm() < 1e-3);
@@ -106,7 +115,8 @@ TEST_CASE("capsules rest on their sides", "[physics]")
     const Eigen::Quaterniond turn(about[3], about[0], about[1], about[2]);
     const auto lay = [&](const Shape &shape, double height, double slope) {
       const Eigen::Quaterniond q = turn * Eigen::AngleAxisd(pi / 2 + slope, Vector(0, 0, 1));
-      add_solid(scene, shape, {3.0 * double(scene.bodies.size()), height, 0}, {float(q.x()), float(q.y()), float(q.z()), float(q.w())});
+      add_solid(scene, shape, {3.0 * double(scene.bodies.size()), height, 0},
+                {float(q.x()), float(q.y()), float(q.z()), float(q.w())});
     };
     lay(capsule_shape(0.25f, 0.5f), 0.25, 0);
     lay(tapered, 0.25, std::asin(0.1 / 0.8)); /* both of its balls touch */
@@ -153,7 +163,8 @@ TEST_CASE("a hull that is a box falls, rests and slides as the box does", "[phys
   add_ground(scene);
   const Shape shapes[] = {box_shape(0.4f, 0.3f, 0.5f), hull_of_box(0.4f, 0.3f, 0.5f)};
   for (const Shape &shape : shapes) add_solid(scene, shape, {0, 1.3, 3.0 * double(scene.bodies.size())});
-  for (const Shape &shape : shapes) add_solid(scene, shape, {0, 0.3, 3.0 * double(scene.bodies.size())}).linear_velocity = {float(speed), 0, 0};
+  for (const Shape &shape : shapes)
+    add_solid(scene, shape, {0, 0.3, 3.0 * double(scene.bodies.size())}).linear_velocity = {float(speed), 0, 0};
   World world(scene);
   double apart = 0;
   for (int step = 0; step < 120; ++step) {
@@ -174,7 +185,8 @@ TEST_CASE("stacks of five cylinders and of five cubes that are hulls stand", "[p
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int level = 0; level < 5; ++level) add_solid(scene, cylinder_shape(0.4f, 0.3f), {0, 0.3 + 0.6 * level, 0}, turn_about({0, 1, 0}, level));
+  for (int level = 0; level < 5; ++level)
+    add_solid(scene, cylinder_shape(0.4f, 0.3f), {0, 0.3 + 0.6 * level, 0}, turn_about({0, 1, 0}, level));
   for (int level = 0; level < 5; ++level) add_solid(scene, hull_of_box(0.5f, 0.5f, 0.5f), {3, 0.5 + level, 0});
   World world(scene);
   const std::vector<BodyState> start = world.bodies();
@@ -201,7 +213,8 @@ Scene weeble(double radius, double low, double lean)
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 2;
   add_ground(scene);
-  Body &body = add_body(scene, Motion::dynamic, sphere_shape(float(radius)), {low * std::sin(lean), radius - low * std::cos(lean), 0});
+  Body &body = add_body(scene, Motion::dynamic, sphere_shape(float(radius)),
+                        {low * std::sin(lean), radius - low * std::cos(lean), 0});
   body.orientation = turn_about({0, 0, 1}, lean);
   body.shape_position = {0, float(low), 0};
   return scene;
@@ -211,8 +224,9 @@ Scene weeble(double radius, double low, double lean)
 
 /* Rolling without slipping by a small angle t: (I + m (R - d)^2) t'' = -m g d t, I about the centre of mass.
  *
- * Contacts are found once a step, so of n substeps h the weight turns the ball about a point that is (n - 1) h / 2 old on average.
- * A torque that lags by so much lets the swing grow by exp(w^2 (n - 1) h / 4 t); with one substep it neither grows nor dies. */
+ * Contacts are found once a step, so of n substeps h the weight turns the ball about a point that is (n - 1) h / 2 old
+ * on average. A torque that lags by so much lets the swing grow by exp(w^2 (n - 1) h / 4 t); with one substep it
+ * neither grows nor dies. */
 TEST_CASE("a ball with a low centre of mass rocks with the period of theory", "[physics]")
 {
   const double radius = 0.5, low = GENERATE(0.1, 0.2, 0.3), lean = 4 * radians;
@@ -240,7 +254,8 @@ TEST_CASE("a ball with a low centre of mass rocks with the period of theory", "[
   CHECK(farthest < 1.01 * growth * lean);
 }
 
-/* The spin alone is damped at c, the rolling ball by the share of the spin in its energy: c I / (I + m (R - d)^2) / 2 = 0.26 c. */
+/* The spin alone is damped at c, the rolling ball by the share of the spin in its energy: c I / (I + m (R - d)^2) / 2 =
+ * 0.26 c. */
 TEST_CASE("a damped ball with a low centre of mass returns upright", "[physics]")
 {
   for (double degrees : {60.0, -120.0, 170.0}) {

@@ -1,4 +1,5 @@
-/* solids.h - bodies of any convex shape for the tests of physics: placed by their shape, weighed, and seen by their shape's axis. */
+/* solids.h - bodies of any convex shape for the tests of physics: placed by their shape, weighed, and seen by their
+ * shape's axis. */
 #pragma once
 
 #include "host/geometry/shape_mass.h"
@@ -7,7 +8,8 @@
 namespace tandem::physics_tests {
 
 /* `at` and `turn` place the shape's own frame; the body's frame follows from its mass. */
-inline Body &add_solid(Scene &scene, const Shape &shape, const Vector &at, const Quat &turn = {0, 0, 0, 1}, float mass = 1)
+inline Body &add_solid(Scene &scene, const Shape &shape, const Vector &at, const Quat &turn = {0, 0, 0, 1},
+                       float mass = 1)
 {
   Body &body = add_body(scene, Motion::dynamic, shape, point_of(at));
   body.orientation = turn;
@@ -71,7 +73,8 @@ inline double mechanical_energy(World &world)
   double energy = world.statistics().kinetic_energy;
   const std::vector<BodyState> states = world.bodies();
   for (size_t i = 0; i < states.size(); ++i)
-    if (const Body &body = world.scene().bodies[i]; body.motion == Motion::dynamic) energy += body.mass * gravity * states[i].position[1];
+    if (const Body &body = world.scene().bodies[i]; body.motion == Motion::dynamic)
+      energy += body.mass * gravity * states[i].position[1];
   return energy;
 }
 

@@ -1,7 +1,7 @@
-/* The solver direct: against a brute-force oracle, where the soft step gives way, and in the closed forms of every solver. */
-#include "tests/catch.h"
-
+/* The solver direct: against a brute-force oracle, where the soft step gives way, and in the closed forms of every
+ * solver. */
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/contact_oracle.h"
 
 using namespace tandem;
@@ -19,7 +19,7 @@ Settings direct(double step = 1.0 / 60, uint32_t substeps = 4)
 
 /* --- oracle ------------------------------------------------------------------------------------------ */
 
-constexpr double instant = 1e-5;    /* s: nothing moves noticeably within a step */
+constexpr double instant = 1e-5; /* s: nothing moves noticeably within a step */
 constexpr float overlap = 1e-5f; /* m: within the slop, so that neither distance nor penetration asks for a speed */
 
 struct Case {
@@ -48,7 +48,8 @@ Case kicked_tower()
   float height = 0;
   const float sizes[3] = {0.5f, 0.375f, 0.25f}, masses[3] = {1, 5, 0.5f};
   for (int k = 0; k < 3; ++k) {
-    Body &cube = add_body(c.scene, Motion::dynamic, box_shape(sizes[k], sizes[k], sizes[k]), {0.05f * float(k), height + sizes[k] - overlap, 0});
+    Body &cube = add_body(c.scene, Motion::dynamic, box_shape(sizes[k], sizes[k], sizes[k]),
+                          {0.05f * float(k), height + sizes[k] - overlap, 0});
     cube.mass = masses[k];
     cube.linear_velocity = {0.5f * float(k), -1.0f - 0.5f * float(k), 0.2f * float(k * k)};
     height += 2 * sizes[k] - overlap;
@@ -63,14 +64,16 @@ Case ball_in_wedge()
   Case c{empty_scene(), {}};
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.3f;
   const float radius = 0.5f;
-  Body &ball = add_body(c.scene, Motion::dynamic, sphere_shape(radius), {0, (radius - overlap) * float(std::sqrt(2.0)), 0});
+  Body &ball =
+      add_body(c.scene, Motion::dynamic, sphere_shape(radius), {0, (radius - overlap) * float(std::sqrt(2.0)), 0});
   ball.linear_velocity = {0.3f, -2, 0.5f};
   ball.angular_velocity = {1, 2, -4};
   const Vector center = vector_of(ball.position);
   for (const double side : {-1.0, 1.0}) {
     add_body(c.scene, Motion::fixed, half_space_shape(), {0, 0, 0}).orientation = turn_about({0, 0, 1}, side * pi / 4);
     const Vector normal = axes_of(c.scene.bodies.back().orientation).col(1);
-    c.manifolds.push_back({c.scene.bodies.size() - 1, 0, normal, {Vector(center - (radius - 0.5 * overlap) * normal)}, 0.3, {}});
+    c.manifolds.push_back(
+        {c.scene.bodies.size() - 1, 0, normal, {Vector(center - (radius - 0.5 * overlap) * normal)}, 0.3, {}});
   }
   return c;
 }
@@ -86,7 +89,8 @@ void require_oracle(const Case &c, const std::string &backend)
   CHECK(world.statistics().direct_stalled == 0);
   const std::vector<BodyState> now = world.bodies();
   for (size_t i = 0; i < now.size(); ++i) {
-    CAPTURE(i, expected.bodies[i].linear, expected.bodies[i].angular, vector_of(now[i].linear_velocity), vector_of(now[i].angular_velocity));
+    CAPTURE(i, expected.bodies[i].linear, expected.bodies[i].angular, vector_of(now[i].linear_velocity),
+            vector_of(now[i].angular_velocity));
     CHECK((vector_of(now[i].linear_velocity) - expected.bodies[i].linear).norm() < 3e-4);
     CHECK((vector_of(now[i].angular_velocity) - expected.bodies[i].angular).norm() < 1e-3);
   }
@@ -121,7 +125,8 @@ Stand stand(const Scene &scene, const Settings &settings, int steps)
   }
   const std::vector<BodyState> states = world.bodies();
   REQUIRE(all_finite(states));
-  for (const BodyState &state : states) result.sideways = std::max<double>(result.sideways, std::hypot(state.position[0], state.position[2]));
+  for (const BodyState &state : states)
+    result.sideways = std::max<double>(result.sideways, std::hypot(state.position[0], state.position[2]));
   return result;
 }
 
@@ -147,7 +152,8 @@ TEST_CASE("direct: a heavy box stands on a light one, where the soft step sinks"
   const float ratio = GENERATE(1000.0f, 10000.0f);
   const Scene scene = stack({1, ratio});
   const Stand exact = stand(scene, direct(), 120), soft = stand(scene, settings_for("soft-step"), 120);
-  INFO("1 : " << ratio << ": direct " << exact.deepest << " m deep, soft-step " << soft.deepest << "; stalled " << exact.stalled);
+  INFO("1 : " << ratio << ": direct " << exact.deepest << " m deep, soft-step " << soft.deepest << "; stalled "
+              << exact.stalled);
   CHECK(exact.deepest < 0.001);
   CHECK(exact.sideways < 0.001);
   CHECK(soft.deepest > 10 * exact.deepest + 0.005);
@@ -158,7 +164,8 @@ TEST_CASE("direct: twenty boxes whose masses double stand", "[physics][direct]")
   std::vector<float> masses;
   for (int k = 0; k < 20; ++k) masses.push_back(float(1 << k));
   const Stand result = stand(stack(masses), direct(), 40);
-  INFO("twenty boxes, 1 to 524288 kg: " << result.deepest << " m deep, sideways " << result.sideways << " m; stalled " << result.stalled);
+  INFO("twenty boxes, 1 to 524288 kg: " << result.deepest << " m deep, sideways " << result.sideways << " m; stalled "
+                                        << result.stalled);
   CHECK(result.deepest < 0.001);
   CHECK(result.sideways < 0.001);
 }
@@ -166,7 +173,8 @@ TEST_CASE("direct: twenty boxes whose masses double stand", "[physics][direct]")
 TEST_CASE("direct: a stack of ten stands three hundred steps", "[physics][direct]")
 {
   const Stand result = stand(stack(std::vector<float>(10, 1.0f)), direct(), 300);
-  INFO("ten boxes: " << result.deepest << " m deep, sideways " << result.sideways << " m, " << result.energy << " J; stalled " << result.stalled);
+  INFO("ten boxes: " << result.deepest << " m deep, sideways " << result.sideways << " m, " << result.energy
+                     << " J; stalled " << result.stalled);
   CHECK(result.deepest < 1e-4);
   CHECK(result.sideways < 1e-4);
   CHECK(result.energy < 1e-6);
@@ -180,7 +188,8 @@ TEST_CASE("direct: what is pressed in comes out without a jump", "[physics][dire
   double fastest = 0;
   for (int k = 0; k < 240; ++k) {
     world.step();
-    for (const BodyState &state : world.bodies()) fastest = std::max<double>(fastest, vector_of(state.linear_velocity).norm());
+    for (const BodyState &state : world.bodies())
+      fastest = std::max<double>(fastest, vector_of(state.linear_velocity).norm());
   }
   INFO("fastest body " << fastest << " m/s, penetration left " << world.statistics().max_penetration);
   CHECK(fastest < 0.2);
@@ -229,7 +238,8 @@ TEST_CASE("direct: boxes in one place come apart without flying off", "[physics]
   double fastest = 0;
   for (int k = 0; k < 60; ++k) {
     world.step();
-    for (const BodyState &state : world.bodies()) fastest = std::max<double>(fastest, vector_of(state.linear_velocity).norm());
+    for (const BodyState &state : world.bodies())
+      fastest = std::max<double>(fastest, vector_of(state.linear_velocity).norm());
   }
   INFO("six boxes in one place: fastest " << fastest << " m/s");
   CHECK(all_finite(world.bodies()));
@@ -258,7 +268,8 @@ TEST_CASE("direct: a box on an incline slips past atan mu, and slides as theory 
     const float z = 3.0f * float(angles.size());
     add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z}).orientation = tilt;
     const Vector up(-std::sin(angle), std::cos(angle), 0);
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z))).orientation = tilt;
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z))).orientation =
+        tilt;
     angles.push_back(angle);
   }
   World world(scene, direct());
@@ -294,7 +305,8 @@ TEST_CASE("direct: a ball and a box that lands flat bounce to e^2 of their heigh
   CHECK(vector_of(world.bodies()[2].angular_velocity).norm() < 1e-4);
 }
 
-TEST_CASE("direct: the middle ball of three at rest passes on what the first brings, if e is 1 and they are apart", "[physics][direct]")
+TEST_CASE("direct: the middle ball of three at rest passes on what the first brings, if e is 1 and they are apart",
+          "[physics][direct]")
 {
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 1;
@@ -317,7 +329,8 @@ TEST_CASE("direct: a closed system keeps its momentum and gains no energy", "[ph
   for (int i = 0; i < 8; ++i) {
     const Vector place(1.4 * (i % 2) - 0.7, 1.4 * (i / 2 % 2) - 0.7, 1.4 * (i / 4) - 0.7);
     const float size = float(random.uniform(0.25, 0.4));
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
+    Body &body = add_body(scene, Motion::dynamic,
+                          i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place);
@@ -339,8 +352,8 @@ TEST_CASE("direct: a closed system keeps its momentum and gains no energy", "[ph
     contacts += statistics.contacts;
     stalled += statistics.direct_stalled;
   }
-  INFO("friction " << friction << ", restitution " << restitution << ": momentum " << linear << ", angular " << angular << ", energy grown "
-                   << growth << ", contacts " << contacts << ", stalled " << stalled);
+  INFO("friction " << friction << ", restitution " << restitution << ": momentum " << linear << ", angular " << angular
+                   << ", energy grown " << growth << ", contacts " << contacts << ", stalled " << stalled);
   CHECK(contacts > 20);
   CHECK(linear < 1e-5);
   CHECK(angular < 1e-5);

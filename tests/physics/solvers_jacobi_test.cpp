@@ -1,8 +1,7 @@
 /* The solver jacobi: what any solver must do, and that more iterations come nearer to the solution. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -45,7 +44,8 @@ TEST_CASE("jacobi: a stack of ten stands still", "[physics]")
   const std::vector<BodyState> start = world.bodies();
   run(world, 300);
   const std::vector<BodyState> now = world.bodies();
-  for (size_t i = 0; i < now.size(); ++i) CHECK((vector_of(now[i].position) - vector_of(start[i].position)).norm() < 0.01);
+  for (size_t i = 0; i < now.size(); ++i)
+    CHECK((vector_of(now[i].position) - vector_of(start[i].position)).norm() < 0.01);
   CHECK(world.statistics().max_penetration < 0.005);
   CHECK(world.statistics().kinetic_energy < 1e-6);
 }
@@ -66,7 +66,8 @@ TEST_CASE("jacobi: a falling block of boxes stays bounded", "[physics]")
     CHECK(highest() < start + 0.1f); /* a box that tips lifts its centre a little */
   }
   const Statistics statistics = world.statistics();
-  INFO("penetration " << deepest << ", mean " << statistics.mean_penetration << ", energy at last " << statistics.kinetic_energy);
+  INFO("penetration " << deepest << ", mean " << statistics.mean_penetration << ", energy at last "
+                      << statistics.kinetic_energy);
   CHECK(all_finite(world.bodies()));
   CHECK(deepest < 0.02);
   CHECK(statistics.mean_penetration < 0.001);
@@ -94,7 +95,8 @@ TEST_CASE("jacobi: a box slides past the angle of friction and accelerates as it
   const std::vector<BodyState> states = world.bodies();
   for (size_t k = 0; k < coefficients.size(); ++k) {
     const double mu = coefficients[k], angle = std::atan(mu) + beside;
-    const double held = vector_of(states[4 * k + 1].linear_velocity).norm(), sliding = vector_of(states[4 * k + 3].linear_velocity).norm();
+    const double held = vector_of(states[4 * k + 1].linear_velocity).norm(),
+                 sliding = vector_of(states[4 * k + 3].linear_velocity).norm();
     CAPTURE(mu, held, sliding);
     CHECK(held < 1e-3);
     CHECK(sliding == Approx(gravity * (std::sin(angle) - mu * std::cos(angle))).epsilon(0.03));

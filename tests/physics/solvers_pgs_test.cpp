@@ -1,9 +1,8 @@
 /* The solvers pgs and nncg: what any solver must do, and that conjugate gradients halve the sweeps. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/platform.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -25,7 +24,11 @@ Settings settings_of(const Case &c)
   return settings;
 }
 
-std::string name_of(const Case &c) { return std::string(c.solver) + ", substeps " + std::to_string(c.substeps) + ", iterations " + std::to_string(c.iterations); }
+std::string name_of(const Case &c)
+{
+  return std::string(c.solver) + ", substeps " + std::to_string(c.substeps) + ", iterations " +
+         std::to_string(c.iterations);
+}
 
 /* Several in one world, so that each solver's physics costs one run. */
 void add_inclines(Scene &scene, const std::vector<double> &coefficients, double beside_the_cone)
@@ -38,7 +41,8 @@ void add_inclines(Scene &scene, const std::vector<double> &coefficients, double 
       Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
       ramp.material = material;
-      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
+      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f),
+                           point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
       box.orientation = turn_about({0, 0, 1}, angle);
       box.material = material;
     }
@@ -51,11 +55,14 @@ Scene collision(float restitution)
   scene.materials[0].restitution = restitution;
   scene.materials[0].rolling_friction = scene.materials[0].spinning_friction = restitution == 0 ? 0.01f : 0;
   Random random(7);
-  const auto uniform3 = [&](double size) { return Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)); };
+  const auto uniform3 = [&](double size) {
+    return Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size));
+  };
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
+    Body &body = add_body(scene, Motion::dynamic,
+                          i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place + uniform3(1));
@@ -64,7 +71,7 @@ Scene collision(float restitution)
   return scene;
 }
 
-/* --- the residual, in double and from the definition ------------------------------------------------------------------- */
+/* --- the residual, in double and from the definition --- */
 
 /* What one more projected step of each row by itself would change, squared, in joules: 0 where the impulses solve the
  * problem. Every row from the same velocities, unlike the sweeps of the solver. */
@@ -112,7 +119,8 @@ private:
       const double mass = point_b.w, separation = point_a.w, h = double(settings_.step) / settings_.substeps;
       if (mass == 0) continue;
       const double push = std::max(0.2 / h * std::min(separation + slop_[i], 0.0), -double(settings_.push_speed));
-      const double speed = slide_at(i, xyz(point_a), xyz(point_b)).dot(xyz(normal_[i])) + (separation > 0 ? separation / h : push);
+      const double speed =
+          slide_at(i, xyz(point_a), xyz(point_b)).dot(xyz(normal_[i])) + (separation > 0 ? separation / h : push);
       const double change = std::max(impulses[k] - mass * speed, 0.0) - impulses[k];
       sum += change * change / mass;
     }
@@ -122,10 +130,12 @@ private:
   double of_friction(uint32_t i) const
   {
     const row &center_a = center_[i], &center_b = center_[stride_ + i];
-    const double mass = center_a.w, limit = normal_[i].w * (double(impulse_[i].x) + impulse_[i].y + impulse_[i].z + impulse_[i].w);
+    const double mass = center_a.w,
+                 limit = normal_[i].w * (double(impulse_[i].x) + impulse_[i].y + impulse_[i].z + impulse_[i].w);
     const Vector n = xyz(normal_[i]), slide = slide_at(i, xyz(center_a), xyz(center_b));
     const double sign = n.z() >= 0 ? 1 : -1, a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
-    const Vector first(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()), second(b, sign + n.y() * n.y() * a, -n.y());
+    const Vector first(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()),
+        second(b, sign + n.y() * n.y() * a, -n.y());
     const Vector old = friction_[i].x * first + friction_[i].y * second;
     Vector wanted = old - mass * (slide - n * n.dot(slide));
     if (wanted.norm() > limit) wanted *= limit / wanted.norm();
@@ -140,7 +150,8 @@ private:
   std::vector<row> velocity_, normal_, impulse_, friction_, center_, points_;
 };
 
-/* After so many sweeps of the first step, which has nothing to warm start from: relative to the residual of no impulse. */
+/* After so many sweeps of the first step, which has nothing to warm start from: relative to the residual of no
+ * impulse. */
 double residual_after(const std::string &solver, uint32_t sweeps, const Scene &scene)
 {
   Settings settings = settings_for(solver);
@@ -184,8 +195,8 @@ TEST_CASE("pgs and nncg: a stack of ten boxes stands", "[physics]")
       sunk = std::max(sunk, -moved.y());
     }
     const Statistics statistics = world.statistics();
-    INFO(name_of(c) << ": sideways " << sideways << ", sunk " << sunk << ", deepest " << statistics.max_penetration << ", energy "
-                    << statistics.kinetic_energy);
+    INFO(name_of(c) << ": sideways " << sideways << ", sunk " << sunk << ", deepest " << statistics.max_penetration
+                    << ", energy " << statistics.kinetic_energy);
     CHECK(sideways < 0.03); /* points in order lean a stack towards the first: steady, and less with every sweep */
     CHECK(sunk < 0.1);
     CHECK(statistics.max_penetration < 0.02);
@@ -198,7 +209,8 @@ TEST_CASE("pgs and nncg: a block of boxes stays bounded", "[physics]")
   for (const Case &c : cases) {
     World world(load_scene("box-grid:nx=4,ny=8,nz=4"), settings_of(c));
     double highest_at_start = 0;
-    for (const BodyState &state : world.bodies()) highest_at_start = std::max(highest_at_start, double(state.position[1]));
+    for (const BodyState &state : world.bodies())
+      highest_at_start = std::max(highest_at_start, double(state.position[1]));
     double deepest = 0;
     for (int i = 0; i < 6; ++i) {
       run(world, 20);
@@ -242,7 +254,8 @@ TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweep
         grown = std::max(grown, (now - before) / start);
         before = now;
       }
-      INFO(solver << ", " << iterations << " sweeps: energy grown within ten steps " << grown << " of that at the start, left " << before / start);
+      INFO(solver << ", " << iterations << " sweeps: energy grown within ten steps " << grown
+                  << " of that at the start, left " << before / start);
       CHECK(grown < 0.005);
       CHECK(before < 0.7 * start);
     }
@@ -302,8 +315,8 @@ TEST_CASE("pgs and nncg: a closed system keeps its momentum and gains no energy"
         angular = std::max(angular, (now.angular - start.angular).norm() / start.angular_scale);
         energy = energy_now;
       }
-      INFO(name_of(c) << ", restitution " << e << ": momentum " << linear << ", angular " << angular << ", energy grown " << growth << ", left "
-                      << energy / first);
+      INFO(name_of(c) << ", restitution " << e << ": momentum " << linear << ", angular " << angular
+                      << ", energy grown " << growth << ", left " << energy / first);
       CHECK(linear < 1e-5);
       CHECK(angular < 1e-5);
       CHECK(growth < (e == 0 ? 2e-3 : 0.02));
@@ -315,7 +328,8 @@ TEST_CASE("pgs and nncg: more sweeps bring the impulses nearer to the solution",
 {
   const Scene scene = load_scene("pyramid:rows=10");
   for (const char *solver : {"pgs", "nncg"}) {
-    const double few = residual_after(solver, 4, scene), some = residual_after(solver, 16, scene), many = residual_after(solver, 64, scene);
+    const double few = residual_after(solver, 4, scene), some = residual_after(solver, 16, scene),
+                 many = residual_after(solver, 64, scene);
     INFO(solver << ": residual after 4, 16, 64 sweeps " << few << ", " << some << ", " << many);
     CHECK(some < 0.7 * few);
     CHECK(many < 0.5 * some);
@@ -328,7 +342,8 @@ TEST_CASE("nncg needs at most half the sweeps of pgs", "[physics]")
     const Scene scene = load_scene(name);
     for (uint32_t sweeps : {20u, 40u}) {
       const double pgs = residual_after("pgs", 2 * sweeps, scene), nncg = residual_after("nncg", sweeps, scene);
-      INFO(name << ": residual of pgs after " << 2 * sweeps << " sweeps " << pgs << ", of nncg after " << sweeps << " " << nncg);
+      INFO(name << ": residual of pgs after " << 2 * sweeps << " sweeps " << pgs << ", of nncg after " << sweeps << " "
+                << nncg);
       CHECK(nncg < pgs);
     }
   }
@@ -341,13 +356,16 @@ TEST_CASE("pgs and nncg: constraints without a colour are solved too", "[physics
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 81; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0.5f * float(i % 9) - 2, 0.7f, 0.5f * float(i / 9) - 2}).mass = 0.5f;
+    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+             {0.5f * float(i % 9) - 2, 0.7f, 0.5f * float(i / 9) - 2})
+        .mass = 0.5f;
   for (const Case &c : cases) {
     World world(scene, settings_of(c));
     const std::vector<BodyState> start = world.bodies();
     run(world, 60);
     double moved = 0;
-    for (size_t i = 1; i < start.size(); ++i) moved = std::max(moved, (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm());
+    for (size_t i = 1; i < start.size(); ++i)
+      moved = std::max(moved, (vector_of(world.bodies()[i].position) - vector_of(start[i].position)).norm());
     INFO(name_of(c) << ": moved " << moved);
     CHECK(world.statistics().colors == COLOR_LIMIT + 1);
     CHECK(moved < 0.03);

@@ -1,8 +1,7 @@
 /* The solvers that work on positions, xpbd and avbd, each held to the same table of physics. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
+#include "tests/catch.h"
 #include "tests/physics/laden.h"
 
 using namespace tandem;
@@ -16,8 +15,8 @@ Scene column(int height, float mass_on_top, const Vec3 &offset = {0, 0, 0})
   Scene scene = empty_scene();
   add_body(scene, Motion::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
   for (int i = 0; i < height; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]}).mass =
-        i + 1 == height ? mass_on_top : 1.0f;
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]})
+        .mass = i + 1 == height ? mass_on_top : 1.0f;
   return scene;
 }
 
@@ -51,7 +50,8 @@ void add_incline(Scene &scene, uint32_t material, double angle, float z)
   Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
   ramp.orientation = tilt;
   ramp.material = material;
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
+  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f),
+                       point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
   box.orientation = tilt;
   box.material = material;
 }
@@ -71,7 +71,8 @@ Drift collide(const Settings &settings, float friction, float restitution)
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    Body &body = add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
+    Body &body = add_body(scene, Motion::dynamic,
+                          i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place);
@@ -99,7 +100,8 @@ TEST_CASE("position solvers: a stack of ten boxes stands", "[physics]")
 {
   const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
   const Standing standing = stand(column(10, 1), settings_for(name), 300);
-  INFO(name << ": moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest " << standing.deepest << " m");
+  INFO(name << ": moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest "
+            << standing.deepest << " m");
   CHECK(standing.moved < 0.01);
   CHECK(standing.sideways < 0.001);
   CHECK(standing.deepest < 0.005);
@@ -180,7 +182,8 @@ TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
   const std::vector<float> restitutions{0.3f, 0.5f, 0.8f, 1.0f};
   for (float e : restitutions) {
     const uint32_t material = add_material(scene, 0.5f, e);
-    add_body(scene, Motion::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0}).material = material;
+    add_body(scene, Motion::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0}).material =
+        material;
   }
   World world(scene, settings_for(name));
   run(world, 45); /* falls for 0.632 s, 38 steps */
@@ -199,8 +202,8 @@ TEST_CASE("position solvers: momentum of a closed system", "[physics]")
   const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
   const float restitution = GENERATE(0.0f, 0.5f);
   const Drift drift = collide(settings_for(name), 0.6f, restitution);
-  INFO(name << ", restitution " << restitution << ": momentum " << drift.linear << ", angular " << drift.angular << ", energy grown "
-            << drift.energy << ", contacts " << drift.contacts);
+  INFO(name << ", restitution " << restitution << ": momentum " << drift.linear << ", angular " << drift.angular
+            << ", energy grown " << drift.energy << ", contacts " << drift.contacts);
   CHECK(drift.contacts > 20);
   CHECK(drift.linear < (name == "xpbd" ? 1e-5 : 0.02));
   CHECK(drift.angular < (name == "xpbd" ? 1e-5 : 0.1));
@@ -211,7 +214,8 @@ TEST_CASE("avbd holds a thousand times the mass on top of a stack", "[physics]")
 {
   const int height = GENERATE(2, 5);
   const Standing standing = stand(column(height, 1000), settings_for("avbd"), 300);
-  INFO(height << " boxes: moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest " << standing.deepest << " m");
+  INFO(height << " boxes: moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest "
+              << standing.deepest << " m");
   CHECK(standing.moved < 0.2);
   CHECK(standing.sideways < 0.01);
 }
@@ -227,7 +231,8 @@ TEST_CASE("position solvers: more substeps or iterations, less penetration", "[p
     (substeps ? settings.substeps : settings.iterations) *= times;
     sunk.push_back(stand(column(10, 1), settings, 100).moved);
   }
-  INFO(name << (substeps ? ", substeps" : ", iterations") << ": sunk by " << sunk[0] << ", " << sunk[1] << ", " << sunk[2] << " m");
+  INFO(name << (substeps ? ", substeps" : ", iterations") << ": sunk by " << sunk[0] << ", " << sunk[1] << ", "
+            << sunk[2] << " m");
   CHECK(sunk[1] < 0.8 * sunk[0]);
   CHECK(sunk[2] < std::max(0.8 * sunk[1], 1e-4)); /* both have converged, to what warm start and rounding leave */
 }
@@ -240,12 +245,15 @@ TEST_CASE("position solvers: a body of many neighbours", "[physics]")
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 100; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f), {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f}).mass = 0.5f;
+    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+             {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f})
+        .mass = 0.5f;
   const Standing standing = stand(scene, settings_for(name), 60);
   INFO(name << ": moved " << standing.moved << " m, deepest " << standing.deepest << " m");
   CHECK(standing.moved < 0.01);
   CHECK(standing.deepest < 0.01);
-  World serial(scene, settings_for(name), Placement{"serial", {}, false}), threads(scene, settings_for(name), Placement{"tbb:threads=7,lanes=8", {}, false});
+  World serial(scene, settings_for(name), Placement{"serial", {}, false}),
+      threads(scene, settings_for(name), Placement{"tbb:threads=7,lanes=8", {}, false});
   run(serial, 5);
   run(threads, 5);
   CHECK(serial.state_hash() == threads.state_hash());
@@ -263,7 +271,8 @@ TEST_CASE("position solvers on the reference backend", "[physics]")
   const std::vector<PreciseBodyState> exact = reference.precise_bodies();
   double apart = 0;
   for (size_t i = 0; i < exact.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) apart = std::max(apart, std::abs(exact[i].position[axis] - double(rounded[i].position[axis])));
+    for (int axis = 0; axis < 3; ++axis)
+      apart = std::max(apart, std::abs(exact[i].position[axis] - double(rounded[i].position[axis])));
   INFO(name << ": " << apart << " m between float and double after 60 steps");
   CHECK(apart < 2e-5);
   CHECK(apart > 0);

@@ -1,7 +1,6 @@
 /* Resting contact: stacks stand, piles do not sink, and that far from the origin as well. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 #include "tests/physics/solids.h"
 
@@ -28,7 +27,8 @@ Scene log_cabin(int layers, float half)
   for (int layer = 0; layer < layers; ++layer)
     for (double side : {-0.3, 0.3}) {
       const bool across = layer % 2;
-      Body &log = add_body(scene, Motion::dynamic, box_shape(1, half, half), {across ? side : 0, half * (1 + 2.002 * layer), across ? 0 : side});
+      Body &log = add_body(scene, Motion::dynamic, box_shape(1, half, half),
+                           {across ? side : 0, half * (1 + 2.002 * layer), across ? 0 : side});
       log.orientation = turn_about(Vector::UnitY(), across ? pi / 2 : 0);
     }
   return scene;
@@ -61,9 +61,10 @@ TEST_CASE("a stack of ten boxes stands a thousand steps", "[physics]")
     run(world, 100);
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
-  const double sideways = farthest_drift(start, world.bodies(), true), drift = farthest_drift(settled, world.bodies(), false);
-  INFO("ten boxes, 1000 steps: settle " << sunk << " m in 100 steps, then drift " << drift << " m; sideways " << sideways
-                                        << " m; deepest contact " << deepest);
+  const double sideways = farthest_drift(start, world.bodies(), true),
+               drift = farthest_drift(settled, world.bodies(), false);
+  INFO("ten boxes, 1000 steps: settle " << sunk << " m in 100 steps, then drift " << drift << " m; sideways "
+                                        << sideways << " m; deepest contact " << deepest);
   CHECK(sideways < 0.001);
   CHECK(drift < 0.001);
   CHECK(deepest < 0.005);
@@ -78,8 +79,8 @@ TEST_CASE("a grid of boxes sinks less than two centimetres", "[physics]")
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
   const Statistics statistics = world.statistics();
-  INFO("box-grid 8 x 8 x 8: maximum penetration " << statistics.max_penetration << " m at step 120, " << deepest << " at any tenth step; mean "
-                                                  << statistics.mean_penetration);
+  INFO("box-grid 8 x 8 x 8: maximum penetration " << statistics.max_penetration << " m at step 120, " << deepest
+                                                  << " at any tenth step; mean " << statistics.mean_penetration);
   CHECK(statistics.max_penetration < 0.02);
   CHECK(deepest < 0.02);
   CHECK(statistics.contacts > 3000);
@@ -97,12 +98,14 @@ TEST_CASE("a stack stands 20 km from the origin", "[physics]")
     deepest = std::max(deepest, world.statistics().max_penetration);
   }
   const double drift = farthest_drift(start, world.bodies(), false);
-  INFO("at (" << offset[0] << ", " << offset[1] << ", " << offset[2] << "): five boxes, 600 steps: moved " << drift << " m, deepest contact " << deepest);
+  INFO("at (" << offset[0] << ", " << offset[1] << ", " << offset[2] << "): five boxes, 600 steps: moved " << drift
+              << " m, deepest contact " << deepest);
   CHECK(drift < 0.004);
   CHECK(deepest < 0.004);
 }
 
-/* Thin logs bend at their crossings by angles so small that the axis of two edges leads by more than their thickness. */
+/* Thin logs bend at their crossings by angles so small that the axis of two edges leads by more than their
+ * thickness. */
 TEST_CASE("a cabin of long thin logs stands", "[physics]")
 {
   const float half = GENERATE(0.02f, 0.05f, 0.1f);
@@ -112,7 +115,8 @@ TEST_CASE("a cabin of long thin logs stands", "[physics]")
   CHECK(world.statistics().max_penetration < 0.2 * double{half});
 }
 
-TEST_CASE("cubes that fall in a heap sink no deeper than two of the fastest close within a step, and not for long", "[physics]")
+TEST_CASE("cubes that fall in a heap sink no deeper than two of the fastest close within a step, and not for long",
+          "[physics]")
 {
   Scene scene = load_scene("falling-boxes:n=600");
   const bool as_hulls = GENERATE(false, true);

@@ -1,6 +1,6 @@
-/* Bodies that do not turn, about some axes or any, or hardly: their four points share one effective mass, and let go together. */
+/* Bodies that do not turn, about some axes or any, or hardly: their four points share one effective mass, and let go
+ * together. */
 #include "tests/catch.h"
-
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -27,7 +27,8 @@ TEST_CASE("a body whose moments are infinite about two axes turns about the thir
   }
 }
 
-/* The warm start of the substep after the impact brings the impact's impulse again, which the points must give back wholly. */
+/* The warm start of the substep after the impact brings the impact's impulse again, which the points must give back
+ * wholly. */
 TEST_CASE("without restitution a body that falls flat stays down, however hard it is to turn", "[physics]")
 {
   for (const float half_height : {0.1f, 0.5f, 1.5f, 3.0f})

@@ -1,6 +1,5 @@
 /* Triggers: who is reported, from when to when against closed forms, and that nothing is pushed. */
 #include "tests/catch.h"
-
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -61,13 +60,14 @@ TEST_CASE("a ball through a trigger: begin and end in their steps, on the same p
 /* Also where one lies wholly within the other, which must not look like having left. */
 TEST_CASE("a body of any shape through a trigger of any shape is in it once, without a gap", "[physics][trigger]")
 {
-  const Shape shapes[] = {sphere_shape(1), box_shape(1, 0.9f, 1.1f), capsule_shape(0.7f, 0.5f), cylinder_shape(1, 0.9f), cone_shape(1.2f, 1),
-                          hull_of_box(1, 0.9f, 1.1f)};
+  const Shape shapes[] = {sphere_shape(1),         box_shape(1, 0.9f, 1.1f), capsule_shape(0.7f, 0.5f),
+                          cylinder_shape(1, 0.9f), cone_shape(1.2f, 1),      hull_of_box(1, 0.9f, 1.1f)};
   const float size = GENERATE(0.1f, 0.9f);
   Scene scene = empty_scene({0, 0, 0});
   for (const Shape &trigger : shapes)
-    for (Shape moving : {sphere_shape(size), box_shape(size, size, size), capsule_shape(0.5f * size, 0.5f * size), cylinder_shape(size, 0.5f * size),
-                         cone_shape(size, 0.5f * size), hull_of_box(size, size, size)}) {
+    for (Shape moving :
+         {sphere_shape(size), box_shape(size, size, size), capsule_shape(0.5f * size, 0.5f * size),
+          cylinder_shape(size, 0.5f * size), cone_shape(size, 0.5f * size), hull_of_box(size, size, size)}) {
       const double z = 10.0 * double(scene.bodies.size());
       Body &zone = add_solid(scene, trigger, {0, 0, z}, turn_about({0.3, 1, 0.2}, 0.7));
       zone.motion = Motion::fixed;
@@ -94,7 +94,8 @@ TEST_CASE("a body of any shape through a trigger of any shape is in it once, wit
     const size_t begins = history[k].find('b'), ends = history[k].find('e');
     REQUIRE((begins != std::string::npos && ends != std::string::npos));
     CHECK((begins < 70 && ends > 71)); /* the body's centre passes the middle after 70 steps of 5 cm */
-    CHECK(history[k] == std::string(begins, '.') + "b" + std::string(ends - begins - 1, 'p') + "e" + std::string(149 - ends, '.'));
+    CHECK(history[k] ==
+          std::string(begins, '.') + "b" + std::string(ends - begins - 1, 'p') + "e" + std::string(149 - ends, '.'));
   }
 }
 
@@ -109,7 +110,8 @@ TEST_CASE("who meets a trigger: whatever is none itself, where one of the two mo
   for (const Motion first : motions)
     for (const Motion second : motions)
       for (const bool first_trigger : {false, true})
-        for (const bool second_trigger : {false, true}) cases.push_back({first, second, first_trigger, second_trigger, false});
+        for (const bool second_trigger : {false, true})
+          cases.push_back({first, second, first_trigger, second_trigger, false});
   Scene scene = empty_scene({0, 0, 0});
   const auto add = [&](const Case &c) {
     const double x = 5.0 * double(scene.bodies.size());
@@ -140,7 +142,8 @@ TEST_CASE("who meets a trigger: whatever is none itself, where one of the two mo
   CHECK(world.statistics().contacts <= 4 * solids);
 }
 
-TEST_CASE("a half-space as a trigger: kinematic and dynamic bodies enter it, other half-spaces do not", "[physics][trigger]")
+TEST_CASE("a half-space as a trigger: kinematic and dynamic bodies enter it, other half-spaces do not",
+          "[physics][trigger]")
 {
   Scene scene = empty_scene();
   add_ground(scene).trigger = true;
@@ -149,7 +152,8 @@ TEST_CASE("a half-space as a trigger: kinematic and dynamic bodies enter it, oth
   add_body(scene, Motion::dynamic, capsule_shape(0.2f, 0.3f), {5, 1, 0});
   add_body(scene, Motion::kinematic, half_space_shape(), {0, -20, 0}).linear_velocity = {0, 1, 0};
   World world(scene, with_events(), {"serial", {}});
-  /* The lift's face is there after 0.5 s, 30 steps, give or take a rounding; the capsule falls 0.5 m in 0.316 s, 19 steps. */
+  /* The lift's face is there after 0.5 s, 30 steps, give or take a rounding; the capsule falls 0.5 m in 0.316 s, 19
+   * steps. */
   for (int i = 0; i < 50; ++i) {
     const std::vector<BodyState> states = world.bodies();
     world.step();
@@ -189,7 +193,8 @@ TEST_CASE("batches are proven with triggers among them", "[physics][trigger]")
     Scene scene = empty_scene();
     add_ground(scene);
     for (int i = 0; i < 30; ++i) {
-      Body &body = add_body(scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0.5 * (i % 3), 0.3 + 0.6 * (i / 6), 0.5 * (i / 3 % 2)});
+      Body &body = add_body(scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f),
+                            {0.5 * (i % 3), 0.3 + 0.6 * (i / 6), 0.5 * (i / 3 % 2)});
       body.trigger = i % 5 == 0;
       body.gravity_factor = body.trigger ? 0.0f : 1.0f;
     }

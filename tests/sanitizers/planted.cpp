@@ -1,17 +1,18 @@
 /* planted.cpp - faults that the sanitizers must see, each beside its like without the fault: CTest runs both
  * (tests/sanitizers/tests.cmake), and a fault that passes in silence fails a test.
  *
- *   planted overrun BUFFER BACKEND   a step of a world of which one buffer is one element too short; `exact` for `overrun`: not so
- *   planted race | no-race           launches of two backends in two threads, on one buffer or on two
- */
+ *   planted overrun BUFFER BACKEND   a step of a world of which one buffer is one element too short; `exact` for
+ * `overrun`: not so planted race | no-race           launches of two backends in two threads, on one buffer or on
+ * two */
 #include <atomic>
 #include <cstdio>
 #include <string>
 #include <thread>
 
-#include "host/runtime/make_backend.h"
-#include "host/catalog/catalog.h"
 #include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
+#include "host/runtime/make_backend.h"
 
 using namespace tandem;
 
@@ -42,7 +43,8 @@ public:
   explicit Fills(Memory &memory) : memory_(memory)
   {
     counts_[COUNT_LENGTH] = items;
-    for (Buffer buffer : {Buffer::primitive_a, Buffer::primitive_b, Buffer::primitive_c}) memory_.resize(buffer, items * sizeof(uint32_t));
+    for (Buffer buffer : {Buffer::primitive_a, Buffer::primitive_b, Buffer::primitive_c})
+      memory_.resize(buffer, items * sizeof(uint32_t));
   }
   /* Arguments are bound before any thread starts: the host's records of buffers are of one thread. */
   BoundArgument place(Buffer buffer) { return {memory_.acquire(buffer, host_storage(), Access::out), 0}; }
@@ -56,13 +58,14 @@ private:
   std::array<uint32_t, COUNT_TOTAL> counts_{};
 };
 
-/* The first thread launches twice, so that an order given from launch to launch would hide its first one from the second thread. That
- * one waits for it in time alone: a relaxed flag orders nothing else. */
+/* The first thread launches twice, so that an order given from launch to launch would hide its first one from the
+ * second thread. That one waits for it in time alone: a relaxed flag orders nothing else. */
 void launch_in_two_threads(bool on_one_buffer)
 {
   Memory memory;
   Fills fills(memory);
-  const BoundArgument own = fills.place(Buffer::primitive_a), spare = fills.place(Buffer::primitive_b), other = fills.place(Buffer::primitive_c);
+  const BoundArgument own = fills.place(Buffer::primitive_a), spare = fills.place(Buffer::primitive_b),
+                      other = fills.place(Buffer::primitive_c);
   const auto first = make_backend("tbb:threads=2,lanes=4"), second = make_backend("tbb:threads=2,lanes=4");
   std::atomic<bool> done = false;
   std::thread one([&] {
@@ -84,7 +87,8 @@ int main(int count, char **arguments)
 {
   const std::string what = count > 1 ? arguments[1] : "";
   if (what == "race" || what == "no-race") launch_in_two_threads(what == "race");
-  else if (count == 4 && (what == "overrun" || what == "exact")) step_with(arguments[2], arguments[3], what == "overrun");
+  else if (count == 4 && (what == "overrun" || what == "exact"))
+    step_with(arguments[2], arguments[3], what == "overrun");
   else return 2;
   std::puts("nothing was seen");
   return 0;

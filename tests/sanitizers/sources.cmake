@@ -1,7 +1,8 @@
-# The files of tests that a sanitizer tree runs: those with a test tagged [sanitizer], and whole files that read what others wrote.
-# Files that compile shared/ or the dispatcher's threads into themselves are instrumented; the others only call the library, and are
-# borrowed where there is a tree to borrow from (cmake/Sanitizers.cmake).
-set(reader_tests bad_shapes_test contact_problem_file_test obj_test scene_gltf_test scene_gltf_solids_test scene_json_test scene_gltf_strict_test command_test hostile_files_test)
+# The files of tests that a sanitizer tree runs: those with a test tagged [sanitizer], and whole files that read what
+# others wrote. Files that compile shared/ or the dispatcher's threads into themselves are instrumented; the others only
+# call the library, and are borrowed where there is a tree to borrow from (cmake/Sanitizers.cmake).
+set(reader_tests bad_shapes_test contact_problem_file_test obj_test scene_test solids_test strict_test command_test
+  hostile_files_test)
 set(watched)
 set(BORROWED_TESTS)
 foreach(source IN LISTS TEST_SOURCES)

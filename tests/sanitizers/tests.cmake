@@ -1,6 +1,6 @@
 # The tests of a sanitizer tree (presets asan and tsan): the Catch2 tests tagged [sanitizer], among them scenes large
-# enough that kernels are split over several threads; whole files of tests of what reads files and of the command; and faults that
-# must be seen. Drivers of OpenCL are not instrumented: left out.
+# enough that kernels are split over several threads; whole files of tests of what reads files and of the command; and
+# faults that must be seen. Drivers of OpenCL are not instrumented: left out.
 set(launcher)
 if(TANDEM_SANITIZE MATCHES thread)
   # The thread sanitizer of some compilers cannot place its shadow memory under strong address randomisation.
@@ -12,9 +12,11 @@ endif()
 
 function(sanitizer_test name)
   tandem_test(NAME sanitizer.${name} LABEL sanitizer TIMEOUT 900
-    ENVIRONMENT TANDEM_COMMAND=$<TARGET_FILE:tandem_command> OCL_ICD_VENDORS=/nonexistent OPENCL_VENDOR_PATH=/nonexistent
+    ENVIRONMENT TANDEM_COMMAND=$<TARGET_FILE:tandem_command> OCL_ICD_VENDORS=/nonexistent
+      OPENCL_VENDOR_PATH=/nonexistent
     COMMAND ${launcher} ${ARGN})
-  set_property(TEST sanitizer.${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION CI=unset:) # which would ask for these drivers
+  # which would ask for these drivers
+  set_property(TEST sanitizer.${name} APPEND PROPERTY ENVIRONMENT_MODIFICATION CI=unset:)
 endfunction()
 
 sanitizer_test(unit $<TARGET_FILE:tandem_tests> ${fail_without_tests} "[sanitizer]")
@@ -32,7 +34,8 @@ add_dependencies(tandem_tests tandem_planted) # one target builds what the tests
 # sanitizer_sees(name regex arguments...): a report that matches, whatever the exit status.
 function(sanitizer_sees name report)
   sanitizer_test(sees.${name} $<TARGET_FILE:tandem_planted> ${ARGN})
-  set_tests_properties(sanitizer.sees.${name} PROPERTIES PASS_REGULAR_EXPRESSION "${report}" FAIL_REGULAR_EXPRESSION "nothing was seen")
+  set_tests_properties(sanitizer.sees.${name} PROPERTIES PASS_REGULAR_EXPRESSION "${report}" FAIL_REGULAR_EXPRESSION
+    "nothing was seen")
 endfunction()
 
 if(TANDEM_SANITIZE MATCHES address)

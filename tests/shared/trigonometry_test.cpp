@@ -1,10 +1,9 @@
 /* Our own sine, cosine and arc tangent against double precision, over dense sweeps. */
-#include "tests/catch.h"
-
 #include <cmath>
 #include <limits>
 
 #include "shared/trigonometry.h"
+#include "tests/catch.h"
 
 namespace {
 
@@ -29,10 +28,13 @@ Errors sweep_angles(double limit, int samples)
 
 TEST_CASE("sine and cosine are within a rounding or two of double precision", "[trigonometry][sanitizer]")
 {
-  struct Sweep { double limit, bound; };
+  struct Sweep {
+    double limit, bound;
+  };
   for (const Sweep &sweep : {Sweep{3.2, 1.0e-7}, Sweep{100, 1.0e-7}, Sweep{8192, 1.0e-7}}) {
     const Errors worst = sweep_angles(sweep.limit, 400'000);
-    INFO("angles to +-" << sweep.limit << ": sine " << worst.sine << ", cosine " << worst.cosine << ", length " << worst.length);
+    INFO("angles to +-" << sweep.limit << ": sine " << worst.sine << ", cosine " << worst.cosine << ", length "
+                        << worst.length);
     CHECK(worst.sine < sweep.bound);
     CHECK(worst.cosine < sweep.bound);
     CHECK(worst.length < sweep.bound);

@@ -1,9 +1,8 @@
-/* bench_broadphase_test.cpp - the inputs hold what they promise, pairs are those that two loops on the host count, and a broadphase that
- * loses one is found out. */
+/* bench_broadphase_test.cpp - the inputs hold what they promise, pairs are those that two loops on the host count, and
+ * a broadphase that loses one is found out. */
 #ifdef TANDEM_COMMAND
 #include "host/runtime/make_backend.h"
 #include "tests/catch.h"
-
 #include "tools/bench_broadphase.h"
 #include "tools/broadphase_frames.h"
 
@@ -17,11 +16,14 @@ struct Bounds {
 
 bool overlap(const Bounds &p, const Bounds &q)
 {
-  return p.lower.x <= q.upper.x && q.lower.x <= p.upper.x && p.lower.y <= q.upper.y && q.lower.y <= p.upper.y && p.lower.z <= q.upper.z &&
-         q.lower.z <= p.upper.z;
+  return p.lower.x <= q.upper.x && q.lower.x <= p.upper.x && p.lower.y <= q.upper.y && q.lower.y <= p.upper.y &&
+         p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-std::vector<Bounds> bounds_of(BroadphaseFrames &frames, size_t bodies) { return frames.memory().read<Bounds>(Buffer::bounds, bodies); }
+std::vector<Bounds> bounds_of(BroadphaseFrames &frames, size_t bodies)
+{
+  return frames.memory().read<Bounds>(Buffer::bounds, bodies);
+}
 
 /* Each of those that overlap and do not both stand still. */
 uint32_t counted_pairs(BroadphaseFrames &frames, const MovingBodies &moving)
@@ -45,7 +47,8 @@ double pairs_each(const char *input, uint32_t bodies)
 }
 
 /* Of the benchmark on 500 bodies of `pile`, with these. */
-std::vector<BroadphaseScene> bench_of(const std::vector<Broadphase> &broadphases, const std::vector<uint32_t> &bodies = {500})
+std::vector<BroadphaseScene> bench_of(const std::vector<Broadphase> &broadphases,
+                                      const std::vector<uint32_t> &bodies = {500})
 {
   BroadphaseRequest request = broadphase_request({}, {"pile"});
   request.backend = "serial";
@@ -84,7 +87,8 @@ TEST_CASE("bench broadphase: all find the pairs that two loops count, in every f
 
 TEST_CASE("bench broadphase: inputs are as dense as they say", "[bench-broadphase]")
 {
-  const double spheres = pairs_each("spheres", 2000), pile = pairs_each("pile", 2000), sizes = pairs_each("sizes", 2000), fixed = pairs_each("static", 2000);
+  const double spheres = pairs_each("spheres", 2000), pile = pairs_each("pile", 2000),
+               sizes = pairs_each("sizes", 2000), fixed = pairs_each("static", 2000);
   CAPTURE(spheres, pile, sizes, fixed);
   CHECK(std::abs(2 * spheres - 4) < 0.8); /* others that a body overlaps */
   CHECK(pile > 2);
@@ -108,7 +112,8 @@ TEST_CASE("bench broadphase: the large box overlaps a tenth of the small ones", 
   CHECK(with_large < 240);
 }
 
-TEST_CASE("bench broadphase: bodies are drawn alike each time, move by small steps, and the fixed ones stay", "[bench-broadphase]")
+TEST_CASE("bench broadphase: bodies are drawn alike each time, move by small steps, and the fixed ones stay",
+          "[bench-broadphase]")
 {
   for (const BroadphaseInput &input : broadphase_inputs()) {
     const MovingBodies moving(input, 400), again(input, 400);
@@ -150,7 +155,8 @@ TEST_CASE("bench broadphase: a list that outgrows its room is found again with r
 TEST_CASE("bench broadphase: one wrong pair in one frame is reported", "[bench-broadphase]")
 {
   frames_until_wrong = 4; /* the first launch records kernels */
-  const std::vector<BroadphaseScene> scenes = bench_of({{"wrong", "", find_pairs_wrongly}, broadphase_named("brute-force"), broadphase_named("bvh")});
+  const std::vector<BroadphaseScene> scenes =
+      bench_of({{"wrong", "", find_pairs_wrongly}, broadphase_named("brute-force"), broadphase_named("bvh")});
   const std::vector<std::string> lines = differences_of(scenes);
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("pile, 500 bodies: wrong gives other pairs than brute-force in frame 2: ") == 0);
@@ -164,7 +170,8 @@ TEST_CASE("bench broadphase: a table of sizes with slopes, and a chart", "[bench
   const std::vector<BroadphaseScene> scenes = bench_of({broadphase_named("grid"), broadphase_named("bvh")}, {100, 200});
   CHECK(differences_of(scenes).empty());
   const std::string text = broadphase_text(scenes[0]);
-  for (const char *said : {"pile: ", "100", "200", "slope", "grid", "bvh", "pairs"}) CHECK(text.find(said) != std::string::npos);
+  for (const char *said : {"pile: ", "100", "200", "slope", "grid", "bvh", "pairs"})
+    CHECK(text.find(said) != std::string::npos);
   const Json json = broadphase_json(scenes[0]);
   REQUIRE(json["runs"].size() == 4);
   CHECK(json["slopes"]["bvh"].is_number());

@@ -1,6 +1,6 @@
-/* `tandem bench rays`: blocked rays are those that hit something, and few rays give the hits that the boxes' density foretells. */
+/* `tandem bench rays`: blocked rays are those that hit something, and few rays give the hits that the boxes' density
+ * foretells. */
 #include "tests/catch.h"
-
 #include "tools/bench_rays.h"
 
 using namespace tandem;

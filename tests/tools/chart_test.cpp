@@ -1,10 +1,9 @@
 /* chart_test.cpp - ticks where a reader expects them; what is in the SVG, and what can break it. */
 #ifdef TANDEM_COMMAND
-#include "tests/catch.h"
-
 #include <cmath>
 #include <limits>
 
+#include "tests/catch.h"
 #include "tools/chart.h"
 #include "tools/page.h"
 
@@ -108,8 +107,11 @@ TEST_CASE("chart: zero lies hollow on the lower end, infinity is counted, nothin
 TEST_CASE("chart: empty, single and extreme data still give a frame with finite numbers", "[chart]")
 {
   for (const AxisScale scale : {AxisScale::linear, AxisScale::logarithmic})
-    for (const std::vector<ChartPoint> &points :
-         {std::vector<ChartPoint>{}, {{1, 1}}, {{1, 0}, {2, 0}}, {{1e-300, 1e-300}, {1e300, 1e300}}, {{5, 7}, {5, 7}}}) {
+    for (const std::vector<ChartPoint> &points : {std::vector<ChartPoint>{},
+                                                  {{1, 1}},
+                                                  {{1, 0}, {2, 0}},
+                                                  {{1e-300, 1e-300}, {1e300, 1e300}},
+                                                  {{5, 7}, {5, 7}}}) {
       Chart chart{"edge", {"x", scale}, {"y", scale}};
       chart.series.push_back({"data", points});
       const std::string svg = svg_of(chart);
@@ -137,7 +139,8 @@ TEST_CASE("page: one file, escaped text, numbers that sort by value", "[chart]")
   CHECK(text.find("--out &lt;dir&gt;") != std::string::npos);
   CHECK(text.find("data-value=\"2.0000000000000001e-09\">2e-09<") != std::string::npos);
   CHECK(text.find("<a href=\"#s1\">Tables</a>") != std::string::npos);
-  for (const char *outside : {"http://", "https://", "src=", "@import", "<link"}) CHECK(text.find(outside) == std::string::npos);
+  for (const char *outside : {"http://", "https://", "src=", "@import", "<link"})
+    CHECK(text.find(outside) == std::string::npos);
 }
 
 TEST_CASE("chart: several stand below each other in one picture", "[chart]")

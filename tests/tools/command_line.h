@@ -1,8 +1,6 @@
 /* command_line.h - the real program, run as a script would, for the tests of the command. */
 #pragma once
 
-#include "tests/catch.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -12,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
+#include "tests/catch.h"
 
 namespace command_line {
 
@@ -69,9 +68,13 @@ inline Result shell(const std::string &line)
 }
 
 /* `environment` stands before the program: "A=1 B=2". */
-inline Result command(const std::string &arguments, const std::string &environment = "") { return shell(environment + " '" + program() + "' " + arguments); }
+inline Result command(const std::string &arguments, const std::string &environment = "")
+{
+  return shell(environment + " '" + program() + "' " + arguments);
+}
 
-inline void check_refused(const std::string &arguments, const std::string &mentions, const std::string &environment = "")
+inline void check_refused(const std::string &arguments, const std::string &mentions,
+                          const std::string &environment = "")
 {
   const Result result = command(arguments, environment);
   INFO(arguments << "\nstdout: " << result.out << "\nstderr: " << result.error);

@@ -1,10 +1,10 @@
 /* command_test.cpp - the real program, run as a script would: one line and status 2 for anything wrong, the
  * promised keys for anything right. */
 #ifdef TANDEM_COMMAND
-#include "tests/tools/command_line.h"
-
 #include <regex>
 #include <set>
+
+#include "tests/tools/command_line.h"
 
 using namespace command_line;
 
@@ -31,7 +31,8 @@ TEST_CASE("command: numbers out of range", "[command]")
 {
   for (const char *steps : {"0", "-1", "many", "1.5", "99999999999999999999"})
     check_refused("run " + tiny + " --steps " + steps, "--steps");
-  for (const char *step : {"-0.1", "0", "nan", "inf", "soon", "1/0", "1e9"}) check_refused("run " + tiny + " --dt " + step, "");
+  for (const char *step : {"-0.1", "0", "nan", "inf", "soon", "1/0", "1e9"})
+    check_refused("run " + tiny + " --dt " + step, "");
   check_refused("run " + tiny + " --dt nan", "--dt");
   check_refused("run " + tiny + " --substeps 0", "--substeps");
   check_refused("run " + tiny + " --iterations 1001", "--iterations");
@@ -113,7 +114,8 @@ TEST_CASE("command: contact problems", "[command]")
     CHECK(json["history"].size() == json["sweeps"]);
     CHECK(json["impulse"][0][2].get<double>() == Approx(0.2).epsilon(1e-4));
   }
-  const Json cut_short = json_of("contact-problem " TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat --tolerance 1e-6 --iterations 3", 1);
+  const Json cut_short = json_of(
+      "contact-problem " TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat --tolerance 1e-6 --iterations 3", 1);
   CHECK(cut_short["sweeps"] == 3);
   CHECK(cut_short["converged"] == false);
   check_refused("contact-problem", "FILE");
@@ -128,16 +130,17 @@ TEST_CASE("command: contact problems", "[command]")
   check_refused(sliding + " --json /nowhere/f.json", "--json");
   const Scratch scratch;
   std::ofstream(scratch.file("truncated.dat")) << "3\n1\n0\n3\n3\n3 3\n1 0 0\n";
-  check_refused("contact-problem " + scratch.file("truncated.dat"), "truncated.dat: line 8: the file ends where W[0][1] should stand");
+  check_refused("contact-problem " + scratch.file("truncated.dat"),
+                "truncated.dat: line 8: the file ends where W[0][1] should stand");
 }
 
 TEST_CASE("command: what comes later says so", "[command]")
 {
-  for (const char *later : {"replay f", "bench solve"})
-    check_refused(later, "later version");
+  for (const char *later : {"replay f", "bench solve"}) check_refused(later, "later version");
 }
 
-TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes", "[command]")
+TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes",
+          "[command]")
 {
   const Scratch scratch;
   const std::string out = " --out " + scratch.file("report");
@@ -146,7 +149,8 @@ TEST_CASE("command: stability writes its contract, and says in its status whethe
   for (const Json &each : json["cases"]) check_keys(each, {"name", "solver", "passed", "figure", "bound", "unit"});
   CHECK(json["cases"][1]["name"] == "flight");
   CHECK(json["cases"][1]["passed"] == true);
-  for (const char *name : {"index.html", "stability.json", "figures.csv"}) CHECK(files::file_size(scratch.file("report/") + name) > 100);
+  for (const char *name : {"index.html", "stability.json", "figures.csv"})
+    CHECK(files::file_size(scratch.file("report/") + name) > 100);
   CHECK(Json::parse(contents(scratch.file("report/stability.json"))) == json);
   check_refused("stability --only castle" + out, "castle");
   check_refused("stability --solvers magic" + out, "magic");
@@ -170,15 +174,18 @@ TEST_CASE("command: help and version", "[command]")
   CHECK(command("--version").out.find("tandem ") == 0);
   const Result help = command("run --help");
   CHECK(help.status == 0);
-  for (const char *said : {"--on", "--place", "--dt", "--midphase", "subtrees", "warm-up", "soft-step"}) CHECK(help.out.find(said) != std::string::npos);
+  for (const char *said : {"--on", "--place", "--dt", "--midphase", "subtrees", "warm-up", "soft-step"})
+    CHECK(help.out.find(said) != std::string::npos);
 }
 
 TEST_CASE("command: run writes what its contract says", "[command]")
 {
   const Json run = json_of("run " + tiny + " --on serial --steps 20 --substeps 2");
-  check_keys(run, {"scene", "backend", "solver", "bodies", "steps", "dt", "step_ms", "stages", "pairs", "contacts", "colors",
-                   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite", "overflow", "memory_bytes",
-                   "kernels_built", "build_ms", "hash", "body_hash"});
+  check_keys(run, {"scene",    "backend",         "solver",           "bodies",         "steps",
+                   "dt",       "step_ms",         "stages",           "pairs",          "contacts",
+                   "colors",   "max_penetration", "mean_penetration", "kinetic_energy", "nonfinite",
+                   "overflow", "memory_bytes",    "kernels_built",    "build_ms",       "hash",
+                   "body_hash"});
   check_keys(run["step_ms"], {"median", "min", "max"});
   CHECK(run["scene"] == tiny);
   CHECK(run["backend"] == "serial");
@@ -203,7 +210,9 @@ TEST_CASE("command: a run of one step is timed too", "[command]")
 
 TEST_CASE("command: the hash depends on what is simulated alone", "[command]")
 {
-  const auto hash = [](const std::string &options) { return json_of("run " + tiny + " --steps 12 " + options)["hash"]; };
+  const auto hash = [](const std::string &options) {
+    return json_of("run " + tiny + " --steps 12 " + options)["hash"];
+  };
   const Json expected = hash("--on serial");
   CHECK(hash("--on tbb:threads=2,lanes=4") == expected);
   CHECK(hash("--on serial --place solve=tbb:threads=1,lanes=4,narrowphase=tbb") == expected);
@@ -214,7 +223,8 @@ TEST_CASE("command: the hash depends on what is simulated alone", "[command]")
 TEST_CASE("command: run writes the contact events of each step", "[command]")
 {
   const Scratch scratch;
-  const Result run = command("run '" TANDEM_SOURCE_DIR "/tests/scenes/triggers.json' --steps 60 --on serial --events " + scratch.file("e.json"));
+  const Result run = command("run '" TANDEM_SOURCE_DIR "/tests/scenes/triggers.json' --steps 60 --on serial --events " +
+                             scratch.file("e.json"));
   REQUIRE(run.status == 0);
   const Json file = Json::parse(contents(scratch.file("e.json")));
   CHECK(file["bodies"].size() == 8);
@@ -240,8 +250,8 @@ TEST_CASE("command: run writes the contact events of each step", "[command]")
 TEST_CASE("command: run saves an animation and a trace", "[command]")
 {
   const Scratch scratch;
-  const Result run = command("run " + tiny + " --steps 4 --save " + scratch.file("m.glb") + " --trace " + scratch.file("t.json") +
-                            " --json " + scratch.file("r.json"));
+  const Result run = command("run " + tiny + " --steps 4 --save " + scratch.file("m.glb") + " --trace " +
+                             scratch.file("t.json") + " --json " + scratch.file("r.json"));
   INFO(run.error);
   REQUIRE(run.status == 0);
   CHECK(run.out.find("ms/step") != std::string::npos);
@@ -282,8 +292,8 @@ TEST_CASE("command: diff says equal, or where the first difference is", "[comman
   CHECK(first["ulps"] == 1);
   CHECK(first["values"].size() == 2);
   CHECK(first["bodies"].size() == 1);
-  CHECK(first["gdb"].get<std::string>().find("break integrate_velocities_item if i == 3 && tandem::step_of_launch == 2") !=
-        std::string::npos);
+  CHECK(first["gdb"].get<std::string>().find(
+            "break integrate_velocities_item if i == 3 && tandem::step_of_launch == 2") != std::string::npos);
 }
 
 TEST_CASE("command: lists and plan", "[command]")
@@ -299,7 +309,8 @@ TEST_CASE("command: lists and plan", "[command]")
   for (const Json &scene : scenes["scenes"]) check_keys(scene, {"name", "description", "parameters"});
 
   const Json plan = json_of("plan " + tiny);
-  check_keys(plan, {"scene", "backend", "features", "flags", "kernels", "kernels_built", "buffers", "memory_bytes", "build_ms"});
+  check_keys(plan, {"scene", "backend", "features", "flags", "kernels", "kernels_built", "buffers", "memory_bytes",
+                    "build_ms"});
   const auto find = [&](const char *list, const std::string &name) {
     for (const Json &entry : plan[list])
       if (entry["name"] == name) return entry;
@@ -322,8 +333,9 @@ TEST_CASE("command: --check proves the batches", "[command]")
   const Result fine = command("run box-stack:n=10,height=10 --batching sequential --check --steps 3 --on serial");
   CHECK(fine.status == 0);
   CHECK(fine.out.find("free of conflict in all 3 steps") != std::string::npos);
-  const Result wrong = command("diff box-stack:n=10,height=10 --batching sequential --check --between serial,tbb --steps 1 "
-                              "--plant color_in_order:pair_color:8");
+  const Result wrong =
+      command("diff box-stack:n=10,height=10 --batching sequential --check --between serial,tbb --steps 1 "
+              "--plant color_in_order:pair_color:8");
   CHECK(wrong.status == 1);
   CHECK(wrong.error.find("tandem: batches wrong in step 0: colour ") != std::string::npos);
   CHECK(wrong.error.find("pairs (4, 3) and (5, 4)") != std::string::npos);

@@ -1,4 +1,5 @@
-/* diff_test.cpp - what `tandem diff` must not pass over: an error that was planted nowhere, and bodies that were taken out. */
+/* diff_test.cpp - what `tandem diff` must not pass over: an error that was planted nowhere, and bodies that were taken
+ * out. */
 #ifdef TANDEM_COMMAND
 #include "tests/tools/command_line.h"
 
@@ -12,16 +13,21 @@ const std::string spheres = "diff spheres:n=40 --steps 3 --between serial,tbb --
 
 TEST_CASE("diff: an error that can be planted nowhere is bad use", "[command]")
 {
-  check_refused(spheres + "solve_contacts:solver_velocity:99999999:1", "nothing was planted in 3 steps: solver_velocity holds");
-  check_refused(spheres + "solve_contacts:solver_velocity:0:99", "nothing was planted in 3 steps: solve_contacts does not run in step 99");
-  check_refused(spheres + "collide_box_box:manifold_points:0", "nothing was planted in 3 steps: collide_box_box does not run in step 0");
-  check_refused(spheres + "solve_contacts:bounds:0:1", "nothing was planted in 3 steps: solve_contacts does not write bounds");
+  check_refused(spheres + "solve_contacts:solver_velocity:99999999:1",
+                "nothing was planted in 3 steps: solver_velocity holds");
+  check_refused(spheres + "solve_contacts:solver_velocity:0:99",
+                "nothing was planted in 3 steps: solve_contacts does not run in step 99");
+  check_refused(spheres + "collide_box_box:manifold_points:0",
+                "nothing was planted in 3 steps: collide_box_box does not run in step 0");
+  check_refused(spheres + "solve_contacts:bounds:0:1",
+                "nothing was planted in 3 steps: solve_contacts does not write bounds");
   check_refused(spheres + "solve_contacts:solver_velocity:0:99 --json -", "nothing was planted");
 }
 
 TEST_CASE("diff: an error that was planted is found", "[command]")
 {
-  const Result found = command("diff spheres:n=40 --steps 3 --between serial,tbb --plant integrate_velocities:solver_velocity:25:2");
+  const Result found =
+      command("diff spheres:n=40 --steps 3 --between serial,tbb --plant integrate_velocities:solver_velocity:25:2");
   CHECK(found.status == 1);
   CHECK(found.out.find("DIFFERENT: serial and tbb in step 2, kernel integrate_velocities") == 0);
 }
@@ -29,7 +35,9 @@ TEST_CASE("diff: an error that was planted is found", "[command]")
 TEST_CASE("diff: bodies that were taken out alike are equal, and said", "[command]")
 {
   const Scratch folder;
-  std::ofstream(folder.file("fly.json")) << R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":0.5}],"bodies":[{"name":"fly","linear_velocity":[3e38,0,0]},{"position":[5,0,0]}]})";
+  std::ofstream(folder.file("fly.json"))
+      << R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":0.5}],"bodies":[{"name":"fly",)"
+         R"("linear_velocity":[3e38,0,0]},{"position":[5,0,0]}]})";
   const Result result = command("diff " + folder.file("fly.json") + " --dt 10 --steps 60");
   CAPTURE(result.out, result.error);
   CHECK(result.status == 0);

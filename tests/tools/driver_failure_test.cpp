@@ -1,13 +1,13 @@
-/* driver_failure_test.cpp - OpenCL drivers that abort, crash, end the process or hang when they are asked for their devices: the command
- * says so in one line, and all that needs no OpenCL goes on. */
-#include "host/runtime/opencl/probe.h"
-#include "tests/catch.h"
-
+/* driver_failure_test.cpp - OpenCL drivers that abort, crash, end the process or hang when they are asked for their
+ * devices: the command says so in one line, and all that needs no OpenCL goes on. */
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 
 #include <unistd.h>
+
+#include "host/runtime/opencl/probe.h"
+#include "tests/catch.h"
 
 #if defined(TANDEM_COMMAND) && defined(TANDEM_FAILING_DRIVER)
 #include "tests/tools/command_line.h"
@@ -73,16 +73,18 @@ TEST_CASE("failing drivers: an installed driver that does not load is no missing
   const command_line::Scratch folder;
   std::ofstream(folder.file("gone.icd")) << "/nowhere/libgone.so\n";
   const std::string environment = "OCL_ICD_VENDORS=" + folder.path.string() + "/";
-  command_line::check_refused("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl", "gone.icd: /nowhere/libgone.so: cannot open shared object file", environment);
+  command_line::check_refused("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl",
+                              "gone.icd: /nowhere/libgone.so: cannot open shared object file", environment);
   CHECK(command_line::command("devices", environment).out.find("gone.icd: /nowhere/libgone.so") != std::string::npos);
 }
 
 TEST_CASE("failing drivers: without descriptors nobody says that none is installed", "[command]")
 {
-  const std::string without_inherited = "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; "; /* CTest leaves one open, and the loader of libraries needs one */
+  const std::string without_inherited =
+      "exec 3>&- 4>&- 5>&- 6>&- 7>&- 8>&- 9>&-; "; /* CTest leaves one open, and the loader of libraries needs one */
   for (const char *descriptors : {"4", "5", "6", "7"}) {
-    const command_line::Result result =
-      command_line::command("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl", without_inherited + "ulimit -n " + descriptors + ";");
+    const command_line::Result result = command_line::command("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl",
+                                                              without_inherited + "ulimit -n " + descriptors + ";");
     CAPTURE(descriptors, result.error);
     CHECK(result.status == 2);
     CHECK(result.error.find("Too many open files") != std::string::npos);
@@ -95,7 +97,8 @@ TEST_CASE("the probe tells what came back from what did not")
   using tandem::opencl::driver_fault;
   CHECK(driver_fault([] {}).empty());
   CHECK(driver_fault([] { throw std::runtime_error("known to the parent"); }).empty());
-  CHECK(driver_fault([] { throw tandem::opencl::DriverFault("known to the child alone"); }) == "known to the child alone");
+  CHECK(driver_fault([] { throw tandem::opencl::DriverFault("known to the child alone"); }) ==
+        "known to the child alone");
   CHECK(driver_fault([] { std::abort(); }).find("crashed (Aborted)") != std::string::npos);
   CHECK(driver_fault([] { std::raise(SIGSEGV); }).find("crashed (Segmentation fault)") != std::string::npos);
   CHECK(driver_fault([] { _exit(0); }).find("ended the process (status 0)") != std::string::npos);

@@ -1,4 +1,5 @@
-/* failing_threads.c - to be loaded before all else: starts THREADS_THAT_START threads, and fails for each one after them. */
+/* failing_threads.c - to be loaded before all else: starts THREADS_THAT_START threads, and fails for each one after
+ * them. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

@@ -1,12 +1,13 @@
-/* few_threads_test.cpp - where threads cannot be started: a run goes on with those that can, with the same bits, and says so. */
-#include "minicl/worker_threads.h"
-#include "tests/catch.h"
-
+/* few_threads_test.cpp - where threads cannot be started: a run goes on with those that can, with the same bits, and
+ * says so. */
 #include <functional>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "minicl/worker_threads.h"
+#include "tests/catch.h"
 
 #if defined(TANDEM_COMMAND) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include "tests/tools/command_line.h"
@@ -52,11 +53,13 @@ constexpr size_t stack = size_t{4} << 20;
 
 } // namespace
 
-TEST_CASE("few threads: a run under a limit of addresses goes on with those that start, has the same bits and says so", "[command]")
+TEST_CASE("few threads: a run under a limit of addresses goes on with those that start, has the same bits and says so",
+          "[command]")
 {
   const std::string hash = hash_in(command(run_wide).out);
   bool fewer = false;
-  for (const char *kilobytes : {"150000", "200000", "250000", "300000", "350000", "500000", "700000", "1000000", "1500000"}) {
+  for (const char *kilobytes :
+       {"150000", "200000", "250000", "300000", "350000", "500000", "700000", "1000000", "1500000"}) {
     const Result result = command(run_wide, std::string("ulimit -v ") + kilobytes + ";");
     CAPTURE(kilobytes);
     check_ending(result, hash);
@@ -67,7 +70,8 @@ TEST_CASE("few threads: a run under a limit of addresses goes on with those that
   CHECK(command(run_wide).error.empty());
 }
 
-TEST_CASE("few threads: the direct solver, whose islands are spread over threads, goes on with those that start", "[command]")
+TEST_CASE("few threads: the direct solver, whose islands are spread over threads, goes on with those that start",
+          "[command]")
 {
   const std::string solve = "run box-grid:nx=5,ny=2,nz=5 --steps 1 --solver direct --on tbb:threads=16";
   const std::string hash = hash_in(command(solve).out);
@@ -86,7 +90,9 @@ TEST_CASE("few threads: cases side by side take as many as start", "[command]")
 {
   const Scratch scratch;
   for (const char *kilobytes : {"200000", "300000", "500000"}) {
-    const Result result = command("stability --cases-in-parallel 64 --quick --solvers soft-step --only miss-ball-edge,miss-ball-corner,miss-box-edge --out " + scratch.file("out"),
+    const Result result = command("stability --cases-in-parallel 64 --quick --solvers soft-step --only "
+                                  "miss-ball-edge,miss-ball-corner,miss-box-edge --out " +
+                                      scratch.file("out"),
                                   std::string("ulimit -v ") + kilobytes + ";");
     CAPTURE(kilobytes, result.out, result.error);
     CHECK((result.status == 0 || result.error.find("out of memory") != std::string::npos));
@@ -101,7 +107,8 @@ TEST_CASE("few threads: whichever thread fails to start, the command ends by its
   const std::string hash = hash_in(command(run_wide).out);
   int refused = 0;
   for (int granted = 0; granted < 40; granted += granted < 15 ? 5 : 1) {
-    const Result result = command(run_wide, "LD_PRELOAD=" TANDEM_FAILING_THREADS " THREADS_THAT_START=" + std::to_string(granted));
+    const Result result =
+        command(run_wide, "LD_PRELOAD=" TANDEM_FAILING_THREADS " THREADS_THAT_START=" + std::to_string(granted));
     CAPTURE(granted);
     check_ending(result, hash);
     if (result.status == 1) CHECK(result.error.find("pthread_create has failed") != std::string::npos);
@@ -119,10 +126,12 @@ TEST_CASE("few threads: as many as are wanted, where nothing is short")
 
 TEST_CASE("few threads: those that a limit of addresses leaves room for")
 {
-  const int few = within(RLIMIT_AS, rlim_t{2} << 30, [] { return static_cast<int>(tandem::minicl::startable_threads(100, stack)); });
+  const int few = within(RLIMIT_AS, rlim_t{2} << 30,
+                         [] { return static_cast<int>(tandem::minicl::startable_threads(100, stack)); });
   CHECK(few > 3);
   CHECK(few < 16);
-  CHECK(within(RLIMIT_AS, rlim_t{1} << 20, [] { return static_cast<int>(tandem::minicl::startable_threads(100, stack)); }) == 0);
+  CHECK(within(RLIMIT_AS, rlim_t{1} << 20,
+               [] { return static_cast<int>(tandem::minicl::startable_threads(100, stack)); }) == 0);
 }
 
 TEST_CASE("few threads: one less than a limit of processes leaves, as another may take it")

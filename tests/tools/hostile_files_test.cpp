@@ -1,8 +1,6 @@
-/* hostile_files_test.cpp - files that would crash, hang, escape or vanish: each gives one line and status 2, and nothing is lost that
- * stood there before. */
+/* hostile_files_test.cpp - files that would crash, hang, escape or vanish: each gives one line and status 2, and
+ * nothing is lost that stood there before. */
 #ifdef TANDEM_COMMAND
-#include "tests/tools/command_line.h"
-
 #include <csignal>
 #include <set>
 #include <thread>
@@ -10,6 +8,8 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/stat.h>
+
+#include "tests/tools/command_line.h"
 
 using namespace command_line;
 
@@ -28,15 +28,19 @@ void write(const std::string &path, const std::string &text) { std::ofstream(pat
 
 std::string mesh_scene(const std::string &obj)
 {
-  return R"({"tandem_scene":1,"shapes":[{"type":"mesh","obj":")" + obj + R"("}],"bodies":[{"shape":0,"motion":"fixed"}]})";
+  return R"({"tandem_scene":1,"shapes":[{"type":"mesh","obj":")" + obj +
+         R"("}],"bodies":[{"shape":0,"motion":"fixed"}]})";
 }
 
 /* Of a buffer of three vertices that a collider asks for. */
 std::string gltf_scene(const std::string &uri)
 {
-  return R"({"asset":{"version":"2.0"},"nodes":[{"name":"Cup","extensions":{"KHR_physics_rigid_bodies":{"collider":{"geometry":{"mesh":0}}}}}],)"
-         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)"
-         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" + uri + R"("}]})";
+  return R"({"asset":{"version":"2.0"},"nodes":[{"name":"Cup",)"
+         R"("extensions":{"KHR_physics_rigid_bodies":{"collider":{"geometry":{"mesh":0}}}}}],)"
+         R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,)"
+         R"("componentType":5126,"type":"VEC3","count":3}],)"
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")" +
+         uri + R"("}]})";
 }
 
 const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 0 -1\nf 1 2 3\n";
@@ -57,41 +61,49 @@ std::set<std::string> names_in(const files::path &folder)
 TEST_CASE("hostile files: nesting is refused by its depth", "[command]")
 {
   const Scratch scratch;
-  const std::string asset = R"({"asset":{"version":"2.0"},"extras":)", compound = R"({"type":"compound","children":[{"shape":)";
+  const std::string asset = R"({"asset":{"version":"2.0"},"extras":)",
+                    compound = R"({"type":"compound","children":[{"shape":)";
   const std::string nested = repeated("[", 15000) + repeated("]", 15000);
   write(scratch.file("open.json"), repeated("[", 90000));
-  write(scratch.file("closed.json"), R"({"tandem_scene":1,"shapes":)" + repeated("[", 90000) + repeated("]", 90000) + "}");
+  write(scratch.file("closed.json"),
+        R"({"tandem_scene":1,"shapes":)" + repeated("[", 90000) + repeated("]", 90000) + "}");
   write(scratch.file("objects.json"), repeated(R"({"a":)", 90000) + "1" + repeated("}", 90000));
-  write(scratch.file("compounds.json"),
-        R"({"tandem_scene":1,"bodies":[],"shapes":[)" + repeated(compound, 20000) + R"({"type":"sphere","radius":1})" + repeated("}]}", 20000) + "]}");
+  write(scratch.file("compounds.json"), R"({"tandem_scene":1,"bodies":[],"shapes":[)" + repeated(compound, 20000) +
+                                            R"({"type":"sphere","radius":1})" + repeated("}]}", 20000) + "]}");
   write(scratch.file("extras.gltf"), asset + nested + "}");
   const std::string json = asset + nested + "} ", length(4, '\0');
   std::string binary = "glTF" + std::string("\2\0\0\0", 4) + length + length + "JSON" + json;
   for (const auto &[at, size] : {std::pair<size_t, size_t>{8, binary.size()}, {12, json.size()}})
     for (size_t byte = 0; byte < 4; ++byte) binary[at + byte] = static_cast<char>(size >> 8 * byte);
   write(scratch.file("extras.glb"), binary);
-  for (const char *name : {"open.json", "closed.json", "objects.json", "compounds.json", "extras.gltf", "extras.glb"}) check_refused(run(scratch.file(name)), "more than 100 deep");
+  for (const char *name : {"open.json", "closed.json", "objects.json", "compounds.json", "extras.gltf", "extras.glb"})
+    check_refused(run(scratch.file(name)), "more than 100 deep");
 }
 
 TEST_CASE("hostile files: a compound in a compound is refused, however few", "[command]")
 {
   const Scratch scratch;
   const std::string compound = R"({"type":"compound","children":[{"shape":)";
-  write(scratch.file("two.json"), R"({"tandem_scene":1,"bodies":[],"shapes":[)" + repeated(compound, 2) + R"({"type":"sphere","radius":1})" + repeated("}]}", 2) + "]}");
+  write(scratch.file("two.json"), R"({"tandem_scene":1,"bodies":[],"shapes":[)" + repeated(compound, 2) +
+                                      R"({"type":"sphere","radius":1})" + repeated("}]}", 2) + "]}");
   check_refused(run(scratch.file("two.json")), "cannot be a child");
 }
 
 TEST_CASE("hostile files: a tree of nodes may be deep, but must be a tree", "[command]")
 {
   const Scratch scratch;
-  const std::string head = R"({"asset":{"version":"2.0"},"extensions":{"KHR_implicit_shapes":{"shapes":[{"type":"box","box":{}}]}},"nodes":[)";
-  const std::string physics = R"("extensions":{"KHR_physics_rigid_bodies":{"motion":{},"collider":{"geometry":{"shape":0}}}}})";
+  const std::string head =
+      R"({"asset":{"version":"2.0"},"extensions":{"KHR_implicit_shapes":{"shapes":[{"type":"box","box":{}}]}},)"
+      R"("nodes":[)";
+  const std::string physics =
+      R"("extensions":{"KHR_physics_rigid_bodies":{"motion":{},"collider":{"geometry":{"shape":0}}}}})";
   std::string deep = head;
   for (int i = 0; i < 20000; ++i) deep += R"({"children":[)" + std::to_string(i + 1) + "]},";
   write(scratch.file("deep.gltf"), deep + "{" + physics + "]}");
   const Json json = json_of(run(scratch.file("deep.gltf")));
   CHECK(json["bodies"] == 1);
-  write(scratch.file("ring.gltf"), head + R"({"children":[1]},{"children":[0],)" + physics + R"(],"scenes":[{"nodes":[0]}]})");
+  write(scratch.file("ring.gltf"),
+        head + R"({"children":[1]},{"children":[0],)" + physics + R"(],"scenes":[{"nodes":[0]}]})");
   check_refused(run(scratch.file("ring.gltf")), "has two parents");
 }
 
@@ -99,7 +111,8 @@ TEST_CASE("hostile files: pipes and devices are no scenes, buffers or problems",
 {
   const Scratch scratch;
   const auto refused = [&](const std::string &arguments) { check_refused(arguments, "a regular file is needed"); };
-  for (const char *name : {"pipe.json", "pipe.gltf", "pipe.dat", "pipe.obj", "pipe.bin"}) REQUIRE(mkfifo(scratch.file(name).c_str(), 0600) == 0);
+  for (const char *name : {"pipe.json", "pipe.gltf", "pipe.dat", "pipe.obj", "pipe.bin"})
+    REQUIRE(mkfifo(scratch.file(name).c_str(), 0600) == 0);
   for (const char *name : {"zero.json", "zero.glb", "zero.dat"}) files::create_symlink("/dev/zero", scratch.file(name));
   for (const char *name : {"pipe.json", "pipe.gltf", "zero.json", "zero.glb"}) refused(run(scratch.file(name)));
   for (const char *name : {"pipe.dat", "zero.dat"}) refused("contact-problem " + scratch.file(name));
@@ -108,14 +121,16 @@ TEST_CASE("hostile files: pipes and devices are no scenes, buffers or problems",
   write(scratch.file("mesh.gltf"), gltf_scene("pipe.bin"));
   refused(run(scratch.file("mesh.gltf")));
   for (const std::string &page : {scratch.file("pipe.dat"), std::string("/dev/zero")})
-    refused("stability --quick --only flip --solvers soft-step --out " + scratch.file("results") + " --table-in " + page);
+    refused("stability --quick --only flip --solvers soft-step --out " + scratch.file("results") + " --table-in " +
+            page);
   check_refused(run(scratch.path.string() + "/.json"), "No such file");
 }
 
 TEST_CASE("hostile options: an empty value is no value", "[command]")
 {
   const Scratch scratch;
-  for (const char *option : {"json", "save", "image", "events", "trace", "place", "substeps", "iterations", "steps", "solver"})
+  for (const char *option :
+       {"json", "save", "image", "events", "trace", "place", "substeps", "iterations", "steps", "solver"})
     check_refused("run " + tiny + " --" + option + " ''", std::string("--") + option);
   check_refused("diff " + tiny + " --between serial,tbb --steps 2 --plant ''", "--plant '': a value is needed");
   check_refused("stability --quick --only flip --out " + scratch.file("results") + " --table-in ''", "--table-in");
@@ -128,7 +143,8 @@ TEST_CASE("hostile files: no output goes where the command prints", "[command]")
   for (const char *option : {"events", "trace", "save", "image"}) {
     for (const std::string &place : {printed, std::string("/dev/stdout")})
       for (const char *json : {"", " --json -"})
-        check_refused("run " + tiny + " --steps 1 --on serial --" + option + " " + place + json + into, "this is standard output");
+        check_refused("run " + tiny + " --steps 1 --on serial --" + option + " " + place + json + into,
+                      "this is standard output");
     CHECK(contents(printed).empty());
     check_refused("run " + tiny + " --steps 1 --on serial --" + option + " -", "a file is needed");
   }
@@ -139,7 +155,8 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
 {
   const Scratch scratch;
   files::create_directories(scratch.path / "scene" / "below");
-  const std::string bytes(reinterpret_cast<const char *>(corners), sizeof corners), outside = "lies outside the folder of the scene";
+  const std::string bytes(reinterpret_cast<const char *>(corners), sizeof corners),
+      outside = "lies outside the folder of the scene";
   for (const char *folder : {"", "scene/", "scene/below/"}) {
     write(scratch.file(std::string(folder) + "a b.obj"), triangle);
     write(scratch.file(std::string(folder) + "a b.bin"), bytes);
@@ -155,16 +172,20 @@ TEST_CASE("hostile files: what a scene names lies below its folder", "[command]"
     return run(scratch.file("scene/s.gltf"));
   };
   const std::string up = scratch.file("a b");
-  for (const std::string &name : std::vector<std::string>{"../a b.obj", "below/../../a b.obj", "link/a b.obj", up + ".obj"}) {
+  for (const std::string &name :
+       std::vector<std::string>{"../a b.obj", "below/../../a b.obj", "link/a b.obj", up + ".obj"}) {
     check_refused(json(name), outside);
     CHECK(command(json(name) + " --allow-outside-files").status == 0);
   }
-  for (const std::string &uri : std::vector<std::string>{"../a b.bin", "../a%20b.bin", "%2e%2e/a%20b.bin", "%2E%2E%2Fa b.bin", "link/a%20b.bin", up + ".bin"}) {
+  for (const std::string &uri : std::vector<std::string>{"../a b.bin", "../a%20b.bin", "%2e%2e/a%20b.bin",
+                                                         "%2E%2E%2Fa b.bin", "link/a%20b.bin", up + ".bin"}) {
     check_refused(gltf(uri), outside);
     CHECK(command(gltf(uri) + " --allow-outside-files").status == 0);
   }
-  for (const char *name : {"a b.obj", "below/a b.obj", "inner/a b.obj", "below/../a b.obj"}) CHECK(command(json(name)).status == 0);
-  for (const char *uri : {"a%20b.bin", "a b.bin", "below/a%20b.bin", "inner/a%20b.bin"}) CHECK(command(gltf(uri)).status == 0);
+  for (const char *name : {"a b.obj", "below/a b.obj", "inner/a b.obj", "below/../a b.obj"})
+    CHECK(command(json(name)).status == 0);
+  for (const char *uri : {"a%20b.bin", "a b.bin", "below/a%20b.bin", "inner/a%20b.bin"})
+    CHECK(command(gltf(uri)).status == 0);
   check_refused(gltf("a%00b.bin"), "is no name of a file");
   check_refused(gltf("file:///etc/passwd"), "cannot read");
   check_refused(gltf("missing.bin"), "buffers[0].uri");
@@ -211,7 +232,8 @@ TEST_CASE("hostile files: what a mesh leaves out is said, and a name is one prin
 {
   const Scratch scratch;
   const std::string sliver =
-      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[0,0,1],[1,0,0],[0.5,1e-9,0]],"triangles":[[0,1,2],[0,3,2],[1,2,0]]}],)";
+      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[0,0,1],[1,0,0],[0.5,1e-9,0]],)"
+      R"("triangles":[[0,1,2],[0,3,2],[1,2,0]]}],)";
   write(scratch.file("sliver.json"), sliver + R"("bodies":[{"shape":0,"motion":"fixed"}]})");
   const Result result = command(run(scratch.file("sliver.json")));
   CHECK(result.status == 0);
@@ -231,7 +253,8 @@ TEST_CASE("hostile numbers: what is not 0 but rounds to it is refused where 0 st
   const auto body = [&](const std::string &members, const std::string &scale = "[1,1,1]") {
     write(
         scratch.file("small.json"),
-        R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[3,0,0],[0,2,0],[0,0,1]],"triangles":[[0,2,1],[0,1,3],[0,3,2],[1,2,3]],"scale":)" +
+        R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[0,0,0],[3,0,0],[0,2,0],[0,0,1]],"triangles":[[0,2,)"
+        R"(1],[0,1,3],[0,3,2],[1,2,3]],"scale":)" +
             scale + R"(}],"bodies":[{"shape":0,"motion":"fixed",)" + members + "}]}");
     return run(scratch.file("small.json"));
   };
@@ -249,8 +272,10 @@ TEST_CASE("hostile numbers: a ball rests on a strip of 20 km by 1 cm", "[command
   const Scratch scratch;
   write(
       scratch.file("strip.json"),
-      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[-10000,0,-0.005],[-10000,0,0.005],[10000,0,0.005],[10000,0,-0.005]],)"
-      R"("triangles":[[0,1,2],[0,2,3]]},{"type":"sphere","radius":0.5}],"bodies":[{"motion":"fixed","shape":0},{"shape":1,"position":[100,0.5,0]}]})");
+      R"({"tandem_scene":1,"shapes":[{"type":"mesh","vertices":[[-10000,0,-0.005],[-10000,0,0.005],[10000,0,0.005],)"
+      R"([10000,0,-0.005]],)"
+      R"("triangles":[[0,1,2],[0,2,3]]},{"type":"sphere","radius":0.5}],"bodies":[{"motion":"fixed","shape":0},)"
+      R"({"shape":1,"position":[100,0.5,0]}]})");
   const Json json = json_of("run " + scratch.file("strip.json") + " --steps 10 --on serial");
   CHECK(json["contacts"].get<int>() > 0);
 }
@@ -259,10 +284,14 @@ TEST_CASE("hostile files: an output that cannot be written is one line and statu
 {
   const Scratch scratch;
   const std::pair<const char *, std::string> outputs[] = {
-      {"full.json", "run " + tiny + " --steps 2 --json "},       {"full.png", "run " + tiny + " --steps 2 --image-size 8x8 --image "},
-      {"full.glb", "run " + tiny + " --steps 2 --save "},        {"full.trace", "run " + tiny + " --steps 2 --trace "},
-      {"full.events", "run " + tiny + " --steps 2 --events "},   {"full.svg", "bench broadphase --n 8 --broadphase grid --on serial --chart "},
-      {"scenes.json", "scenes --json "},                         {"diff.json", "diff " + tiny + " --steps 1 --json "}};
+      {"full.json", "run " + tiny + " --steps 2 --json "},
+      {"full.png", "run " + tiny + " --steps 2 --image-size 8x8 --image "},
+      {"full.glb", "run " + tiny + " --steps 2 --save "},
+      {"full.trace", "run " + tiny + " --steps 2 --trace "},
+      {"full.events", "run " + tiny + " --steps 2 --events "},
+      {"full.svg", "bench broadphase --n 8 --broadphase grid --on serial --chart "},
+      {"scenes.json", "scenes --json "},
+      {"diff.json", "diff " + tiny + " --steps 1 --json "}};
   for (const auto &[name, arguments] : outputs) {
     files::create_symlink("/dev/full", scratch.file(name));
     const Result result = command(arguments + scratch.file(name));
@@ -278,9 +307,14 @@ TEST_CASE("hostile files: an output that cannot be written is one line and statu
 
 TEST_CASE("hostile files: each file of a folder of results is checked", "[command]")
 {
-  const std::string problem = "report --quick --parts problems --problems '" TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat' --out ";
+  const std::string problem =
+      "report --quick --parts problems --problems '" TANDEM_SOURCE_DIR "/tests/scenes/contact-sliding.dat' --out ";
   const std::string flight = "stability --only flight --solvers soft-step --on serial --out ";
-  for (const auto &[arguments, name] : {std::pair{problem, "report.html"}, {problem, "report.csv"}, {problem, "report.json"}, {flight, "index.html"}, {flight, "figures.csv"},
+  for (const auto &[arguments, name] : {std::pair{problem, "report.html"},
+                                        {problem, "report.csv"},
+                                        {problem, "report.json"},
+                                        {flight, "index.html"},
+                                        {flight, "figures.csv"},
                                         {flight, "stability.json"}}) {
     const Scratch scratch;
     files::create_symlink("/dev/full", scratch.file(name));
@@ -294,19 +328,23 @@ TEST_CASE("hostile files: each file of a folder of results is checked", "[comman
 
 TEST_CASE("hostile files: what was printed is written, or the status says so", "[command]")
 {
-  for (const std::string &arguments : std::vector<std::string>{"scenes", "--help", "--version", "devices", "run " + tiny + " --steps 1", "run " + tiny + " --steps 1 --json -",
-                                                               "plan " + tiny, "stability --list"}) {
-    for (const auto &[output, why] : {std::pair(" >/dev/full", "No space left on device"), std::pair(" >&-", "Bad file descriptor")}) {
+  for (const std::string &arguments :
+       std::vector<std::string>{"scenes", "--help", "--version", "devices", "run " + tiny + " --steps 1",
+                                "run " + tiny + " --steps 1 --json -", "plan " + tiny, "stability --list"}) {
+    for (const auto &[output, why] :
+         {std::pair(" >/dev/full", "No space left on device"), std::pair(" >&-", "Bad file descriptor")}) {
       const Result result = command(arguments + output, "OCL_ICD_VENDORS=/nonexistent/");
       INFO(arguments << output);
       CHECK(result.status == 2);
       CHECK(result.error == std::string("tandem: standard output: cannot write: ") + why + "\n");
     }
   }
-  CHECK(command("run " + tiny + " --steps 1 --json /dev/stdout >/dev/full").error == "tandem: --json /dev/stdout: cannot write: No space left on device\n");
+  CHECK(command("run " + tiny + " --steps 1 --json /dev/stdout >/dev/full").error ==
+        "tandem: --json /dev/stdout: cannot write: No space left on device\n");
 }
 
-TEST_CASE("hostile files: a file is replaced whole, with its mode, through links; a run that fails leaves it", "[command]")
+TEST_CASE("hostile files: a file is replaced whole, with its mode, through links; a run that fails leaves it",
+          "[command]")
 {
   const Scratch scratch;
   for (const char *name : {"kept.json", "real.json", "kept.glb.frames"}) write(scratch.file(name), "kept");
@@ -314,14 +352,17 @@ TEST_CASE("hostile files: a file is replaced whole, with its mode, through links
   files::create_symlink("real.json", scratch.file("link.json"));
   check_refused("run castle --json " + scratch.file("kept.json"), "castle");
   CHECK(command("run " + tiny + " --steps 1 --trace " + scratch.file("kept.json") + " --json /dev/full").status == 2);
-  CHECK(command("run " + tiny + " --steps 1 --save " + scratch.file("kept.glb") + " --json " + scratch.file("link.json")).status == 0);
+  CHECK(
+      command("run " + tiny + " --steps 1 --save " + scratch.file("kept.glb") + " --json " + scratch.file("link.json"))
+          .status == 0);
   CHECK(contents(scratch.file("kept.glb.frames")) == "kept");
   CHECK(files::is_symlink(scratch.file("link.json")));
   CHECK(Json::parse(contents(scratch.file("real.json")))["steps"] == 1);
   struct stat status {};
   REQUIRE(stat(scratch.file("real.json").c_str(), &status) == 0);
   CHECK((status.st_mode & 0777) == 0640);
-  CHECK(names_in(scratch.path) == std::set<std::string>{"kept.glb", "kept.glb.frames", "kept.json", "link.json", "real.json"});
+  CHECK(names_in(scratch.path) ==
+        std::set<std::string>{"kept.glb", "kept.glb.frames", "kept.json", "link.json", "real.json"});
 }
 
 TEST_CASE("hostile files: a pipe takes what is written to it", "[command]")
@@ -349,9 +390,9 @@ TEST_CASE("hostile files: a pipe whose reader goes is an output that cannot be w
   REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
   const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   std::thread leaves([&] { /* at the first byte, long before the last */
-    pollfd waiting{reader, POLLIN, 0};
-    poll(&waiting, 1, -1);
-    close(reader);
+                           pollfd waiting{reader, POLLIN, 0};
+                           poll(&waiting, 1, -1);
+                           close(reader);
   });
   const Result result = command("run box-grid:nx=6,ny=6,nz=6 --steps 60 --save " + pipe);
   leaves.join();
@@ -364,7 +405,8 @@ TEST_CASE("hostile files: a reader of standard output may go without a word", "[
   const Scratch scratch;
   const std::string pipe = "'" + scratch.file("pipe") + "'";
   REQUIRE(mkfifo(scratch.file("pipe").c_str(), 0600) == 0);
-  const Result result = command("stability --list >&9", "exec 8<>" + pipe + " 9>" + pipe + " 8<&-;"); /* a writer, and nobody who reads */
+  const Result result =
+      command("stability --list >&9", "exec 8<>" + pipe + " 9>" + pipe + " 8<&-;"); /* a writer, and nobody who reads */
   CHECK(result.error.empty());
   CHECK(result.status == 128 + SIGPIPE);
 }
@@ -372,7 +414,10 @@ TEST_CASE("hostile files: a reader of standard output may go without a word", "[
 TEST_CASE("hostile numbers: a run whose bodies do not stay finite says so in its status", "[command]")
 {
   const Scratch scratch;
-  write(scratch.file("fast.json"), R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":0.5}],"bodies":[{"name":"fly","linear_velocity":[3e38,0,0]},{"position":[5,0,0]}]})");
+  write(
+      scratch.file("fast.json"),
+      R"({"tandem_scene":1,"shapes":[{"type":"sphere","radius":0.5}],"bodies":[{"name":"fly","linear_velocity":[3e38,)"
+      R"(0,0]},{"position":[5,0,0]}]})");
   const std::string arguments = "run " + scratch.file("fast.json") + " --dt 10 --steps 60 --on serial --json -";
   const Result refused = command(arguments), allowed = command(arguments + " --allow-quarantine");
   INFO(refused.error << allowed.error);
@@ -410,7 +455,8 @@ TEST_CASE("hostile numbers: contact problems outside the range of floats", "[com
                       "the range of 32-bit numbers does not suffice");
       }
     }
-  for (const char *small : {"1e-300", "1e-40", "0"}) check_refused(problem(small, "-1", "0.5"), "W[0][0] must be positive");
+  for (const char *small : {"1e-300", "1e-40", "0"})
+    check_refused(problem(small, "-1", "0.5"), "W[0][0] must be positive");
 }
 
 TEST_CASE("diff decides auto once for all backends, and says so", "[command]")
@@ -423,7 +469,8 @@ TEST_CASE("diff decides auto once for all backends, and says so", "[command]")
   CHECK(json_of("diff " + tiny + " --steps 1")["broadphase"] == "grid");
   const Json devices = json_of("devices");
   for (const Json &device : devices["backends"])
-    if (device["kind"] == "opencl" && device["exact"] == true) { /* by itself it would take brute-force up to 256 bodies */
+    if (device["kind"] == "opencl" &&
+        device["exact"] == true) { /* by itself it would take brute-force up to 256 bodies */
       const Json with_device = json_of(scene + "serial," + device["name"].get<std::string>());
       CHECK(with_device["equal"] == true);
       CHECK(with_device["broadphase"] == "trees");

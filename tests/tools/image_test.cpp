@@ -1,7 +1,6 @@
 /* Pictures by ray casting: what stands where in the picture, light and shadow, the same bytes on every backend. */
-#include "tests/catch.h"
-
 #include "host/catalog/catalog.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 #include "tools/image.h"
 
@@ -36,9 +35,10 @@ TEST_CASE("a picture shows the ball in the middle, sky above, floor below, and i
   const Camera camera = camera_from("0,1,10,0,1,0", 160, 100);
   const std::vector<uint8_t> image = draw(world, camera);
   REQUIRE(image.size() == 3 * 160 * 100);
-  const Pixel ball = pixel(image, camera, 80, 50), sky = pixel(image, camera, 80, 5), floor = pixel(image, camera, 150, 90);
-  CHECK(sky[2] > sky[0]);                    /* blue */
-  CHECK(std::abs(floor[0] - floor[2]) < 20); /* grey */
+  const Pixel ball = pixel(image, camera, 80, 50), sky = pixel(image, camera, 80, 5),
+              floor = pixel(image, camera, 150, 90);
+  CHECK(sky[2] > sky[0]);                                                /* blue */
+  CHECK(std::abs(floor[0] - floor[2]) < 20);                             /* grey */
   CHECK(std::abs(ball[0] - ball[2]) + std::abs(ball[0] - ball[1]) > 40); /* in colour */
   /* Half of the ball's height at 10 m is 50 pixels of tan 20 degrees: 13.7. */
   CHECK(pixel(image, camera, 80, 50 - 12) != sky);
@@ -52,10 +52,11 @@ TEST_CASE("shadows lie where the ball is between floor and light")
   World world(ball_on_floor());
   const Camera camera = camera_from("0,12,0.1,0,0,0", 200, 200); /* from above; x to the right, z down */
   const std::vector<uint8_t> image = draw(world, camera);
-  /* The ball's shadow lies about (-0.5, -0.35), where the light through its centre meets the floor, and reaches 1.17 m (1 over the sine
-   * of the light's height) beyond that, away from the light: 1.78 m. The ball itself hides what is nearer than 1.10 m to the middle of the
-   * picture. 1.44 m is between; 100 pixels are 4.37 m. */
-  const int shadow = brightness(pixel(image, camera, 100 - 27, 100 - 19)), lit = brightness(pixel(image, camera, 100 + 27, 100 + 19));
+  /* The ball's shadow lies about (-0.5, -0.35), where the light through its centre meets the floor, and reaches 1.17 m
+   * (1 over the sine of the light's height) beyond that, away from the light: 1.78 m. The ball itself hides what is
+   * nearer than 1.10 m to the middle of the picture. 1.44 m is between; 100 pixels are 4.37 m. */
+  const int shadow = brightness(pixel(image, camera, 100 - 27, 100 - 19)),
+            lit = brightness(pixel(image, camera, 100 + 27, 100 + 19));
   CHECK(shadow < lit - 60);
 }
 

@@ -1,13 +1,12 @@
 /* The real program under a limit of memory: one line that says what was wanted, exit status 1, and never a crash. */
 #if defined(TANDEM_COMMAND) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#include "tests/tools/command_line.h"
-
 #include <algorithm>
 #include <regex>
 #include <string>
 
-#include "host/runtime/interface/faults.h"
 #include "host/base/out_of_memory.h"
+#include "host/runtime/interface/faults.h"
+#include "tests/tools/command_line.h"
 #include "tools/stability/cases.h"
 
 using command_line::Result;

@@ -1,12 +1,12 @@
-/* parallel_test.cpp - tasks side by side: each once, no more at a time than asked for, and the first throw comes out. */
+/* parallel_test.cpp - tasks side by side: each once, no more at a time than asked for, and the first throw comes
+ * out. */
 #ifdef TANDEM_COMMAND
-#include "tests/catch.h"
-
 #include <atomic>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
+#include "tests/catch.h"
 #include "tools/parallel.h"
 
 using namespace tandem;

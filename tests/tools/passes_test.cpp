@@ -6,11 +6,11 @@
  * above. Where both are the clearance, it is.
  */
 #ifdef TANDEM_COMMAND
-#include "tests/catch.h"
+#include <tandem/world.h>
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
-#include <tandem/world.h>
+#include "tests/catch.h"
 #include "tools/stability/passes.h"
 
 using namespace tandem;

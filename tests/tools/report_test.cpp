@@ -1,7 +1,6 @@
-/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report looked at in a browser. */
+/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report looked at in a
+ * browser. */
 #ifdef TANDEM_COMMAND
-#include "tests/tools/command_line.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -13,22 +12,29 @@
 
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
+#include "tests/tools/command_line.h"
 #include "tools/report/collect.h"
 
 using namespace tandem;
 
 namespace {
 
+using command_line::contents;
 using command_line::Json;
 using command_line::Result;
 using command_line::Scratch;
-using command_line::contents;
 using command_line::shell;
 namespace files = std::filesystem;
 
-void check_refused(const std::string &arguments, const std::string &mentions) { command_line::check_refused("report " + arguments, mentions); }
+void check_refused(const std::string &arguments, const std::string &mentions)
+{
+  command_line::check_refused("report " + arguments, mentions);
+}
 
-bool beats(const Tradeoff &a, const Tradeoff &b) { return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error); }
+bool beats(const Tradeoff &a, const Tradeoff &b)
+{
+  return a.cost <= b.cost && a.error <= b.error && (a.cost < b.cost || a.error < b.error);
+}
 bool equals(const Tradeoff &a, const Tradeoff &b) { return a.cost == b.cost && a.error == b.error; }
 
 std::vector<size_t> front_by_brute_force(const std::vector<Tradeoff> &points)
@@ -63,9 +69,10 @@ Run run_of(const char *solver, double milliseconds, double error, uint32_t subst
 const files::path &tiny_report()
 {
   static const Scratch folder;
-  static const Result result = command_line::command("report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 "
-                                                     "--problems '" TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat' --out '" +
-                                                     folder.file("new/folder") + "'");
+  static const Result result = command_line::command(
+      "report --quick --scenes incline,pyramid --solvers soft-step --on serial,tbb:threads=1,lanes=4 "
+      "--problems '" TANDEM_SOURCE_DIR "/tests/scenes/box-on-corners.dat' --out '" +
+      folder.file("new/folder") + "'");
   INFO(result.out << result.error);
   REQUIRE(result.status == 0);
   static const files::path path = folder.path / "new/folder";
@@ -83,8 +90,8 @@ std::string browser()
 std::string page_in_browser(const std::string &query)
 {
   const Scratch profile;
-  return shell("timeout 60 " + browser() + " --headless --no-sandbox --disable-gpu --user-data-dir='" + profile.path.string() +
-               "' --dump-dom 'file://" + (tiny_report() / "report.html").string() + query + "'")
+  return shell("timeout 60 " + browser() + " --headless --no-sandbox --disable-gpu --user-data-dir='" +
+               profile.path.string() + "' --dump-dom 'file://" + (tiny_report() / "report.html").string() + query + "'")
       .out;
 }
 
@@ -102,7 +109,8 @@ std::vector<double> column_of(const std::string &page, size_t table, size_t colu
   for (size_t k = 0; k <= table; ++k) at = page.find("<table", at + 1);
   const std::string body = page.substr(at, page.find("</table>", at) - at);
   std::vector<double> values;
-  for (size_t row = body.find("<tr>", body.find("<tbody")); row != std::string::npos; row = body.find("<tr>", row + 1)) {
+  for (size_t row = body.find("<tr>", body.find("<tbody")); row != std::string::npos;
+       row = body.find("<tr>", row + 1)) {
     size_t cell = row;
     for (size_t c = 0; c <= column; ++c) cell = body.find("<td", cell + 1);
     const size_t value = body.find("data-value=\"", cell);
@@ -118,14 +126,17 @@ TEST_CASE("report: the Pareto front is that of brute force", "[report]")
   Random random(7);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<Tradeoff> points;
-    for (uint32_t k = random.below(12); k > 0; --k) points.push_back({double(random.below(6)), double(random.below(6))});
+    for (uint32_t k = random.below(12); k > 0; --k)
+      points.push_back({double(random.below(6)), double(random.below(6))});
     if (trial % 3 == 0) points.push_back({std::nan(""), 0});
     if (trial % 5 == 0) points.push_back({0, std::numeric_limits<double>::infinity()});
     CHECK(pareto_front(points) == front_by_brute_force(points));
     for (const double wished : {0.0, 2.5, 9.0}) {
       std::optional<size_t> best;
       for (size_t i = 0; i < points.size(); ++i)
-        if (std::isfinite(points[i].cost) && points[i].error <= wished && (!best || points[i].cost < points[*best].cost)) best = i;
+        if (std::isfinite(points[i].cost) && points[i].error <= wished &&
+            (!best || points[i].cost < points[*best].cost))
+          best = i;
       const auto found = cheapest_within(points, wished);
       REQUIRE(found.has_value() == best.has_value());
       if (best) CHECK(points[*found].cost == points[*best].cost);
@@ -136,8 +147,8 @@ TEST_CASE("report: the Pareto front is that of brute force", "[report]")
 
 TEST_CASE("report: the sentence names the cheapest setting that keeps each error", "[report]")
 {
-  std::vector<Run> runs = {run_of("jacobi", 1, 0.03), run_of("pgs", 2, 0.004), run_of("soft-step", 3, 0.0002, 8), run_of("xpbd", 5, 0.02, 4),
-                           run_of("avbd", 0.5, std::nan(""))};
+  std::vector<Run> runs = {run_of("jacobi", 1, 0.03), run_of("pgs", 2, 0.004), run_of("soft-step", 3, 0.0002, 8),
+                           run_of("xpbd", 5, 0.02, 4), run_of("avbd", 0.5, std::nan(""))};
   const std::vector<Pick> picks = pick_settings(runs, Metric::position, 0);
   REQUIRE(picks.size() == 3);
   CHECK(picks[0].run == 0);
@@ -147,7 +158,8 @@ TEST_CASE("report: the sentence names the cheapest setting that keeps each error
   CHECK_FALSE(runs[3].front);
   CHECK_FALSE(runs[4].front);
   CHECK(pick_sentence(runs, picks, Metric::position) ==
-        "For an RMS position error of at most 100 mm take jacobi with 1 substep (1 ms for 1/60 s); for 10 mm pgs with 1 substep "
+        "For an RMS position error of at most 100 mm take jacobi with 1 substep (1 ms for 1/60 s); for 10 mm pgs with "
+        "1 substep "
         "(2 ms for 1/60 s); for 1 mm soft-step with 8 substeps (3 ms for 1/60 s).");
   CHECK(pick_settings(runs, Metric::position, 0.005).size() == 2); /* finer than the truth is known */
   runs = {run_of("pgs", 1, std::nan(""))};
@@ -211,7 +223,9 @@ TEST_CASE("report: CSV and JSON tell the same, and every backend the same error"
   std::vector<std::string> header;
   std::istringstream names(line);
   for (std::string name; std::getline(names, name, ',');) header.push_back(name);
-  const auto column = [&](const char *name) { return size_t(std::find(header.begin(), header.end(), name) - header.begin()); };
+  const auto column = [&](const char *name) {
+    return size_t(std::find(header.begin(), header.end(), name) - header.begin());
+  };
   std::vector<Json> runs;
   for (const Json &scene : json["scenes"])
     for (const Json &run : scene["runs"]) runs.push_back(run);
@@ -254,7 +268,8 @@ TEST_CASE("report: errors taken over from another backend are those that it woul
   const Truth truth = find_truth(scene, duration, 8);
   for (const char *solver : {"soft-step", "direct"}) {
     const Run observed = run_experiment(scene, duration, truth, settings_for(solver), "tbb:lanes=4");
-    const Run timed = time_experiment(scene, duration, truth, observed, "serial"), own = run_experiment(scene, duration, truth, settings_for(solver), "serial");
+    const Run timed = time_experiment(scene, duration, truth, observed, "serial"),
+              own = run_experiment(scene, duration, truth, settings_for(solver), "serial");
     INFO(solver << " " << timed.failure);
     CHECK(timed.backend == "serial");
     CHECK(timed.observed_on == "tbb:lanes=4");
@@ -287,7 +302,8 @@ TEST_CASE("report: the reference is observed by itself, for its bits are its own
 
 TEST_CASE("report: a scene too large for a truth is judged by what needs none", "[report]")
 {
-  const Run run = run_experiment(load_scene("box-grid:nx=2,ny=2,nz=2"), 0.2, Truth{}, settings_for("soft-step"), "serial");
+  const Run run =
+      run_experiment(load_scene("box-grid:nx=2,ny=2,nz=2"), 0.2, Truth{}, settings_for("soft-step"), "serial");
   CHECK(run.failure.empty());
   CHECK(run.steps == 12);
   CHECK(run.error(Metric::max_penetration) > 0);
@@ -303,7 +319,8 @@ TEST_CASE("report: at equal error the cheapest of each solver on each backend, b
     std::vector<double> errors;
     for (uint32_t k = 2 + random.below(10); k > 0; --k) errors.push_back(std::pow(10.0, random.uniform(-8, 1)));
     for (std::vector<Run> &runs : by_backend)
-      for (size_t k = 0; k < errors.size(); ++k) runs.push_back(run_of(k % 2 ? "pgs" : "xpbd", random.uniform(1, 100), errors[k]));
+      for (size_t k = 0; k < errors.size(); ++k)
+        runs.push_back(run_of(k % 2 ? "pgs" : "xpbd", random.uniform(1, 100), errors[k]));
     const double finest = trial % 2 ? 1e-5 : 0;
     std::set<double> levels;
     for (const EqualError &row : equal_errors(by_backend, Metric::position, finest)) {
@@ -315,7 +332,8 @@ TEST_CASE("report: at equal error the cheapest of each solver on each backend, b
         const std::vector<Run> &runs = by_backend[backend];
         std::optional<double> cheapest;
         for (const Run &run : runs)
-          if (run.solver == row.solver && run.error(Metric::position) <= row.error) cheapest = std::min(cheapest.value_or(run.cost()), run.cost());
+          if (run.solver == row.solver && run.error(Metric::position) <= row.error)
+            cheapest = std::min(cheapest.value_or(run.cost()), run.cost());
         REQUIRE(row.runs[backend].has_value() == cheapest.has_value());
         if (cheapest) CHECK(runs[*row.runs[backend]].cost() == *cheapest);
         if (cheapest) CHECK(runs[*row.runs[backend]].solver == row.solver);
@@ -331,7 +349,8 @@ TEST_CASE("report: at equal error the cheapest of each solver on each backend, b
   }
 }
 
-TEST_CASE("report: the table of equal error holds no setting that keeps less, or costs more than another", "[report][command]")
+TEST_CASE("report: the table of equal error holds no setting that keeps less, or costs more than another",
+          "[report][command]")
 {
   const Json json = Json::parse(contents(tiny_report() / "report.json"));
   for (const Json &scene : json["scenes"]) {
@@ -340,7 +359,8 @@ TEST_CASE("report: the table of equal error holds no setting that keeps less, or
     for (const Json &row : scene["equal_error"]) {
       std::optional<double> cheapest;
       for (const Json &run : scene["runs"])
-        if (run["backend"] == row["backend"] && run["solver"] == row["solver"] && run[metric].get<double>() <= row["error"].get<double>())
+        if (run["backend"] == row["backend"] && run["solver"] == row["solver"] &&
+            run[metric].get<double>() <= row["error"].get<double>())
           cheapest = std::min(cheapest.value_or(run["ms_per_60th"]), run["ms_per_60th"].get<double>());
       REQUIRE(row["ms_per_60th"].is_null() == !cheapest.has_value());
       if (cheapest) CHECK(row["ms_per_60th"].get<double>() == *cheapest);
@@ -378,14 +398,15 @@ TEST_CASE("report: each solver has its curve on each contact problem", "[report]
   }
 }
 
-TEST_CASE("report: the page stands alone and shows charts and tables in a browser, where sorting works", "[report][command]")
+TEST_CASE("report: the page stands alone and shows charts and tables in a browser, where sorting works",
+          "[report][command]")
 {
   const std::string page = contents(tiny_report() / "report.html");
   for (const char *outside : {"src=", "@import", "<link", "url("}) CHECK(page.find(outside) == std::string::npos);
   if (browser().empty()) tests::skip("no Chromium: the page was not looked at");
   const std::string dom = page_in_browser("?sort=2.5&sort=4.5&sort=4.5");
   const size_t runs = 2 * settings_grid("soft-step", Grid::quick).size(); /* of a scene, on two backends */
-  CHECK(count_of(dom, "<svg") == 5);                                      /* two scenes on two backends, a contact problem */
+  CHECK(count_of(dom, "<svg") == 5); /* two scenes on two backends, a contact problem */
   CHECK(count_of(dom, "ms per step at equal error") == 2);
   CHECK(count_of(dom, "<g class=\"point") > 2 * runs);
   CHECK(count_of(dom, "<table") >= 6);

@@ -4,14 +4,13 @@
  * its bound. All cases run with the default solver, and all but five, which take minutes, at full length.
  */
 #ifdef TANDEM_COMMAND
-#include "tests/catch.h"
-
 #include <limits>
 #include <map>
 #include <set>
 
 #include "host/catalog/catalog.h"
 #include "host/catalog/structures.h"
+#include "tests/catch.h"
 #include "tools/stability/batch.h"
 #include "tools/stability/cases.h"
 #include "tools/stability/counts.h"
@@ -32,12 +31,18 @@ const Case &case_named(const std::string &name)
   throw std::runtime_error("no case " + name);
 }
 
-Outcome run(const std::string &name, Trial trial) { return run_trial(name, trial, solver_names().front(), Placement{"serial", {}, false}); }
-Outcome run(const std::string &name, Length length = Length::quick) { return run(name, case_named(name).build(length)); }
+Outcome run(const std::string &name, Trial trial)
+{
+  return run_trial(name, trial, solver_names().front(), Placement{"serial", {}, false});
+}
+Outcome run(const std::string &name, Length length = Length::quick)
+{
+  return run(name, case_named(name).build(length));
+}
 
 /* The case, with a push to the named body before step `when`. */
-Outcome run_pushed(const std::string &name, uint32_t body, const std::function<void(BodyState &)> &push, uint64_t steps = 120, uint64_t when = 10,
-                   Length length = Length::quick)
+Outcome run_pushed(const std::string &name, uint32_t body, const std::function<void(BodyState &)> &push,
+                   uint64_t steps = 120, uint64_t when = 10, Length length = Length::quick)
 {
   Trial trial = case_named(name).build(length);
   trial.steps = steps;
@@ -188,7 +193,8 @@ TEST_CASE("stability: a bound of more than ten times its figure is loose, unless
   CHECK(result(0, Bound::from_rounding(1e-9, "")).loose());
 }
 
-TEST_CASE("stability: the list of bounds says which are loose, and where a figure and its bound are both nothing", "[stability]")
+TEST_CASE("stability: the list of bounds says which are loose, and where a figure and its bound are both nothing",
+          "[stability]")
 {
   Results results;
   Result &row = results.results.emplace_back();
@@ -323,32 +329,76 @@ TEST_CASE("stability: figures of conservation and of closed forms notice what is
   const auto moved = [](BodyState &state) { state.position[0] += 0.05f; };
   CHECK(failed(run_pushed("flip", 0, faster), "drift of angular momentum"));
   CHECK(failed(run_pushed("flip", 0, faster), "drift of energy"));
-  CHECK(failed(run_pushed("flip", 0, [](BodyState &state) { state.angular_velocity = {0, 4, 0}; }, 300), "error of the time between flips"));
+  CHECK(failed(run_pushed(
+                   "flip", 0,
+                   [](BodyState &state) {
+                     state.angular_velocity = {0, 4, 0};
+                   },
+                   300),
+               "error of the time between flips"));
   CHECK(failed(run_pushed("flight", 0, moved), "distance from the parabola"));
-  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30), "drift of momentum"));
-  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.angular_velocity[1] += 9; }, 30), "drift of angular momentum"));
-  CHECK(failed(run_pushed("closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30), "gain of energy"));
-  CHECK(failed(run_pushed("restitution", 7, [](BodyState &state) { state.linear_velocity[1] -= 0.3f; }, 90), "largest error of the height"));
+  CHECK(failed(run_pushed(
+                   "closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30),
+               "drift of momentum"));
+  CHECK(failed(run_pushed(
+                   "closed-system", 5, [](BodyState &state) { state.angular_velocity[1] += 9; }, 30),
+               "drift of angular momentum"));
+  CHECK(failed(run_pushed(
+                   "closed-system", 5, [](BodyState &state) { state.linear_velocity[1] += 3; }, 30),
+               "gain of energy"));
+  CHECK(failed(run_pushed(
+                   "restitution", 7, [](BodyState &state) { state.linear_velocity[1] -= 0.3f; }, 90),
+               "largest error of the height"));
   CHECK(failed(run_pushed("elastic", 1, faster, 60, 30), "drift of energy"));
   CHECK(failed(run_pushed("sliding-stop", 3, faster, 300, 2), "largest error of the way to rest"));
   CHECK(failed(run_pushed("rolling-ball", 1, faster, 300, 2), "error of the rolling speed"));
-  CHECK(failed(run_pushed("rolling-ball", 1, [](BodyState &state) { state.angular_velocity[2] += 1; }, 120, 119), "slip of the contact"));
+  CHECK(failed(run_pushed(
+                   "rolling-ball", 1, [](BodyState &state) { state.angular_velocity[2] += 1; }, 120, 119),
+               "slip of the contact"));
   CHECK(failed(run_pushed("incline", 5, faster, 120, 60), "largest error of the way down"));
-  CHECK(failed(run_pushed("top", 1, [](BodyState &state) { state.orientation = turn_about({1, 0, 0}, 2); }, 120), "change of the lean"));
-  CHECK(failed(run_pushed("top", 1, [](BodyState &state) { state.linear_velocity[1] += 5; }, 12), "gain of energy"));
+  CHECK(failed(run_pushed(
+                   "top", 1,
+                   [](BodyState &state) {
+                     state.orientation = turn_about({1, 0, 0}, 2);
+                   },
+                   120),
+               "change of the lean"));
+  CHECK(failed(run_pushed(
+                   "top", 1, [](BodyState &state) { state.linear_velocity[1] += 5; }, 12),
+               "gain of energy"));
 }
 
 TEST_CASE("stability: figures of passage, of falling and of scale notice what is planted", "[stability]")
 {
-  CHECK(failed(run_pushed("bullet-thin-wall", 1, [](BodyState &state) { state.position[0] = 0.5f; }, 20), "got beyond the wall by"));
-  CHECK(failed(run_pushed("bullet-against-stack", 6, [](BodyState &state) { state.position[0] = 1; }, 12), "bullet past the box it hit by"));
-  CHECK(failed(run_pushed("dominoes", 30, [](BodyState &state) { state.position[0] += 20; }, 240), "dominoes left upright"));
-  CHECK(failed(run_pushed("wall-hit", 3, [](BodyState &state) { state.position[1] = -2; }, 12), "farthest under the ground"));
-  CHECK(failed(run_pushed("far-1-km", 6, [](BodyState &state) { state.position[2] += 0.1f; }, 12), "difference from the origin"));
-  CHECK(failed(run_pushed("seams", 24, [](BodyState &state) { state.linear_velocity[0] = 4; }, 12, 2), "loss of speed"));
-  CHECK(failed(run_pushed("gravity-0", 5, [](BodyState &state) { state.linear_velocity[0] = 0.01f; }, 12, 2), "farthest from the start"));
-  CHECK(failed(run_pushed("boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief), "gain of energy"));
-  CHECK(failed(run_pushed("boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief), "fastest"));
+  CHECK(failed(run_pushed(
+                   "bullet-thin-wall", 1, [](BodyState &state) { state.position[0] = 0.5f; }, 20),
+               "got beyond the wall by"));
+  CHECK(failed(run_pushed(
+                   "bullet-against-stack", 6, [](BodyState &state) { state.position[0] = 1; }, 12),
+               "bullet past the box it hit by"));
+  CHECK(failed(run_pushed(
+                   "dominoes", 30, [](BodyState &state) { state.position[0] += 20; }, 240),
+               "dominoes left upright"));
+  CHECK(failed(run_pushed(
+                   "wall-hit", 3, [](BodyState &state) { state.position[1] = -2; }, 12),
+               "farthest under the ground"));
+  CHECK(failed(run_pushed(
+                   "far-1-km", 6, [](BodyState &state) { state.position[2] += 0.1f; }, 12),
+               "difference from the origin"));
+  CHECK(failed(run_pushed(
+                   "seams", 24, [](BodyState &state) { state.linear_velocity[0] = 4; }, 12, 2),
+               "loss of speed"));
+  CHECK(failed(run_pushed(
+                   "gravity-0", 5, [](BodyState &state) { state.linear_velocity[0] = 0.01f; }, 12, 2),
+               "farthest from the start"));
+  CHECK(failed(
+      run_pushed(
+          "boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief),
+      "gain of energy"));
+  CHECK(failed(
+      run_pushed(
+          "boxes-in-one-place", 3, [](BodyState &state) { state.linear_velocity[1] = 500; }, 5, 1, Length::brief),
+      "fastest"));
 }
 
 /* Else the decades of stiffness would all be one case: contacts no deeper than the slop have none. */
@@ -391,7 +441,8 @@ TEST_CASE("stability: a lost body fails a case, unless the case poisoned it", "[
 TEST_CASE("stability: a figure that is not a number passes no bound, then or later", "[stability]")
 {
   Trial trial = trial_of(column_of({1}), 5);
-  trial.checks.push_back(check("number", "", 10, [](const Moment &moment) { return moment.step == 2 ? std::nan("") : 1.0; }));
+  trial.checks.push_back(
+      check("number", "", 10, [](const Moment &moment) { return moment.step == 2 ? std::nan("") : 1.0; }));
   CHECK_FALSE(run("nan", trial).passed);
   trial.checks.front().value = [](const Moment &) { return 1.0; };
   CHECK(run("number", trial).passed);
@@ -418,7 +469,8 @@ TEST_CASE("stability: documented settings are tried only where the default ones 
     Case made{"bounded", "test", "a cube", "at rest", {}};
     made.build = [=](Length) {
       Trial trial = trial_of(column_of({1}), 5);
-      trial.checks.push_back(check("one over the substeps", "", bound, [](const Moment &moment) { return 1.0 / moment.world.settings().substeps; }));
+      trial.checks.push_back(check("one over the substeps", "", bound,
+                                   [](const Moment &moment) { return 1.0 / moment.world.settings().substeps; }));
       if (documented) {
         trial.documented = trial.settings;
         trial.documented->substeps = 50;
@@ -454,7 +506,8 @@ TEST_CASE("stability: a documented solver is tried where the default solver fail
     };
     return run_case(made, Length::quick, solver, Placement{"serial", {}, false});
   };
-  const Outcome alone = depth(standard, ""), helped = depth(standard, "direct"), other = depth("pgs", "direct"), wrong = depth(standard, "pgs");
+  const Outcome alone = depth(standard, ""), helped = depth(standard, "direct"), other = depth("pgs", "direct"),
+                wrong = depth(standard, "pgs");
   CHECK_FALSE(alone.passed);
   CHECK(helped.passed);
   CHECK(helped.by_default);
@@ -474,7 +527,8 @@ TEST_CASE("stability: a documented solver is tried where the default solver fail
 TEST_CASE("stability: cases side by side give what they give one at a time, in the same order", "[stability]")
 {
   Batch batch;
-  for (const char *name : {"dominoes", "flip", "heavy-on-light-1000", "boxes-in-one-place", "far-1-km", "rolling-ball"}) batch.cases.push_back(&case_named(name));
+  for (const char *name : {"dominoes", "flip", "heavy-on-light-1000", "boxes-in-one-place", "far-1-km", "rolling-ball"})
+    batch.cases.push_back(&case_named(name));
   batch.solvers = {"soft-step", "direct", "jacobi"};
   batch.length = Length::brief;
   std::vector<size_t> sizes;
@@ -486,7 +540,8 @@ TEST_CASE("stability: cases side by side give what they give one at a time, in t
       sizes.push_back(so_far.results.size());
       CHECK(so_far.complete() == (so_far.results.size() == 18));
       CHECK(results_json(so_far)["complete"] == so_far.complete());
-      CHECK(std::is_sorted(so_far.results.begin(), so_far.results.end(), [](const Result &a, const Result &b) { return a.place < b.place; }));
+      CHECK(std::is_sorted(so_far.results.begin(), so_far.results.end(),
+                           [](const Result &a, const Result &b) { return a.place < b.place; }));
     }));
     CHECK(json["ms"].get<double>() > 0);
     json.erase("ms");
@@ -509,31 +564,35 @@ TEST_CASE("stability: cases side by side give what they give one at a time, in t
 TEST_CASE("stability: theory of the top and of the flip", "[stability]")
 {
   const double half = 0.1, spin = 1000, lean = 0.3;
-  CHECK(steady_precession(half, spin, lean, 10) == Approx(10 * half * std::sqrt(3.0) / (2.0 / 3 * half * half * spin)).epsilon(2e-3));
+  CHECK(steady_precession(half, spin, lean, 10) ==
+        Approx(10 * half * std::sqrt(3.0) / (2.0 / 3 * half * half * spin)).epsilon(2e-3));
   CHECK(std::isnan(steady_precession(half, 1, lean, 10)));
   const Vector moments(1, 2, 3);
-  CHECK(flip_interval(moments, {1e-3, 1, 0}) > 2 * flip_interval(moments, {0.2, 1, 0})); /* the slower the nearer to the unstable axis */
+  CHECK(flip_interval(moments, {1e-3, 1, 0}) >
+        2 * flip_interval(moments, {0.2, 1, 0})); /* the slower the nearer to the unstable axis */
 }
 
 TEST_CASE("stability: the page and the JSON hold every case", "[stability]")
 {
   Results results{"serial", {solver_names().front()}, Length::brief, {}};
   for (const char *name : {"heavy-on-light-10", "boxes-in-one-place", "far-1000-km"}) {
-    results.add(case_named(name), case_named(name).build(Length::brief).scene, run_case(case_named(name), Length::brief, results.solvers.front(), {}),
-                results.results.size());
+    results.add(case_named(name), case_named(name).build(Length::brief).scene,
+                run_case(case_named(name), Length::brief, results.solvers.front(), {}), results.results.size());
   }
   const Json json = results_json(results);
   REQUIRE(json["cases"].size() == 3);
   for (const Json &each : json["cases"])
     for (const char *key : {"name", "solver", "passed", "figure", "bound", "unit", "ms"}) CHECK(each.contains(key));
   const std::string page = results_page(results, "tandem stability");
-  for (const char *said : {"heavy-on-light-10", "far-1000-km", "<polygon", "bound", "tandem stability"}) CHECK(page.find(said) != std::string::npos);
+  for (const char *said : {"heavy-on-light-10", "far-1000-km", "<polygon", "bound", "tandem stability"})
+    CHECK(page.find(said) != std::string::npos);
   CHECK(page.find("nan") == std::string::npos);
   CHECK(page.find("http") == page.find("http://www.w3.org")); /* opens offline: a name space at most */
   CHECK(series_csv(results).find("heavy-on-light-10-brief") != std::string::npos);
 }
 
-TEST_CASE("stability: pictures show a box as a hexagon and a ball as a circle, and skip what is not finite", "[stability]")
+TEST_CASE("stability: pictures show a box as a hexagon and a ball as a circle, and skip what is not finite",
+          "[stability]")
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -564,10 +623,12 @@ TEST_CASE("stability: pictures show cylinders and hulls by their outline, where 
   const std::string drawn = svg.substr(polygon, svg.find('"', polygon + 8) - polygon);
   CHECK(std::count(drawn.begin(), drawn.end(), ',') == 4); /* the tip, in front, hides a corner of the base */
   scene.bodies[0].shape_position = {100, 0, 0};
-  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), window, "moved").find("<polygon") == std::string::npos);
+  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), window, "moved").find("<polygon") ==
+        std::string::npos);
   const Window after = window_of(scene.shapes, scene.bodies, states_of(scene.bodies));
   CHECK(after.left > 90);
-  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), after, "seen").find("<polygon") != std::string::npos);
+  CHECK(svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), after, "seen").find("<polygon") !=
+        std::string::npos);
 }
 
 /* Parity holds in every case, also where a solver fails it: here the first case of each group with every solver, all

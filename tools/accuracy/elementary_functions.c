@@ -1,7 +1,7 @@
 /* elementary_functions.c - how far the library's own sine, cosine and arc tangent are from double precision.
  *
- * The kernels may not call built-in ones (docs/exactness.md), so their error is ours to state. This program visits every
- * float of a range and prints the largest error found; docs/exactness.md holds its figures. About a minute:
+ * The kernels may not call built-in ones (docs/exactness.md), so their error is ours to state. This program visits
+ * every float of a range and prints the largest error found; docs/exactness.md holds its figures. About a minute:
  *
  *   gcc -std=gnu99 -O2 -ffp-contract=off -I. tools/accuracy/elementary_functions.c -lm -o build/elementary_functions
  *   build/elementary_functions
@@ -11,7 +11,10 @@
 
 #include "shared/trigonometry.h"
 
-typedef struct { double absolute, ulps; float at; } worst;
+typedef struct {
+  double absolute, ulps;
+  float at;
+} worst;
 
 static float from_bits(uint bits)
 {
@@ -31,7 +34,10 @@ static double ulps_between(double found, double truth)
 static void note(worst *w, double found, double truth, float at)
 {
   double error = fabs(found - truth), ulps = truth == 0.0 ? 0.0 : ulps_between(found, truth);
-  if (error > w->absolute) { w->absolute = error; w->at = at; }
+  if (error > w->absolute) {
+    w->absolute = error;
+    w->at = at;
+  }
   if (ulps > w->ulps) w->ulps = ulps;
 }
 

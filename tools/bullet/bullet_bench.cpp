@@ -1,11 +1,13 @@
-/* bullet_bench.cpp - Bullet's broadphase (btDbvtBroadphase: two dynamic trees of boxes, updated incrementally, on one thread) beside ours.
+/* bullet_bench.cpp - Bullet's broadphase (btDbvtBroadphase: two dynamic trees of boxes, updated incrementally, on one
+ * thread) beside ours.
  *
  *    frame:   ours 1 -> ours 2 -> ... -> bounds -> Bullet       in turn, so that a busy machine slows all alike
  *
- * Bullet is given the bounds that ours starts from: setAabb for every body that moves, then calculateOverlappingPairs. What it makes of
- * them differs in one respect: it pads the boxes in its trees, so that a body need not be moved there every frame, and drops the pairs of
- * boxes that have parted by and by. Its pairs are therefore some more than ours, and each of ours must be among them. And its time comes
- * in bursts, when bodies reach the edge of the padding: a median says little without the mean, and frames must be many.
+ * Bullet is given the bounds that ours starts from: setAabb for every body that moves, then calculateOverlappingPairs.
+ * What it makes of them differs in one respect: it pads the boxes in its trees, so that a body need not be moved there
+ * every frame, and drops the pairs of boxes that have parted by and by. Its pairs are therefore some more than ours,
+ * and each of ours must be among them. And its time comes in bursts, when bodies reach the edge of the padding: a
+ * median says little without the mean, and frames must be many.
  */
 #include <chrono>
 #include <memory>
@@ -15,8 +17,8 @@
 #include <btBulletCollisionCommon.h>
 #include <fmt/format.h>
 
-#include "host/runtime/make_backend.h"
 #include "host/catalog/catalog.h"
+#include "host/runtime/make_backend.h"
 #include "tools/broadphase_frames.h"
 #include "tools/measure.h"
 #include "tools/output.h"
@@ -53,8 +55,10 @@ public:
       const Body &body = moving.scene.bodies[moving.special.order[k]];
       const bool fixed = body.motion == Motion::fixed;
       const int group = fixed ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
-      const int mask = fixed ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter : btBroadphaseProxy::AllFilter;
-      proxies_.push_back(broadphase_.createProxy(vector_of(bounds[k].lower), vector_of(bounds[k].upper), BOX_SHAPE_PROXYTYPE, number(k), group, mask, nullptr));
+      const int mask =
+          fixed ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter : btBroadphaseProxy::AllFilter;
+      proxies_.push_back(broadphase_.createProxy(vector_of(bounds[k].lower), vector_of(bounds[k].upper),
+                                                 BOX_SHAPE_PROXYTYPE, number(k), group, mask, nullptr));
       if (!fixed) moving_.push_back(k);
     }
   }
@@ -66,13 +70,17 @@ public:
   double run(const std::vector<Bounds> &bounds)
   {
     const auto start = std::chrono::steady_clock::now();
-    for (size_t k : moving_) broadphase_.setAabb(proxies_[k], vector_of(bounds[k].lower), vector_of(bounds[k].upper), nullptr);
+    for (size_t k : moving_)
+      broadphase_.setAabb(proxies_[k], vector_of(bounds[k].lower), vector_of(bounds[k].upper), nullptr);
     broadphase_.calculateOverlappingPairs(nullptr);
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
   int pairs() { return broadphase_.getOverlappingPairCache()->getNumOverlappingPairs(); }
-  bool has_pair(uint32_t a, uint32_t b) { return broadphase_.getOverlappingPairCache()->findPair(proxies_[a], proxies_[b]) != nullptr; }
+  bool has_pair(uint32_t a, uint32_t b)
+  {
+    return broadphase_.getOverlappingPairCache()->findPair(proxies_[a], proxies_[b]) != nullptr;
+  }
 
 private:
   /* Bullet passes over what has no client object, and asks it nothing else. */
@@ -92,7 +100,8 @@ struct Row {
 /* Pairs of ours that Bullet has not. */
 uint32_t missing_pairs(BroadphaseFrames &frames, BulletFrames &bullet)
 {
-  const auto a = frames.memory().read<uint32_t>(Buffer::pair_a, frames.pairs()), b = frames.memory().read<uint32_t>(Buffer::pair_b, frames.pairs());
+  const auto a = frames.memory().read<uint32_t>(Buffer::pair_a, frames.pairs()),
+             b = frames.memory().read<uint32_t>(Buffer::pair_b, frames.pairs());
   uint32_t missing = 0;
   for (size_t k = 0; k < a.size(); ++k) missing += !bullet.has_pair(a[k], b[k]);
   return missing;
@@ -103,7 +112,8 @@ bool measure_input(const BroadphaseInput &input, const Request &request, Backend
 {
   const MovingBodies moving(input, request.bodies);
   std::vector<std::unique_ptr<BroadphaseFrames>> ours;
-  for (const std::string &name : request.broadphases) ours.push_back(std::make_unique<BroadphaseFrames>(moving, broadphase_named(name), backend));
+  for (const std::string &name : request.broadphases)
+    ours.push_back(std::make_unique<BroadphaseFrames>(moving, broadphase_named(name), backend));
   std::unique_ptr<BulletFrames> bullet;
   uint32_t missing = 0;
   Progress progress(fmt::format("{}, {} bodies", input.name, request.bodies), warm_frames + request.frames);
@@ -122,7 +132,10 @@ bool measure_input(const BroadphaseInput &input, const Request &request, Backend
   return missing == 0;
 }
 
-double mean_of(const std::vector<double> &values) { return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()); }
+double mean_of(const std::vector<double> &values)
+{
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
 
 void print_rows(const std::vector<Row> &rows)
 {
@@ -132,8 +145,9 @@ void print_rows(const std::vector<Row> &rows)
   for (const Row &row : rows) {
     const Spread time = spread_of(row.milliseconds);
     const double own_mean = mean_of(row.milliseconds);
-    table.add({row.name, number(time.median), number(own_mean), number(time.minimum), number(time.maximum), fmt::format("{}", row.pairs),
-               fmt::format("{:.2f}", median / time.median), fmt::format("{:.2f}", mean / own_mean)});
+    table.add({row.name, number(time.median), number(own_mean), number(time.minimum), number(time.maximum),
+               fmt::format("{}", row.pairs), fmt::format("{:.2f}", median / time.median),
+               fmt::format("{:.2f}", mean / own_mean)});
   }
   fmt::print("{}", table.text("  "));
 }
@@ -161,8 +175,14 @@ int parse_and_compare(int count, char **arguments)
   Options options;
   parser.add_option("--on", options.on, "backend of ours")->type_name("B")->capture_default_str();
   parser.add_option("--n", options.bodies, "bodies")->type_name("N")->capture_default_str();
-  parser.add_option("--frames", options.frames, "timed frames, a sixtieth of a second each")->type_name("N")->capture_default_str();
-  parser.add_option("--broadphase", options.broadphases, "which of ours")->delimiter(',')->check(CLI::IsMember(broadphase_names()))->type_name("NAME,...")->capture_default_str();
+  parser.add_option("--frames", options.frames, "timed frames, a sixtieth of a second each")
+      ->type_name("N")
+      ->capture_default_str();
+  parser.add_option("--broadphase", options.broadphases, "which of ours")
+      ->delimiter(',')
+      ->check(CLI::IsMember(broadphase_names()))
+      ->type_name("NAME,...")
+      ->capture_default_str();
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help */
@@ -171,7 +191,8 @@ int parse_and_compare(int count, char **arguments)
     throw InputError(error.what());
   }
   const auto bodies = static_cast<uint32_t>(whole_number("--n", options.bodies, 2, most_bodies));
-  return compare(options.on, {bodies, static_cast<uint32_t>(whole_number("--frames", options.frames, 1, 100000)), options.broadphases});
+  return compare(options.on, {bodies, static_cast<uint32_t>(whole_number("--frames", options.frames, 1, 100000)),
+                              options.broadphases});
 }
 
 } // namespace

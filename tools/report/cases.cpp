@@ -24,21 +24,23 @@ constexpr std::array<MetricName, 8> metrics = {{
 }};
 
 constexpr std::array<ReportCase, 8> cases = {{
-    {"free-flight", "boxes thrown, spinning about no principal axis; the centres of mass fly on parabolas, known exactly",
+    {"free-flight",
+     "boxes thrown, spinning about no principal axis; the centres of mass fly on parabolas, known exactly",
      "free-flight:n=16", "free-flight:n=4", 1.0, 0.5, Metric::rotation, 64},
-    {"incline", "a box slides down a slope: x = (g/2) (sin - friction cos) t^2", "incline", "incline", 1.0, 0.5, Metric::position, 64},
-    {"bounce", "balls of restitution 0.8 fall and bounce twice; parabolas between exact impacts", "bounce:n=16", "bounce:n=4", 1.6, 1.0,
+    {"incline", "a box slides down a slope: x = (g/2) (sin - friction cos) t^2", "incline", "incline", 1.0, 0.5,
      Metric::position, 64},
-    {"pyramid", "a wall of cubes, each resting on two: it must stay where it is", "pyramid:rows=12", "pyramid:rows=5", 1.0, 0.5,
-     Metric::position, 64},
-    {"box-grid", "layers of boxes, each resting on four: the scene of the published comparisons", "box-grid:nx=6,ny=6,nz=6",
-     "box-grid:nx=3,ny=3,nz=3", 2.0, 1.0, Metric::mean_penetration, 16},
-    {"box-grid-large", "the same with 8,000 boxes, enough to fill a GPU", "box-grid:nx=20,ny=20,nz=20", nullptr, 1.0, 0, Metric::mean_penetration,
-     0, Grid::coarse},
-    {"mass-ratio", "five cubes, each four times as heavy as the one below: it must stay where it is", "mass-ratio:n=5,ratio=4",
-     "mass-ratio:n=4,ratio=4", 1.0, 0.5, Metric::position, 64},
-    {"mixed", "a pile of boxes and spheres of seven sizes and four materials; chaotic", "mixed:n=150", "mixed:n=20", 2.0, 1.0,
-     Metric::mean_penetration, 16},
+    {"bounce", "balls of restitution 0.8 fall and bounce twice; parabolas between exact impacts", "bounce:n=16",
+     "bounce:n=4", 1.6, 1.0, Metric::position, 64},
+    {"pyramid", "a wall of cubes, each resting on two: it must stay where it is", "pyramid:rows=12", "pyramid:rows=5",
+     1.0, 0.5, Metric::position, 64},
+    {"box-grid", "layers of boxes, each resting on four: the scene of the published comparisons",
+     "box-grid:nx=6,ny=6,nz=6", "box-grid:nx=3,ny=3,nz=3", 2.0, 1.0, Metric::mean_penetration, 16},
+    {"box-grid-large", "the same with 8,000 boxes, enough to fill a GPU", "box-grid:nx=20,ny=20,nz=20", nullptr, 1.0, 0,
+     Metric::mean_penetration, 0, Grid::coarse},
+    {"mass-ratio", "five cubes, each four times as heavy as the one below: it must stay where it is",
+     "mass-ratio:n=5,ratio=4", "mass-ratio:n=4,ratio=4", 1.0, 0.5, Metric::position, 64},
+    {"mixed", "a pile of boxes and spheres of seven sizes and four materials; chaotic", "mixed:n=150", "mixed:n=20",
+     2.0, 1.0, Metric::mean_penetration, 16},
 }};
 
 template <class Row> std::string names_in(const Row &rows)
@@ -79,7 +81,8 @@ std::vector<Settings> without_repetition(const std::vector<Settings> &all)
     return a.substeps == b.substeps && a.iterations == b.iterations && a.step == b.step;
   };
   for (const Settings &settings : all)
-    if (std::none_of(grid.begin(), grid.end(), [&](const Settings &known) { return same(known, settings); })) grid.push_back(settings);
+    if (std::none_of(grid.begin(), grid.end(), [&](const Settings &known) { return same(known, settings); }))
+      grid.push_back(settings);
   return grid;
 }
 
@@ -124,9 +127,12 @@ std::string step_text(const Settings &settings) { return fmt::format("1/{}", std
 
 std::string short_text(const Settings &settings)
 {
-  const auto counted = [](uint32_t count, const char *what) { return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s"); };
+  const auto counted = [](uint32_t count, const char *what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
   std::string text = counted(settings.substeps, "substep");
-  if (settings.iterations > 1) text = (settings.substeps == 1 ? "" : text + " of ") + counted(settings.iterations, "iteration");
+  if (settings.iterations > 1)
+    text = (settings.substeps == 1 ? "" : text + " of ") + counted(settings.iterations, "iteration");
   if (settings.step != base_step) text += ", dt " + step_text(settings) + " s";
   return text;
 }

@@ -34,18 +34,19 @@ enum class Grid { quick, coarse, full }; /* how many settings of a solver are tr
 
 struct ReportCase {
   const char *name, *what;
-  const char *scene, *quick_scene; /* specifications of scene_catalog.h; null: not in the quick report */
+  const char *scene, *quick_scene; /* specifications of host/catalog/catalog.h; null: not in the quick report */
   double duration, quick_duration; /* s */
   Metric metric;
-  uint32_t refinement = 64; /* the truth's time step is 1/60 s divided by it; 0: too large for a reference, and judged without */
-  Grid grid = Grid::full;   /* unless the report is quick */
+  uint32_t refinement =
+      64; /* the truth's time step is 1/60 s divided by it; 0: too large for a reference, and judged without */
+  Grid grid = Grid::full; /* unless the report is quick */
 };
 std::span<const ReportCase> report_cases();
 const ReportCase &report_case_named(const std::string &name); /* InputError lists them */
 
-/* Around the substeps and iterations that the solver asks for: an eighth to eight times on its own knob (substeps if it wants several, else
- * iterations), some of the work on the other, and other time steps. Coarse: a quarter to four times, and the other knob. Quick: a quarter,
- * its own, four times, and the other knob. */
+/* Around the substeps and iterations that the solver asks for: an eighth to eight times on its own knob (substeps if it
+ * wants several, else iterations), some of the work on the other, and other time steps. Coarse: a quarter to four
+ * times, and the other knob. Quick: a quarter, its own, four times, and the other knob. */
 std::vector<Settings> settings_grid(const std::string &solver, Grid size);
 
 /* The time step all others are multiples or fractions of by a power of two: their times then agree to the bit. */

@@ -1,5 +1,4 @@
 /* collect.cpp - see collect.h. */
-#include "host/runtime/make_backend.h"
 #include "tools/report/collect.h"
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include <tbb/info.h>
 
 #include "host/catalog/catalog.h"
+#include "host/runtime/make_backend.h"
 #include "tools/parallel.h"
 #include "tools/progress.h"
 #include "tools/report/contact_curves.h"
@@ -52,7 +52,10 @@ private:
   uint64_t done_ = 0;
 };
 
-uint32_t refinement_of(const ReportCase &source, bool quick) { return quick ? std::min(source.refinement, 16u) : source.refinement; }
+uint32_t refinement_of(const ReportCase &source, bool quick)
+{
+  return quick ? std::min(source.refinement, 16u) : source.refinement;
+}
 
 /* A scene that waits to be run, with what its runs will cost. */
 struct Planned {
@@ -81,7 +84,8 @@ Planned plan_scene(const ReportCase &source, const ReportRequest &request)
   report.metric = request.metric.value_or(source.metric);
   plan.refinement = refinement_of(source, request.quick);
   for (const std::string &solver : request.solvers)
-    for (const Settings &settings : settings_grid(solver, request.quick ? Grid::quick : source.grid)) plan.settings.push_back(settings);
+    for (const Settings &settings : settings_grid(solver, request.quick ? Grid::quick : source.grid))
+      plan.settings.push_back(settings);
   plan.estimate = estimate_scene(report.scene, report.duration, plan.refinement, request.backends, request.solvers);
   return plan;
 }
@@ -126,10 +130,12 @@ void run_scene(Planned &plan, const ReportRequest &request, Work &work)
   for (const std::string &backend : request.backends) report.backends.push_back({backend, {}, {}});
   const size_t observer = plan.estimate.fastest_backend();
   for (const Settings &settings : plan.settings) {
-    const Run observed = run_experiment(report.scene, report.duration, report.truth, settings, request.backends[observer]);
+    const Run observed =
+        run_experiment(report.scene, report.duration, report.truth, settings, request.backends[observer]);
     for (size_t k = 0; k < request.backends.size(); ++k) {
       report.backends[k].runs.push_back(
-          k == observer ? observed : time_experiment(report.scene, report.duration, report.truth, observed, request.backends[k]));
+          k == observer ? observed
+                        : time_experiment(report.scene, report.duration, report.truth, observed, request.backends[k]));
       work.done(plan.estimate.run_seconds(k, settings, report.duration));
     }
   }
@@ -163,9 +169,10 @@ std::string estimate_text(const std::vector<Planned> &plans, const ReportRequest
 {
   size_t runs = 0;
   for (const Planned &plan : plans) runs += plan.settings.size() * request.backends.size();
-  std::string text = fmt::format("{} runs of {} scenes on {}: about {}", runs, plans.size(), fmt::join(request.backends, ", "),
-                                 duration_text(total_seconds(plans)));
-  for (const Planned &plan : plans) text += fmt::format(", {} {}", plan.report.source->name, duration_text(plan.run_seconds()));
+  std::string text = fmt::format("{} runs of {} scenes on {}: about {}", runs, plans.size(),
+                                 fmt::join(request.backends, ", "), duration_text(total_seconds(plans)));
+  for (const Planned &plan : plans)
+    text += fmt::format(", {} {}", plan.report.source->name, duration_text(plan.run_seconds()));
   return text + fmt::format(", truths {}", duration_text(truth_seconds(plans)));
 }
 
@@ -199,7 +206,10 @@ std::string amount_text(double value, const std::string &unit)
 }
 
 /* "RMS" is read letter by letter: an R. */
-const char *article_of(const std::string &label) { return std::string("aeiouR").find(label.front()) == std::string::npos ? "a" : "an"; }
+const char *article_of(const std::string &label)
+{
+  return std::string("aeiouR").find(label.front()) == std::string::npos ? "a" : "an";
+}
 
 } // namespace
 
@@ -233,8 +243,10 @@ std::string pick_sentence(const std::vector<Run> &runs, const std::vector<Pick> 
   std::string sentence;
   for (size_t k = 0; k < picks.size(); ++k) {
     const Run &run = runs[picks[k].run];
-    const std::string choice = fmt::format("{} with {} ({:.3g} ms for 1/60 s)", run.solver, short_text(run.settings), run.cost());
-    sentence += k == 0 ? fmt::format("For {} {} of at most {} take {}", article_of(name.label), name.label, amount_text(picks[k].wished, name.unit), choice)
+    const std::string choice =
+        fmt::format("{} with {} ({:.3g} ms for 1/60 s)", run.solver, short_text(run.settings), run.cost());
+    sentence += k == 0 ? fmt::format("For {} {} of at most {} take {}", article_of(name.label), name.label,
+                                     amount_text(picks[k].wished, name.unit), choice)
                        : fmt::format("; for {} {}", amount_text(picks[k].wished, name.unit), choice);
   }
   return sentence + ".";
@@ -242,8 +254,9 @@ std::string pick_sentence(const std::vector<Run> &runs, const std::vector<Pick> 
 
 std::string run_command_of(const SceneReport &scene, const Run &run)
 {
-  std::string command = fmt::format("tandem run {} --on {} --solver {} --substeps {} --iterations {} --steps {}", scene.specification, run.backend,
-                                    run.solver, run.settings.substeps, run.settings.iterations, run.steps);
+  std::string command =
+      fmt::format("tandem run {} --on {} --solver {} --substeps {} --iterations {} --steps {}", scene.specification,
+                  run.backend, run.solver, run.settings.substeps, run.settings.iterations, run.steps);
   return run.settings.step == base_step ? command : command + " --dt " + step_text(run.settings);
 }
 
@@ -251,11 +264,15 @@ size_t Report::unequal() const
 {
   size_t count = 0;
   for (const SceneReport &scene : scenes)
-    for (const BackendRuns &each : scene.backends) count += static_cast<size_t>(std::ranges::count_if(each.runs, &Run::unequal));
+    for (const BackendRuns &each : scene.backends)
+      count += static_cast<size_t>(std::ranges::count_if(each.runs, &Run::unequal));
   return count;
 }
 
-std::vector<SceneReport> collect_scenes(const ReportRequest &request) { return run_scenes(plan_scenes(request), request); }
+std::vector<SceneReport> collect_scenes(const ReportRequest &request)
+{
+  return run_scenes(plan_scenes(request), request);
+}
 
 Report collect_report(const ReportRequest &request)
 {
@@ -263,12 +280,14 @@ Report collect_report(const ReportRequest &request)
   report.request = request;
   report.machine = machine_text();
   report.date = date_text();
-  for (const std::string &backend : request.backends) make_backend(backend); /* a bad name is said before anything runs */
+  for (const std::string &backend : request.backends)
+    make_backend(backend); /* a bad name is said before anything runs */
   std::vector<Planned> plans = plan_scenes(request);
   report.estimate = estimate_text(plans, request);
   if (!plans.empty()) fmt::print(stderr, "{}\n", report.estimate);
   report.scenes = run_scenes(std::move(plans), request);
-  if (request.with_problems) report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
+  if (request.with_problems)
+    report.contact_curves = contact_curves(request.problems, request.backends.front(), request.quick);
   if (request.with_rounding) collect_rounding(report);
   return report;
 }

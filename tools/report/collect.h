@@ -19,7 +19,7 @@ struct ReportRequest {
   std::optional<Metric> metric;      /* instead of each scene's own */
   std::vector<std::string> problems; /* files of contact problems */
   bool with_problems = true, with_rounding = true;
-  std::string command;               /* as it was typed */
+  std::string command; /* as it was typed */
 };
 
 /* The setting to take for a wished error. */
@@ -76,13 +76,15 @@ struct Report {
   size_t unequal() const; /* runs that do not end in the bits of the backend that was observed */
 };
 
-/* InputError for what a user got wrong. Says first on standard error how long it will take, and shows a progress bar. */
+/* InputError for what a user got wrong. Says first on standard error how long it will take, and shows a progress
+ * bar. */
 Report collect_report(const ReportRequest &request);
 
 /* Scenes with all their runs, in the request's order; what collect_report does of it, without a word. */
 std::vector<SceneReport> collect_scenes(const ReportRequest &request);
 
-/* Marks the runs on the Pareto front of cost against `metric`, and finds what to pick; wishes finer than `uncertainty` are left out. */
+/* Marks the runs on the Pareto front of cost against `metric`, and finds what to pick; wishes finer than `uncertainty`
+ * are left out. */
 std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double uncertainty);
 
 /* "For a position error of at most 1 mm take pgs with 1 substep, 8 iterations (0.12 ms for 1/60 s); for ..." */

@@ -1,5 +1,4 @@
 /* contact_curves.cpp - see contact_curves.h. */
-#include "host/runtime/make_backend.h"
 #include "tools/report/contact_curves.h"
 
 #include <algorithm>
@@ -7,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/runtime/make_backend.h"
 #include "host/verify/contact_solver.h"
 
 namespace tandem {
@@ -24,7 +24,8 @@ ContactCurve curve_of(const std::string &problem, const std::string &solver, con
   for (size_t k = 0; k < solution.history.size(); ++k) {
     if (k < next && k + 1 < solution.history.size()) continue;
     const double done = static_cast<double>(k + 1);
-    curve.points.push_back({solution.milliseconds * done / sweeps, solution.history[k], fmt::format("{} sweeps", k + 1)});
+    curve.points.push_back(
+        {solution.milliseconds * done / sweeps, solution.history[k], fmt::format("{} sweeps", k + 1)});
     next = k + 1 + solution.history.size() / most_points;
   }
   return curve;
@@ -50,7 +51,8 @@ std::vector<ContactCurve> contact_curves(const std::vector<std::string> &files, 
     for (const std::string &solver : contact_solver_names()) {
       const std::unique_ptr<Backend> on = make_backend(solver == "nsgs" ? "reference:threads=1" : backend);
       const ContactSolverSettings settings{solver, wished_residual, quick ? 100u : 1000u};
-      curves.push_back(curve_of(std::filesystem::path(file).stem().string(), solver, solve_contact_problem(problem, settings, *on)));
+      curves.push_back(
+          curve_of(std::filesystem::path(file).stem().string(), solver, solve_contact_problem(problem, settings, *on)));
     }
   }
   return curves;

@@ -22,20 +22,26 @@ std::string csv_text(const std::string &text)
 
 std::string csv_row(const std::string &scene, const Run &run)
 {
-  std::string row = fmt::format("{},{},{},{},{},{},{},{},{}", csv_text(scene), run.solver, csv_text(run.backend), run.settings.substeps,
-                                run.settings.iterations, csv_number(double{run.settings.step}), run.steps, csv_number(run.step_milliseconds),
-                                csv_number(run.cost()));
+  std::string row = fmt::format("{},{},{},{},{},{},{},{},{}", csv_text(scene), run.solver, csv_text(run.backend),
+                                run.settings.substeps, run.settings.iterations, csv_number(double{run.settings.step}),
+                                run.steps, csv_number(run.step_milliseconds), csv_number(run.cost()));
   for (const double error : run.errors) row += "," + csv_number(error);
-  row += fmt::format(",{},{},{},{},{},{},{},{},{}\n", csv_number(run.position_max), csv_number(run.rotation_max), csv_number(run.mean_height_error),
-                     csv_number(run.momentum_drift), csv_number(run.angular_momentum_drift), run.quarantined, hash_text(run.hash), run.front ? 1 : 0,
+  row += fmt::format(",{},{},{},{},{},{},{},{},{}\n", csv_number(run.position_max), csv_number(run.rotation_max),
+                     csv_number(run.mean_height_error), csv_number(run.momentum_drift),
+                     csv_number(run.angular_momentum_drift), run.quarantined, hash_text(run.hash), run.front ? 1 : 0,
                      csv_text(run.failure));
   return row;
 }
 
 Json run_json(const Run &run)
 {
-  Json json = {{"solver", run.solver}, {"backend", run.backend}, {"substeps", run.settings.substeps}, {"iterations", run.settings.iterations},
-               {"dt", run.settings.step}, {"steps", run.steps}, {"ms_per_step", json_number(run.step_milliseconds)},
+  Json json = {{"solver", run.solver},
+               {"backend", run.backend},
+               {"substeps", run.settings.substeps},
+               {"iterations", run.settings.iterations},
+               {"dt", run.settings.step},
+               {"steps", run.steps},
+               {"ms_per_step", json_number(run.step_milliseconds)},
                {"ms_per_60th", json_number(run.cost())}};
   for (const MetricName &metric : metric_names()) json[metric.name] = json_number(run.error(metric.metric));
   json["position_max"] = json_number(run.position_max);
@@ -67,7 +73,9 @@ Json picks_json(const SceneReport &scene)
   for (const BackendRuns &each : scene.backends) {
     Json picks = Json::array();
     for (const Pick &pick : each.picks) picks.push_back({{"wished", pick.wished}, {"run", pick.run}});
-    list.push_back({{"backend", each.backend}, {"sentence", pick_sentence(each.runs, each.picks, scene.metric)}, {"picks", picks}});
+    list.push_back({{"backend", each.backend},
+                    {"sentence", pick_sentence(each.runs, each.picks, scene.metric)},
+                    {"picks", picks}});
   }
   return list;
 }
@@ -94,8 +102,14 @@ Json truth_json(const Truth &truth)
     refinement.push_back({{"steps_per_60th", truth.refinements[k]},
                           {"position", json_number(truth.refinement_errors[k].position_rms())},
                           {"rotation", json_number(truth.refinement_errors[k].angle_rms())}});
-  return {{"closed_form", truth.closed_form}, {"horizon", truth.horizon},   {"chaotic", truth.chaotic},   {"resolved", truth.resolved}, {"nudge", truth.nudge},
-          {"frames", truth.frames.size()},    {"compared", truth.comparable_frames}, {"refinement", refinement},
+  return {{"closed_form", truth.closed_form},
+          {"horizon", truth.horizon},
+          {"chaotic", truth.chaotic},
+          {"resolved", truth.resolved},
+          {"nudge", truth.nudge},
+          {"frames", truth.frames.size()},
+          {"compared", truth.comparable_frames},
+          {"refinement", refinement},
           {"order", truth.order ? json_number(*truth.order) : Json(nullptr)}};
 }
 
@@ -117,13 +131,22 @@ Json rounding_json(const RoundingTable &table)
 {
   Json rows = Json::array(), decisions = Json::array();
   for (const RoundingRow &row : table.rows)
-    rows.push_back({{"kernel", row_of(row.kernel).name}, {"buffer", row_of(row.buffer).name}, {"field", row.field}, {"numbers", row.numbers},
-                    {"median_ulps", row.median_ulps}, {"p999_ulps", row.high_ulps}, {"max_ulps", row.max_ulps},
+    rows.push_back({{"kernel", row_of(row.kernel).name},
+                    {"buffer", row_of(row.buffer).name},
+                    {"field", row.field},
+                    {"numbers", row.numbers},
+                    {"median_ulps", row.median_ulps},
+                    {"p999_ulps", row.high_ulps},
+                    {"max_ulps", row.max_ulps},
                     {"max_field_ulps", row.max_field_ulps},
-                    {"max_relative", json_number(row.max_relative)}, {"max_absolute", json_number(row.max_absolute)}, {"nonfinite", row.nonfinite}});
+                    {"max_relative", json_number(row.max_relative)},
+                    {"max_absolute", json_number(row.max_absolute)},
+                    {"nonfinite", row.nonfinite}});
   for (const DecisionRow &row : table.decisions)
-    decisions.push_back(
-        {{"kernel", row_of(row.kernel).name}, {"buffer", row_of(row.buffer).name}, {"numbers", row.numbers}, {"differing", row.differing}});
+    decisions.push_back({{"kernel", row_of(row.kernel).name},
+                         {"buffer", row_of(row.buffer).name},
+                         {"numbers", row.numbers},
+                         {"differing", row.differing}});
   return {{"launches", table.launches}, {"rows", rows}, {"integers", decisions}};
 }
 
@@ -132,7 +155,8 @@ Json curves_json(const std::vector<ContactCurve> &curves)
   Json list = Json::array();
   for (const ContactCurve &curve : curves) {
     Json points = Json::array();
-    for (const ContactCurve::Point &point : curve.points) points.push_back({{"ms", point.milliseconds}, {"residual", json_number(point.residual)}});
+    for (const ContactCurve::Point &point : curve.points)
+      points.push_back({{"ms", point.milliseconds}, {"residual", json_number(point.residual)}});
     list.push_back({{"problem", curve.problem}, {"solver", curve.solver}, {"points", points}});
   }
   return list;
@@ -144,7 +168,8 @@ std::string report_csv(const Report &report)
 {
   std::string text = "scene,solver,backend,substeps,iterations,dt,steps,ms_per_step,ms_per_60th";
   for (const MetricName &metric : metric_names()) text += fmt::format(",{}", metric.name);
-  text += ",position_max,rotation_max,mean_height_error,momentum_drift,angular_momentum_drift,nonfinite,body_hash,front,failure\n";
+  text += ",position_max,rotation_max,mean_height_error,momentum_drift,angular_momentum_drift,nonfinite,body_hash,"
+          "front,failure\n";
   for (const SceneReport &scene : report.scenes)
     for (const BackendRuns &each : scene.backends)
       for (const Run &run : each.runs) text += csv_row(scene.specification, run);

@@ -15,7 +15,8 @@ std::vector<double> spread_evenly(const std::vector<double> &levels)
 {
   if (levels.size() <= most_levels) return levels;
   std::vector<double> kept;
-  for (size_t k = 0; k < most_levels; ++k) kept.push_back(levels[(k * (levels.size() - 1) + (most_levels - 1) / 2) / (most_levels - 1)]);
+  for (size_t k = 0; k < most_levels; ++k)
+    kept.push_back(levels[(k * (levels.size() - 1) + (most_levels - 1) / 2) / (most_levels - 1)]);
   return kept;
 }
 

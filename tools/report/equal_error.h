@@ -1,4 +1,5 @@
-/* equal_error.h - who is fastest at the same error: for a few round levels the cheapest setting of each solver on each backend.
+/* equal_error.h - who is fastest at the same error: for a few round levels the cheapest setting of each solver on each
+ * backend.
  *
  *   error |  .a  .b                 level 10 mm:  a 0.1 ms, b 0.2 ms
  *         |---\---\-------- 10 mm   level  1 mm:  a -       b 0.8 ms
@@ -17,13 +18,15 @@
 namespace tandem {
 
 struct EqualError {
-  double error;                            /* at most */
+  double error; /* at most */
   std::string solver;
-  std::vector<std::optional<size_t>> runs; /* for each backend the cheapest, as an index into its runs; nothing where none keeps the error */
+  std::vector<std::optional<size_t>>
+      runs; /* for each backend the cheapest, as an index into its runs; nothing where none keeps the error */
 };
 
-/* Powers of ten from the coarsest error on the common front to the finest, none finer than `finest`; of more than five, five spread
- * evenly. `by_backend` holds the runs of each backend; level by level, within each solver by solver as they first occur. */
+/* Powers of ten from the coarsest error on the common front to the finest, none finer than `finest`; of more than five,
+ * five spread evenly. `by_backend` holds the runs of each backend; level by level, within each solver by solver as they
+ * first occur. */
 std::vector<EqualError> equal_errors(const std::vector<std::vector<Run>> &by_backend, Metric metric, double finest);
 
 } // namespace tandem

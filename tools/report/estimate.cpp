@@ -14,8 +14,8 @@ namespace {
 
 constexpr int timed_steps = 2;
 
-/* Of a step, ms: the first, which sizes buffers and builds kernels, is left out. 0 where the simulation breaks down: the run itself
- * will say so. */
+/* Of a step, ms: the first, which sizes buffers and builds kernels, is left out. 0 where the simulation breaks down:
+ * the run itself will say so. */
 double step_time(const Scene &scene, const Settings &settings, const std::string &backend)
 {
   try {
@@ -53,7 +53,8 @@ double SceneEstimate::run_seconds(size_t backend, const Settings &settings, doub
   const Settings own = settings_for(settings.solver);
   const double passes = double(settings.substeps) * settings.iterations / (double(own.substeps) * own.iterations);
   const auto solver = static_cast<size_t>(std::find(solvers.begin(), solvers.end(), settings.solver) - solvers.begin());
-  const double steps = duration / double{settings.step}, beside_passes = 0.3; /* share of a step that does not grow with them */
+  const double steps = duration / double{settings.step},
+               beside_passes = 0.3; /* share of a step that does not grow with them */
   return 1e-3 * steps * step_milliseconds[backend][solver] * (beside_passes + (1 - beside_passes) * passes);
 }
 
@@ -65,14 +66,15 @@ size_t SceneEstimate::fastest_backend() const
                              step_milliseconds.begin());
 }
 
-SceneEstimate estimate_scene(const Scene &scene, double duration, uint32_t refinement, const std::vector<std::string> &backends,
-                             const std::vector<std::string> &solvers)
+SceneEstimate estimate_scene(const Scene &scene, double duration, uint32_t refinement,
+                             const std::vector<std::string> &backends, const std::vector<std::string> &solvers)
 {
   SceneEstimate estimate{backends, solvers, {}, 0, 0};
   const Scene middle = at_half_time(scene, duration, backends.front());
   for (const std::string &backend : backends) {
     estimate.step_milliseconds.emplace_back();
-    for (const std::string &solver : solvers) estimate.step_milliseconds.back().push_back(step_time(middle, settings_for(solver), backend));
+    for (const std::string &solver : solvers)
+      estimate.step_milliseconds.back().push_back(step_time(middle, settings_for(solver), backend));
   }
   if (refinement == 0) return estimate;
   const double steps = 2.0 * refinement * static_cast<double>(frames_in(duration));

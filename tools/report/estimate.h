@@ -1,7 +1,7 @@
 /* estimate.h - how long a report will take, from a few steps of every solver on every backend and of the reference.
  *
- * Timed from the middle of the scene: at the start bodies may not touch yet. The same figures weigh the progress bar, and say on which
- * backend the errors of a scene are computed: the fastest.
+ * Timed from the middle of the scene: at the start bodies may not touch yet. The same figures weigh the progress bar,
+ * and say on which backend the errors of a scene are computed: the fastest.
  */
 #pragma once
 
@@ -15,8 +15,10 @@ namespace tandem {
 
 struct SceneEstimate {
   std::vector<std::string> backends, solvers;
-  std::vector<std::vector<double>> step_milliseconds; /* [backend][solver], at the solver's own settings; 0 where it broke down */
-  double truth_seconds = 0, longest_truth_seconds = 0; /* all runs of the reference one after the other, and the longest of them */
+  std::vector<std::vector<double>>
+      step_milliseconds; /* [backend][solver], at the solver's own settings; 0 where it broke down */
+  double truth_seconds = 0,
+         longest_truth_seconds = 0; /* all runs of the reference one after the other, and the longest of them */
 
   /* Of one run of this length, s. */
   double run_seconds(size_t backend, const Settings &settings, double duration) const;
@@ -24,8 +26,8 @@ struct SceneEstimate {
 };
 
 /* refinement 0: the scene needs no truth. */
-SceneEstimate estimate_scene(const Scene &scene, double duration, uint32_t refinement, const std::vector<std::string> &backends,
-                             const std::vector<std::string> &solvers);
+SceneEstimate estimate_scene(const Scene &scene, double duration, uint32_t refinement,
+                             const std::vector<std::string> &backends, const std::vector<std::string> &solvers);
 
 /* "40 s", "7 min" */
 std::string duration_text(double seconds);

@@ -22,11 +22,15 @@ Array minus(const Array &a, const Array &b) { return {a[0] - b[0], a[1] - b[1], 
 
 bool only_gravity_acts(const Scene &scene)
 {
-  return std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
+  return std::all_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body &body) { return body.motion == Motion::dynamic; });
 }
 
 /* A quarter of the steps of a frame of 1/30 s at least: 1/30 s itself is a whole number of every step in the grids. */
-uint64_t steps_in_frame(const Settings &settings) { return static_cast<uint64_t>(std::llround(frame_time / double{settings.step})); }
+uint64_t steps_in_frame(const Settings &settings)
+{
+  return static_cast<uint64_t>(std::llround(frame_time / double{settings.step}));
+}
 
 /* What is gathered over the frames of a run. */
 class Observation {
@@ -61,15 +65,16 @@ public:
     run.mean_height_error = undefined;
     if (truth_.known()) {
       const PreciseBodies &end = truth_.frames[frames_ - 1];
-      set(Metric::energy, std::abs(conserved_quantities(scene_, last_).energy() - conserved_quantities(scene_, end).energy()));
+      set(Metric::energy,
+          std::abs(conserved_quantities(scene_, last_).energy() - conserved_quantities(scene_, end).energy()));
       run.mean_height_error = std::abs(mean_height(scene_, last_) - mean_height(scene_, end));
     }
     write_drift(run);
   }
 
 private:
-  /* Gravity turns momentum by M g t, which is known, and angular momentum about the origin by a torque that depends on the path; so
-   * the latter is taken about the common centre of mass. */
+  /* Gravity turns momentum by M g t, which is known, and angular momentum about the origin by a torque that depends on
+   * the path; so the latter is taken about the common centre of mass. */
   void write_drift(Run &run) const
   {
     run.momentum_drift = run.angular_momentum_drift = undefined;
@@ -158,7 +163,8 @@ Run empty_run(const Settings &settings, const std::string &backend)
   run.backend = backend;
   run.settings = settings;
   run.errors.fill(undefined);
-  run.position_max = run.rotation_max = run.mean_height_error = run.momentum_drift = run.angular_momentum_drift = undefined;
+  run.position_max = run.rotation_max = run.mean_height_error = run.momentum_drift = run.angular_momentum_drift =
+      undefined;
   return run;
 }
 
@@ -191,14 +197,16 @@ bool in_double(const std::string &backend) { return backend.starts_with("referen
 
 } // namespace
 
-Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings, const std::string &backend)
+Run run_experiment(const Scene &scene, double duration, const Truth &truth, const Settings &settings,
+                   const std::string &backend)
 {
   Run run = empty_run(settings, backend);
   run_or_fail(run, [&] { observe(run, scene, duration, truth); });
   return run;
 }
 
-Run time_experiment(const Scene &scene, double duration, const Truth &truth, const Run &observed, const std::string &backend)
+Run time_experiment(const Scene &scene, double duration, const Truth &truth, const Run &observed,
+                    const std::string &backend)
 {
   if (in_double(backend) || in_double(observed.backend) || !observed.failure.empty())
     return run_experiment(scene, duration, truth, observed.settings, backend);
@@ -208,7 +216,9 @@ Run time_experiment(const Scene &scene, double duration, const Truth &truth, con
     simulate(run, world, duration, {});
     run.unequal = run.hash != observed.hash;
     if (!run.unequal) take_errors(run, observed);
-    else run.failure = fmt::format("ends with hash {:016x}, on {} with {:016x}", run.hash, observed.backend, observed.hash);
+    else
+      run.failure =
+          fmt::format("ends with hash {:016x}, on {} with {:016x}", run.hash, observed.backend, observed.hash);
   });
   return run;
 }

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/runtime/backend_list.h"
 #include "host/io/contact_problem_file.h"
+#include "host/runtime/backend_list.h"
 #include "tools/command.h"
 #include "tools/output.h"
 #include "tools/report/contact_curves.h"
@@ -29,7 +29,8 @@ constexpr const char *part_names[] = {"scenes", "problems", "rounding"};
 std::string case_names()
 {
   std::string names;
-  for (const ReportCase &report_case : report_cases()) names += (names.empty() ? "" : ", ") + std::string(report_case.name);
+  for (const ReportCase &report_case : report_cases())
+    names += (names.empty() ? "" : ", ") + std::string(report_case.name);
   return names;
 }
 
@@ -42,16 +43,28 @@ std::string metric_list()
 
 void add_options(CLI::App &parser, ReportOptions &options)
 {
-  parser.add_option("--out", options.out, "folder for report.html, report.csv and report.json; made if it is not there")->type_name("DIR")->required();
+  parser
+      .add_option("--out", options.out, "folder for report.html, report.csv and report.json; made if it is not there")
+      ->type_name("DIR")
+      ->required();
   parser.add_flag("--quick", options.quick, "small scenes and few settings: under two minutes on two cores");
   parser.add_option("--scenes", options.scenes, "some of: " + case_names())->type_name("NAME,NAME,...");
-  parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))->type_name("NAME,NAME,...");
-  parser.add_option("--on", options.on, "every scene on each of these; contact problems on the first")->type_name("B,B,...")->capture_default_str();
-  parser.add_option("--parts", options.parts, fmt::format("some of: {} (default: all)", fmt::join(part_names, ", ")))->type_name("PART,PART,...");
-  parser.add_option("--metric", options.metric, "one error for all scenes instead of each scene's own: " + metric_list())->type_name("NAME");
-  parser.add_option("--problems", options.problems, "files for contact-problem (default: those of tests/scenes and data/siconos, if they are there)")
+  parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))
+      ->type_name("NAME,NAME,...");
+  parser.add_option("--on", options.on, "every scene on each of these; contact problems on the first")
+      ->type_name("B,B,...")
+      ->capture_default_str();
+  parser.add_option("--parts", options.parts, fmt::format("some of: {} (default: all)", fmt::join(part_names, ", ")))
+      ->type_name("PART,PART,...");
+  parser
+      .add_option("--metric", options.metric, "one error for all scenes instead of each scene's own: " + metric_list())
+      ->type_name("NAME");
+  parser
+      .add_option("--problems", options.problems,
+                  "files for contact-problem (default: those of tests/scenes and data/siconos, if they are there)")
       ->type_name("FILE,FILE,...");
-  parser.add_option("--json", options.json.path, "write report.json here too; - for standard output")->type_name("FILE");
+  parser.add_option("--json", options.json.path, "write report.json here too; - for standard output")
+      ->type_name("FILE");
 }
 
 std::vector<std::string> list_of(const std::string &option, const std::string &text)
@@ -59,7 +72,8 @@ std::vector<std::string> list_of(const std::string &option, const std::string &t
   std::vector<std::string> names;
   std::istringstream stream(text + ",");
   for (std::string name; std::getline(stream, name, ',');) {
-    if (name.empty()) throw InputError(fmt::format("{} '{}': nothing between two commas, or at an end of the list", option, text));
+    if (name.empty())
+      throw InputError(fmt::format("{} '{}': nothing between two commas, or at an end of the list", option, text));
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
@@ -114,7 +128,8 @@ std::vector<const ReportCase *> cases_of(const ReportOptions &options)
   }
   for (const std::string &name : list_of("--scenes", options.scenes)) {
     const ReportCase &report_case = report_case_named(name);
-    if (options.quick && !report_case.quick_scene) throw InputError(fmt::format("--scenes: {} is too large for --quick; leave one of them out", name));
+    if (options.quick && !report_case.quick_scene)
+      throw InputError(fmt::format("--scenes: {} is too large for --quick; leave one of them out", name));
     cases.push_back(&report_case);
   }
   return cases;
@@ -132,8 +147,11 @@ ReportRequest request_of(const ReportOptions &options)
   if (wanted("scenes")) request.cases = cases_of(options);
   request.with_problems = wanted("problems");
   request.with_rounding = wanted("rounding");
-  if (request.with_problems) request.problems = options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
-  for (const std::string &file : request.problems) read_contact_problem(file); /* a bad one is said before anything runs */
+  if (request.with_problems)
+    request.problems =
+        options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
+  for (const std::string &file : request.problems)
+    read_contact_problem(file); /* a bad one is said before anything runs */
   request.command = typed(options);
   return request;
 }
@@ -144,8 +162,10 @@ void prepare_folder(const std::string &folder, DistinctFiles &files)
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
-    throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder, error ? error.message() : "a file of this name is there"));
-  for (const char *name : {"report.html", "report.csv", "report.json"}) files.writes("--out", (std::filesystem::path(folder) / name).string());
+    throw InputError(fmt::format("--out {}: cannot make this folder: {}", folder,
+                                 error ? error.message() : "a file of this name is there"));
+  for (const char *name : {"report.html", "report.csv", "report.json"})
+    files.writes("--out", (std::filesystem::path(folder) / name).string());
 }
 
 void write_report(const Report &report, const ReportOptions &options)
@@ -159,7 +179,8 @@ void write_report(const Report &report, const ReportOptions &options)
   if (options.json.takes_standard_output()) return;
   for (const SceneReport &scene : report.scenes)
     for (const BackendRuns &each : scene.backends)
-      fmt::print("{} on {}: {}\n", scene.source->name, each.backend, pick_sentence(each.runs, each.picks, scene.metric));
+      fmt::print("{} on {}: {}\n", scene.source->name, each.backend,
+                 pick_sentence(each.runs, each.picks, scene.metric));
   fmt::print("\n{} (charts and tables), report.csv and report.json beside it\n", file("report.html"));
 }
 
@@ -173,7 +194,9 @@ int execute(const ReportOptions &options)
   const Report report = collect_report(request);
   write_report(report, options);
   if (report.unequal() == 0) return 0;
-  fmt::print(stderr, "tandem: {} runs do not end in the bits of the backend they are compared with; report.html names them\n", report.unequal());
+  fmt::print(stderr,
+             "tandem: {} runs do not end in the bits of the backend they are compared with; report.html names them\n",
+             report.unequal());
   return 1;
 }
 

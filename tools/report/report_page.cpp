@@ -68,7 +68,9 @@ ChartAxis time_axis(const SceneReport &scene)
 
 Chart scene_chart(const SceneReport &scene, const BackendRuns &on)
 {
-  Chart chart{fmt::format("{} on {}", scene.specification, on.backend), time_axis(scene), {axis_text(scene.metric), AxisScale::logarithmic}};
+  Chart chart{fmt::format("{} on {}", scene.specification, on.backend),
+              time_axis(scene),
+              {axis_text(scene.metric), AxisScale::logarithmic}};
   chart.series = series_by(on.runs, scene.metric, [](const Run &run) { return run.solver; });
   if (scene.uncertainty() > 0) chart.levels.push_back({scene.uncertainty(), "the truth is known to this"});
   return chart;
@@ -76,9 +78,13 @@ Chart scene_chart(const SceneReport &scene, const BackendRuns &on)
 
 std::vector<PageCell> run_cells(const Run &run)
 {
-  std::vector<PageCell> cells = {run.backend, run.solver, {fmt::format("{}", run.settings.substeps), double(run.settings.substeps)},
+  std::vector<PageCell> cells = {run.backend,
+                                 run.solver,
+                                 {fmt::format("{}", run.settings.substeps), double(run.settings.substeps)},
                                  {fmt::format("{}", run.settings.iterations), double(run.settings.iterations)},
-                                 {step_text(run.settings), double{run.settings.step}}, run.step_milliseconds, run.cost()};
+                                 {step_text(run.settings), double{run.settings.step}},
+                                 run.step_milliseconds,
+                                 run.cost()};
   for (const double error : run.errors) cells.emplace_back(error);
   cells.emplace_back(run.front ? "front" : "");
   if (run.unequal) cells.back() = PageCell("not the same bits: " + run.failure);
@@ -90,7 +96,8 @@ std::vector<PageCell> run_cells(const Run &run)
 
 std::vector<std::string> run_header()
 {
-  std::vector<std::string> header = {"backend", "solver", "substeps", "iterations", "dt, s", "ms per step", "ms per 1/60 s"};
+  std::vector<std::string> header = {"backend", "solver",      "substeps",     "iterations",
+                                     "dt, s",   "ms per step", "ms per 1/60 s"};
   for (const MetricName &metric : metric_names()) header.push_back(fmt::format("{}, {}", metric.label, metric.unit));
   header.push_back("note");
   return header;
@@ -98,7 +105,8 @@ std::vector<std::string> run_header()
 
 PageTable equal_error_table(const SceneReport &scene)
 {
-  PageTable table{"ms per step at equal error: for 1/60 s, with the fastest setting that keeps it; - where none of those tried does",
+  PageTable table{"ms per step at equal error: for 1/60 s, with the fastest setting that keeps it; - where none of "
+                  "those tried does",
                   {fmt::format("{}, at most", axis_text(scene.metric)), "solver"}};
   for (const BackendRuns &each : scene.backends) {
     table.header.push_back("ms on " + each.backend);
@@ -120,19 +128,23 @@ std::string truth_text(const SceneReport &scene)
 {
   const Truth &truth = scene.truth;
   if (!truth.known()) return "Too large for a reference in double: judged by what needs no truth.";
-  std::string text = truth.closed_form ? "Truth: closed form for the positions; the rest is the reference in double" : "Truth: the reference in double";
+  std::string text = truth.closed_form ? "Truth: closed form for the positions; the rest is the reference in double"
+                                       : "Truth: the reference in double";
   text += fmt::format(" at {} steps for each 1/60 s. ", truth.refinements[2]);
   if (truth.chaotic)
-    text += fmt::format("The scene is chaotic: starts {:.2g} m apart are {:g} times as far apart after {:.2f} s; past that trajectories say nothing "
+    text += fmt::format("The scene is chaotic: starts {:.2g} m apart are {:g} times as far apart after {:.2f} s; past "
+                        "that trajectories say nothing "
                         "and only the rest is compared, at {:g} s. ",
                         truth.nudge, horizon_growth, truth.horizon, scene.duration);
-  else text += fmt::format("Starts {:.2g} m apart stay within {:g} times that for all of its {:g} s. ", truth.nudge, horizon_growth, scene.duration);
+  else
+    text += fmt::format("Starts {:.2g} m apart stay within {:g} times that for all of its {:g} s. ", truth.nudge,
+                        horizon_growth, scene.duration);
   if (!truth.resolved)
     text += fmt::format("Only up to {:.2f} s is the reference known to {:g} m; trajectories are compared up to there. ",
                         static_cast<double>(truth.comparable_frames) * frame_time, resolved_bound);
   const auto error = [&](int k) {
-    return fmt::format("{:.2g} m and {:.2g} rad at {}", truth.refinement_errors[k].position_rms(), truth.refinement_errors[k].angle_rms(),
-                       truth.refinements[k]);
+    return fmt::format("{:.2g} m and {:.2g} rad at {}", truth.refinement_errors[k].position_rms(),
+                       truth.refinement_errors[k].angle_rms(), truth.refinements[k]);
   };
   text += fmt::format("The reference is away from it by {}, {}", error(0), error(1));
   if (truth.closed_form) text += ", " + error(2);
@@ -152,7 +164,9 @@ std::string equality_text(const SceneReport &scene)
       unequal += run.unequal;
     }
   std::string text = fmt::format("Errors are computed on {}", fmt::join(observers, ", "));
-  if (equal + unequal > 0) text += fmt::format("; of {} runs on other backends {} end with its hash of all bodies, bit for bit", equal + unequal, equal);
+  if (equal + unequal > 0)
+    text += fmt::format("; of {} runs on other backends {} end with its hash of all bodies, bit for bit",
+                        equal + unequal, equal);
   return text + (unequal > 0 ? fmt::format("; {} DO NOT: a defect, see the notes in the table", unequal) : "") + ".";
 }
 
@@ -187,8 +201,8 @@ void add_summary(Page &page, const Report &report)
     for (const BackendRuns &each : scene.backends)
       for (const Pick &pick : each.picks) {
         const Run &run = each.runs[pick.run];
-        table.rows.push_back({scene.source->name, each.backend, axis_text(scene.metric), pick.wished, run.solver, short_text(run.settings),
-                              run.error(scene.metric), run.cost()});
+        table.rows.push_back({scene.source->name, each.backend, axis_text(scene.metric), pick.wished, run.solver,
+                              short_text(run.settings), run.error(scene.metric), run.cost()});
       }
   page.table(table);
 }
@@ -197,13 +211,18 @@ void add_contact_problems(Page &page, const Report &report)
 {
   if (report.contact_curves.empty()) return;
   page.section("Contact problems");
-  page.paragraph("Frictional contact problems by themselves (docs/contact-problems.md): relative natural-map residual after each sweep against time.");
+  page.paragraph("Frictional contact problems by themselves (docs/contact-problems.md): relative natural-map residual "
+                 "after each sweep against time.");
   std::map<std::string, Chart> charts;
   for (const ContactCurve &curve : report.contact_curves) {
-    Chart &chart = charts.try_emplace(curve.problem, Chart{curve.problem, {"ms", AxisScale::logarithmic}, {"natural-map residual, relative", AxisScale::logarithmic}})
+    Chart &chart = charts
+                       .try_emplace(curve.problem, Chart{curve.problem,
+                                                         {"ms", AxisScale::logarithmic},
+                                                         {"natural-map residual, relative", AxisScale::logarithmic}})
                        .first->second;
     ChartSeries series{curve.solver};
-    for (const ContactCurve::Point &point : curve.points) series.points.push_back({point.milliseconds, point.residual, point.note});
+    for (const ContactCurve::Point &point : curve.points)
+      series.points.push_back({point.milliseconds, point.residual, point.note});
     chart.series.push_back(series);
   }
   for (const auto &[problem, chart] : charts) page.chart(chart);
@@ -221,19 +240,24 @@ std::map<RoundingKey, const RoundingRow *> rows_by_key(const RoundingTable &tabl
 void add_rounding(Page &page, const RoundingReport &rounding)
 {
   page.section("Rounding, stage by stage");
-  page.paragraph(fmt::format("Every launch of {} in float, and the same launch on the same input in double: distance in units of the last place of a "
-                             "float (0.5 is a perfect rounding), of a float as large as the field's largest number, relative and absolute. Moved: the same scene {:g} km from the origin. Numbers near 0 that "
-                             "are differences of large ones have few digits left, which the ulps show and the absolute error does not.",
-                             rounding.scene, rounding.far / 1000));
+  page.paragraph(fmt::format(
+      "Every launch of {} in float, and the same launch on the same input in double: distance in units of the last "
+      "place of a "
+      "float (0.5 is a perfect rounding), of a float as large as the field's largest number, relative and absolute. "
+      "Moved: the same scene {:g} km from the origin. Numbers near 0 that "
+      "are differences of large ones have few digits left, which the ulps show and the absolute error does not.",
+      rounding.scene, rounding.far / 1000));
   const auto moved = rows_by_key(rounding.far_table);
   PageTable table{fmt::format("{} launches", rounding.near_table.launches),
-                  {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps", "max ulps of the field", "max relative", "max absolute", "moved: median ulps",
-                   "moved: max ulps", "moved: max absolute"}};
+                  {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps",
+                   "max ulps of the field", "max relative", "max absolute", "moved: median ulps", "moved: max ulps",
+                   "moved: max absolute"}};
   for (const RoundingRow &row : rounding.near_table.rows) {
     const auto far = moved.find({row.kernel, row.buffer, row.field});
     const RoundingRow *other = far == moved.end() ? nullptr : far->second;
-    table.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, row.field, double(row.numbers), row.median_ulps, row.high_ulps,
-                          row.max_ulps, row.max_field_ulps, row.max_relative, row.max_absolute, other ? other->median_ulps : NAN, other ? other->max_ulps : NAN,
+    table.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, row.field, double(row.numbers),
+                          row.median_ulps, row.high_ulps, row.max_ulps, row.max_field_ulps, row.max_relative,
+                          row.max_absolute, other ? other->median_ulps : NAN, other ? other->max_ulps : NAN,
                           other ? other->max_absolute : NAN});
   }
   page.table(table);
@@ -242,7 +266,8 @@ void add_rounding(Page &page, const RoundingReport &rounding)
   std::map<std::pair<Kernel, Buffer>, double> far;
   for (const DecisionRow &row : rounding.far_table.decisions) far[{row.kernel, row.buffer}] = double(row.differing);
   for (const DecisionRow &row : rounding.near_table.decisions)
-    decisions.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, double(row.numbers), double(row.differing),
+    decisions.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, double(row.numbers),
+                              double(row.differing),
                               far.contains({row.kernel, row.buffer}) ? far[{row.kernel, row.buffer}] : NAN});
   page.table(decisions);
 }
@@ -252,9 +277,11 @@ std::vector<std::string> left_out_of(const ReportRequest &request)
 {
   std::vector<std::string> names;
   for (const ReportCase &known : report_cases())
-    if (std::find(request.cases.begin(), request.cases.end(), &known) == request.cases.end()) names.push_back(known.name);
+    if (std::find(request.cases.begin(), request.cases.end(), &known) == request.cases.end())
+      names.push_back(known.name);
   for (const std::string &solver : solver_names())
-    if (std::find(request.solvers.begin(), request.solvers.end(), solver) == request.solvers.end()) names.push_back(solver);
+    if (std::find(request.solvers.begin(), request.solvers.end(), solver) == request.solvers.end())
+      names.push_back(solver);
   if (!request.with_problems) names.push_back("contact problems");
   if (!request.with_rounding) names.push_back("rounding");
   return names;
@@ -265,11 +292,14 @@ std::vector<std::string> left_out_of(const ReportRequest &request)
 std::string report_page(const Report &report)
 {
   Page page("Tandem: error against run time",
-            fmt::format("{}. Made on {} with {}; backends: {}; solvers: {}. Times are medians of whole steps, for 1/60 s of simulated time so that time steps "
-                        "of all sizes compare; the first quarter of each run is warm-up. Errors are defined in docs/metrics.md. Click a column to sort by it; "
+            fmt::format("{}. Made on {} with {}; backends: {}; solvers: {}. Times are medians of whole steps, for 1/60 "
+                        "s of simulated time so that time steps "
+                        "of all sizes compare; the first quarter of each run is warm-up. Errors are defined in "
+                        "docs/metrics.md. Click a column to sort by it; "
                         "hold the pointer over a point to read it.",
-                        report.request.quick ? "A quick look: small scenes, few settings" : "Work-precision diagrams", report.date, report.machine,
-                        fmt::join(report.request.backends, ", "), fmt::join(report.request.solvers, ", ")));
+                        report.request.quick ? "A quick look: small scenes, few settings" : "Work-precision diagrams",
+                        report.date, report.machine, fmt::join(report.request.backends, ", "),
+                        fmt::join(report.request.solvers, ", ")));
   if (!report.scenes.empty()) add_summary(page, report);
   for (const SceneReport &scene : report.scenes) add_scene(page, scene);
   add_contact_problems(page, report);

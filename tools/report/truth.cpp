@@ -35,14 +35,16 @@ double nudge(Scene &scene)
   return 0;
 }
 
-TrajectoryError error_of(const Scene &scene, const std::vector<PreciseBodies> &frames, const std::vector<PreciseBodies> &truth, size_t count)
+TrajectoryError error_of(const Scene &scene, const std::vector<PreciseBodies> &frames,
+                         const std::vector<PreciseBodies> &truth, size_t count)
 {
   TrajectoryError error;
   for (size_t k = 0; k < count; ++k) error.add(scene, frames[k], truth[k]);
   return error;
 }
 
-size_t frames_together(const Scene &scene, const std::vector<PreciseBodies> &one, const std::vector<PreciseBodies> &other, double bound)
+size_t frames_together(const Scene &scene, const std::vector<PreciseBodies> &one,
+                       const std::vector<PreciseBodies> &other, double bound)
 {
   for (size_t k = 0; k < one.size(); ++k) {
     TrajectoryError error;
@@ -53,7 +55,8 @@ size_t frames_together(const Scene &scene, const std::vector<PreciseBodies> &one
 }
 
 /* How many frames two runs are within `bound` of each other in the mean. */
-size_t frames_resolved(const Scene &scene, const std::vector<PreciseBodies> &one, const std::vector<PreciseBodies> &other)
+size_t frames_resolved(const Scene &scene, const std::vector<PreciseBodies> &one,
+                       const std::vector<PreciseBodies> &other)
 {
   for (size_t k = 0; k < one.size(); ++k) {
     TrajectoryError error;
@@ -77,11 +80,13 @@ void take_closed_form(const Scene &scene, Truth &truth)
   }
 }
 
-/* Of the two finest runs' errors against the exact where it is known; else from the differences of three, each of half the step. */
+/* Of the two finest runs' errors against the exact where it is known; else from the differences of three, each of half
+ * the step. */
 std::optional<double> order_of(const Scene &scene, const std::vector<PreciseBodies> (&runs)[3], const Truth &truth)
 {
   const double rounding = 1e-11;
-  const double exact_coarse = truth.refinement_errors[1].position_rms(), exact_fine = truth.refinement_errors[2].position_rms();
+  const double exact_coarse = truth.refinement_errors[1].position_rms(),
+               exact_fine = truth.refinement_errors[2].position_rms();
   if (truth.closed_form && exact_fine > rounding) return std::log2(exact_coarse / exact_fine);
   const auto apart = [&](const std::vector<PreciseBodies> &one, const std::vector<PreciseBodies> &other) {
     const TrajectoryError error = error_of(scene, one, other, truth.comparable_frames);
@@ -113,8 +118,8 @@ Truth find_truth(const Scene &scene, double duration, uint32_t refinement)
   std::vector<PreciseBodies> runs[3], beside;
   for (int k = 0; k < 3; ++k) truth.refinements[k] = refinement >> (2 - k);
   in_parallel(4, 4, [&](size_t k) { /* the longest first */
-    if (k < 3) runs[2 - k] = run_reference(scene, duration, truth.refinements[2 - k]);
-    else beside = run_reference(nudged, duration, truth.refinements[0]);
+                                    if (k < 3) runs[2 - k] = run_reference(scene, duration, truth.refinements[2 - k]);
+                                    else beside = run_reference(nudged, duration, truth.refinements[0]);
   });
   truth.frames = runs[2];
   truth.comparable_frames = frames_together(scene, runs[0], beside, horizon_growth * truth.nudge);
@@ -124,7 +129,8 @@ Truth find_truth(const Scene &scene, double duration, uint32_t refinement)
   take_closed_form(scene, truth);
   truth.resolved = truth.closed_form || resolved >= truth.comparable_frames;
   if (!truth.resolved) truth.comparable_frames = resolved;
-  for (int k = 0; k < 3; ++k) truth.refinement_errors[k] = error_of(scene, runs[k], truth.frames, truth.comparable_frames);
+  for (int k = 0; k < 3; ++k)
+    truth.refinement_errors[k] = error_of(scene, runs[k], truth.frames, truth.comparable_frames);
   truth.order = order_of(scene, runs, truth);
   return truth;
 }

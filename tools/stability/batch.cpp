@@ -25,7 +25,9 @@ std::vector<Task> tasks_of(const Batch &batch)
     const Trial trial = each->build(batch.length);
     for (const std::string &solver : batch.solvers) {
       const Settings settings = settings_of(trial, solver);
-      tasks.push_back({each, solver, trial.steps * settings.substeps * settings.iterations * (trial.scene.bodies.size() + beside_bodies)});
+      tasks.push_back(
+          {each, solver,
+           trial.steps * settings.substeps * settings.iterations * (trial.scene.bodies.size() + beside_bodies)});
     }
   }
   return tasks;
@@ -36,7 +38,8 @@ std::vector<size_t> order_of(const std::vector<Task> &tasks, size_t at_once)
 {
   std::vector<size_t> order(tasks.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  if (at_once > 1) std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return tasks[a].work > tasks[b].work; });
+  if (at_once > 1)
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return tasks[a].work > tasks[b].work; });
   return order;
 }
 

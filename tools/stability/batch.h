@@ -4,8 +4,8 @@
  *             |--case 9, c------------------| ...
  *   results   1a 1b 1c 2a 2b ...                         the same whatever finishes first
  *
- * Every run is a World of its own and has equal bits by construction, so that they may share the machine, TBB's threads included: each
- * world's tasks stay in its own arena.
+ * Every run is a World of its own and has equal bits by construction, so that they may share the machine, TBB's threads
+ * included: each world's tasks stay in its own arena.
  */
 #pragma once
 

@@ -47,7 +47,9 @@ Trial overlap_trial(Length length)
 Trial overlap_weightless_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
-  for (int i = 0; i < 8; ++i) add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0.1f * float(i % 2), 0.1f * float(i / 2 % 2), 0.1f * float(i / 4)});
+  for (int i = 0; i < 8; ++i)
+    add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f),
+             {0.1f * float(i % 2), 0.1f * float(i / 2 % 2), 0.1f * float(i / 4)});
   trial.checks.push_back(check("fastest", "m/s", 1, speed()));
   trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth_from_rounding(trial), penetration())));
   return trial;
@@ -64,7 +66,8 @@ Trial many_on_one_trial(Length length)
   for (int i = 0; i < side * side; ++i) {
     Body body;
     body.shape = uint32_t(trial.scene.shapes.size() - 1);
-    body.position = {0.15f * (float(i % side) - 0.5f * float(side - 1)), 1.05f, 0.15f * (float(i / side) - 0.5f * float(side - 1))};
+    body.position = {0.15f * (float(i % side) - 0.5f * float(side - 1)), 1.05f,
+                     0.15f * (float(i / side) - 0.5f * float(side - 1))};
     trial.scene.bodies.push_back(body);
   }
   trial.every = 20;
@@ -80,7 +83,8 @@ Trial coplanar_trial(Length length)
   add_ground(trial.scene);
   for (int layer = 0; layer < 2; ++layer)
     for (int i = 0; i < side * side; ++i)
-      add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.125f, 0.5f), {float(i % side), 0.125f + 0.25f * float(layer), float(i / side)});
+      add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.125f, 0.5f),
+               {float(i % side), 0.125f + 0.25f * float(layer), float(i / side)});
   add_standing(trial, {1e-3, {}, {}, {}});
   return trial;
 }
@@ -131,7 +135,8 @@ void add_degenerate_cases(std::vector<Case> &cases)
                    "energy grows by less than 20 J/kg, nothing is faster than 20 m/s, all stay finite",
                    [](Length length) { return one_place_trial(sphere_shape(0.5f), 500, length); }, true});
   cases.push_back({"deep-overlap", group, "boxes and balls inside one another, in the ground and in a fixed block",
-                   "nothing is faster than 6 m/s (twice the push speed), all are apart to 2 cm after 10 s", overlap_trial});
+                   "nothing is faster than 6 m/s (twice the push speed), all are apart to 2 cm after 10 s",
+                   overlap_trial});
   cases.push_back({"deep-overlap-weightless", group, "eight cubes, almost in one place, without gravity",
                    "nothing is faster than 1 m/s (three axes, each parted at a tenth of the push speed and a half "
                    "more), all are apart after 10 s",
@@ -145,7 +150,8 @@ void add_degenerate_cases(std::vector<Case> &cases)
                    "contacts at most 1 mm deep, nothing leaves or turns in 10 s but for rounding", coplanar_trial});
   cases.push_back({"seams", group, "a box without friction slides at 5 m/s over a floor of 24 tiles",
                    "it loses less than 2 mm/s and is not lifted", seams_trial});
-  cases.push_back({"poisoned", group, "a NaN put into one body of a pile of 64", "that body alone is quarantined; the others fall into its place, none through the ground",
+  cases.push_back({"poisoned", group, "a NaN put into one body of a pile of 64",
+                   "that body alone is quarantined; the others fall into its place, none through the ground",
                    poison_trial});
 }
 

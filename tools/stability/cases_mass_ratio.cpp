@@ -1,4 +1,5 @@
-/* cases_mass_ratio.cpp - heavy on light and light on heavy: where iterations that pass impulses from body to body converge worst. */
+/* cases_mass_ratio.cpp - heavy on light and light on heavy: where iterations that pass impulses from body to body
+ * converge worst. */
 #include <algorithm>
 #include <cmath>
 

@@ -127,8 +127,8 @@ Bound gain_from_rounding()
 }
 
 /* Speeds at which something does not hold yet, and is not asserted: boxes at 300 m/s are carried past a wall, and past
- * an edge that they overlap by 1 cm; a box in the way of a rotor's tip is missed at 30 and 300 m/s; capsules gain energy
- * of spin at an edge. */
+ * an edge that they overlap by 1 cm; a box in the way of a rotor's tip is missed at 30 and 300 m/s; capsules gain
+ * energy of spin at an edge. */
 struct NotYet {
   const char *name;
   std::vector<double> speeds;
@@ -136,9 +136,9 @@ struct NotYet {
 
 std::vector<double> speeds_that_hold(const std::string &name)
 {
-  static const std::vector<NotYet> not_yet{{"hit-box-wall", {300}},        {"hit-box-sheet", {300}},
-                                           {"graze-box-edge", {300}},      {"graze-box-rotor", {30, 300}},
-                                           {"graze-capsule-edge", {30}},   {"graze-capsule-mesh-edge", {30, 300}}};
+  static const std::vector<NotYet> not_yet{{"hit-box-wall", {300}},      {"hit-box-sheet", {300}},
+                                           {"graze-box-edge", {300}},    {"graze-box-rotor", {30, 300}},
+                                           {"graze-capsule-edge", {30}}, {"graze-capsule-mesh-edge", {30, 300}}};
   std::vector<double> speeds = all_speeds();
   for (const NotYet &each : not_yet)
     if (each.name == name)

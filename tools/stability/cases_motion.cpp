@@ -49,7 +49,8 @@ Trial restitution_trial(Length length)
   for (float e : {0.3f, 0.5f, 0.8f, 1.0f}) {
     const uint32_t material = add_material(trial.scene, 0.5f, e);
     for (float h : {0.5f, 1.0f, 2.03f, 4.1f, 7.77f}) {
-      add_body(trial.scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(expected.size()), radius + h, 0}).material = material;
+      add_body(trial.scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(expected.size()), radius + h, 0})
+          .material = material;
       expected.push_back(double(e) * e * h);
     }
   }
@@ -64,7 +65,8 @@ Trial elastic_trial(Length length)
   add_body(trial.scene, Motion::dynamic, sphere_shape(0.25f), {0, 2.25f, 0}).material = add_material(trial.scene, 0, 1);
   const double energy = g * 2;
   const Figure gain = energy_gain(); /* the centre lies a radius above the ground */
-  trial.checks.push_back(check("drift of energy", "", 5e-3, [gain, energy](const Moment &moment) { return std::abs(gain(moment)) / energy; }));
+  trial.checks.push_back(check("drift of energy", "", 5e-3,
+                               [gain, energy](const Moment &moment) { return std::abs(gain(moment)) / energy; }));
   return trial;
 }
 
@@ -78,7 +80,8 @@ Trial closed_system_trial(Length length)
     const Shape shape = i % 2 ? sphere_shape(0.5f) : box_shape(0.5f, 0.3f, 0.4f);
     Body &body = add_body(trial.scene, Motion::dynamic, shape, point_of(place), float(random.uniform(0.5, 5)));
     body.orientation = random.orientation();
-    body.linear_velocity = vec3_of(-1.5 * place + Vector{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+    body.linear_velocity =
+        vec3_of(-1.5 * place + Vector{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
     body.angular_velocity = {float(random.uniform(-3, 3)), float(random.uniform(-3, 3)), float(random.uniform(-3, 3))};
   }
   trial.checks.push_back(check("drift of momentum", "", 2e-7, linear_momentum_drift()));
@@ -126,7 +129,8 @@ Figure cone_error(const Scene &scene)
       double first = Cone::to_each_side + 1;
       for (int k = -Cone::to_each_side; k <= Cone::to_each_side; ++k, box += 2)
         if (!((vector_of(moment.bodies[box].position) - start[box]).norm() < 0.02)) first = std::min<double>(first, k);
-      worst = std::max(worst, std::abs(first - 0.5) * Cone::finest * 180 / pi); /* between the last that holds and the first that slips */
+      worst = std::max(worst, std::abs(first - 0.5) * Cone::finest * 180 /
+                                  pi); /* between the last that holds and the first that slips */
     }
     return worst;
   };
@@ -138,7 +142,8 @@ Trial cone_trial(Length length)
   double z = 0;
   for (double mu : coefficients()) {
     const uint32_t material = add_material(trial.scene, float(mu));
-    for (int k = -Cone::to_each_side; k <= Cone::to_each_side; ++k) add_incline(trial.scene, material, Cone::angle(mu, k), z += 2);
+    for (int k = -Cone::to_each_side; k <= Cone::to_each_side; ++k)
+      add_incline(trial.scene, material, Cone::angle(mu, k), z += 2);
   }
   trial.checks.push_back(
       at_end(check("largest error of the angle of slip", "degrees", Cone::nearest, cone_error(trial.scene))));
@@ -161,7 +166,8 @@ Trial incline_trial(Length length)
   trial.checks.push_back(at_end(check("largest error of the way down", "", 0.015, [=](const Moment &moment) {
     double worst = 0;
     for (size_t i = 0; i < pull.size(); ++i) {
-      const double slid = (vector_of(moment.bodies[2 * i + 1].position) - start[2 * i + 1]).norm(), way = 0.5 * pull[i] * moment.time * moment.time;
+      const double slid = (vector_of(moment.bodies[2 * i + 1].position) - start[2 * i + 1]).norm(),
+                   way = 0.5 * pull[i] * moment.time * moment.time;
       worst = std::max(worst, std::abs(slid - way) / std::max(way, 1e-3));
     }
     return worst;
@@ -169,9 +175,9 @@ Trial incline_trial(Length length)
   return trial;
 }
 
-/* Bodies in contact move by h v of the substep's end, which is what keeps them out of one another; so one that loses a h of its
- * speed each substep of h = 1/240 s falls short of v^2 / 2a by v h / 2 at most: a sum of h (v - k a h) in place of its integral.
- * That is a share of a h / v of its way, a = mu g, and 1e-4 is for rounding. */
+/* Bodies in contact move by h v of the substep's end, which is what keeps them out of one another; so one that loses a
+ * h of its speed each substep of h = 1/240 s falls short of v^2 / 2a by v h / 2 at most: a sum of h (v - k a h) in
+ * place of its integral. That is a share of a h / v of its way, a = mu g, and 1e-4 is for rounding. */
 double stopping_error(double mu, double speed)
 {
   const Settings settings;
@@ -186,7 +192,8 @@ Trial stop_trial(Length length)
   double bound = 0;
   for (double mu : {0.2, 0.4, 0.6, 0.8, 1.0})
     for (double speed : {2.0, 5.0}) {
-      Body &box = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 2.0f * float(way.size())});
+      Body &box =
+          add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 2.0f * float(way.size())});
       box.linear_velocity = {float(speed), 0, 0};
       way.push_back(speed * speed / (2 * mu * g));
       bound = std::max(bound, stopping_error(mu, speed));
@@ -194,10 +201,12 @@ Trial stop_trial(Length length)
       trial.scene.bodies.back().material = add_material(trial.scene, float(mu));
     }
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 1; /* geometric mean, so ... */
-  for (size_t i = 1; i < trial.scene.materials.size(); ++i) trial.scene.materials[i].friction_combine = Combine::minimum; /* ... mu itself */
+  for (size_t i = 1; i < trial.scene.materials.size(); ++i)
+    trial.scene.materials[i].friction_combine = Combine::minimum; /* ... mu itself */
   trial.checks.push_back(at_end(check("largest error of the way to rest", "", bound, [way](const Moment &moment) {
     double worst = 0;
-    for (size_t i = 0; i < way.size(); ++i) worst = std::max(worst, std::abs(double(moment.bodies[i + 1].position[0]) / way[i] - 1));
+    for (size_t i = 0; i < way.size(); ++i)
+      worst = std::max(worst, std::abs(double(moment.bodies[i + 1].position[0]) / way[i] - 1));
     return worst;
   })));
   return trial;
@@ -244,7 +253,8 @@ Trial bullet_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
   add_ground(trial.scene);
-  for (int i = 0; i < 5; ++i) add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, 10);
+  for (int i = 0; i < 5; ++i)
+    add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, 10);
   add_body(trial.scene, Motion::dynamic, sphere_shape(0.05f), {-9, 2.6f, 0}, 0.1f).linear_velocity = {300, 0, 0};
   trial.checks.push_back(check("bullet past the box it hit by", "m", 0, [](const Moment &moment) {
     return std::max(0.0, double(moment.bodies[6].position[0]) - double(moment.bodies[3].position[0]));
@@ -262,7 +272,8 @@ void add_motion_cases(std::vector<Case> &cases)
                    "within 0.3 mm of the parabola for 2 s: what float rounding adds up to", flight_trial});
   cases.push_back({"restitution", group, "20 balls of four restitutions dropped from five heights",
                    "each returns to e^2 of its height within 0.003%", restitution_trial});
-  cases.push_back({"elastic", group, "a ball of restitution 1 that bounces for 20 s", "its energy drifts by less than 0.5%", elastic_trial});
+  cases.push_back({"elastic", group, "a ball of restitution 1 that bounces for 20 s",
+                   "its energy drifts by less than 0.5%", elastic_trial});
   cases.push_back({"closed-system", group, "64 balls and boxes collide in empty space",
                    "momentum drifts by less than 2e-7 and angular momentum by less than 5e-7 of the sum of their "
                    "lengths, energy never grows",
@@ -271,15 +282,20 @@ void add_motion_cases(std::vector<Case> &cases)
                    "each slips at atan mu, as near as ramps a quarter of a degree apart tell", cone_trial});
   cases.push_back({"incline", group, "boxes slide down ramps 10 degrees steeper than their friction holds",
                    "the way after 2 s is within 1.5% of g (sin a - mu cos a) t^2 / 2", incline_trial});
-  cases.push_back({"sliding-stop", group, "sliding boxes come to rest", "after v^2 / (2 mu g), less the v h / 2 that a substep of h = 1/240 s falls short: a share of mu g h / v, 2.1% at most", stop_trial});
+  cases.push_back({"sliding-stop", group, "sliding boxes come to rest",
+                   "after v^2 / (2 mu g), less the v h / 2 that a substep of h = 1/240 s falls short: a share of mu g "
+                   "h / v, 2.1% at most",
+                   stop_trial});
   cases.push_back({"rolling-ball", group, "a ball that starts sliding",
                    "rolls at 5/7 of its speed, within 1e-5, without slip", rolling_trial});
-  cases.push_back({"bullet-thin-wall", group, "a ball of 10 cm at 300 m/s against a wall of 1 cm", "its centre never gets beyond the wall's",
+  cases.push_back({"bullet-thin-wall", group, "a ball of 10 cm at 300 m/s against a wall of 1 cm",
+                   "its centre never gets beyond the wall's",
                    [](Length length) { return thin_wall_trial(sphere_shape(0.05f), 300, length); }});
-  cases.push_back({"needle-thin-wall", group, "a needle of 1 m by 1 cm at 100 m/s, point first, against a wall of 1 cm", "its centre never gets beyond the wall's",
+  cases.push_back({"needle-thin-wall", group, "a needle of 1 m by 1 cm at 100 m/s, point first, against a wall of 1 cm",
+                   "its centre never gets beyond the wall's",
                    [](Length length) { return thin_wall_trial(box_shape(0.5f, 0.005f, 0.005f), 100, length); }});
-  cases.push_back({"bullet-against-stack", group, "a ball of 100 g at 300 m/s against a column of five boxes of 10 kg", "it never passes the box it hits; energy never grows",
-                   bullet_trial});
+  cases.push_back({"bullet-against-stack", group, "a ball of 100 g at 300 m/s against a column of five boxes of 10 kg",
+                   "it never passes the box it hits; energy never grows", bullet_trial});
 }
 
 } // namespace tandem::stability

@@ -16,7 +16,8 @@ Trial sizes_trial(Length length)
   add_ground(trial.scene);
   trial.documented = with_substeps(32);
   add_body(trial.scene, Motion::dynamic, box_shape(500, 500, 500), {-600, 500, 0}, 1e9f);
-  for (int i = 0; i < 3; ++i) add_body(trial.scene, Motion::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
+  for (int i = 0; i < 3; ++i)
+    add_body(trial.scene, Motion::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
   trial.checks.push_back(check("small cubes moved by", "m", 3e-5, [start = trial.scene.bodies](const Moment &moment) {
     double worst = 0;
     for (size_t i = 2; i < start.size(); ++i) {
@@ -47,8 +48,8 @@ Case size_case(const std::string &name, double edge, double gravity)
             add_ground(trial.scene);
             if (edge < 0.01) trial.documented = with_substeps(32);
             for (int i = 0; i < 5; ++i)
-              add_body(trial.scene, Motion::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)), {0, float(edge * (i + 0.5)), 0},
-                       float(1000 * edge * edge * edge));
+              add_body(trial.scene, Motion::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)),
+                       {0, float(edge * (i + 0.5)), 0}, float(1000 * edge * edge * edge));
             const double sink = sink_of_five(trial.documented.value_or(trial.settings));
             trial.checks.push_back(
                 check("farthest from the start", "m", std::min(edge / 5, sink), displacement(trial.scene)));

@@ -207,11 +207,17 @@ void add_setting_cases(std::vector<Case> &cases)
   cases.push_back(step_case(1000, 5000, {2e-5, 5e-4, {}}));
   cases.push_back(step_case(10000, 10000, {{}, 3e-3, {}}));
   cases.push_back(passes_case("iterations-1", "one pass a substep: a column of ten cubes", 4, 1, 10, 600, 0.015));
-  cases.push_back(passes_case("iterations-1000", "1,000 passes a substep: a column of ten cubes, which a solver that adds energy would blow up", 4, 1000, 10, 30));
+  cases.push_back(passes_case(
+      "iterations-1000", "1,000 passes a substep: a column of ten cubes, which a solver that adds energy would blow up",
+      4, 1000, 10, 30));
   /* A substep of 1/60 s allows springs of a fifth of its rate; overdamped, they reach their depth and no more. */
-  cases.push_back(passes_case("substeps-1", "one substep of one pass: a column of ten cubes, held by the springs of 12 Hz that it allows: load / effective mass x g / w^2 = 3.2 cm",
-                              1, 1, 10, 600, rest_depth(12, 9) + 1e-6)); /* floats of a height of 10 m are 1e-6 m apart */
-  cases.push_back(passes_case("substeps-1000", "1,000 substeps: a column of ten cubes, 17 microseconds a substep", 1000, 1, 10, 30));
+  cases.push_back(passes_case("substeps-1",
+                              "one substep of one pass: a column of ten cubes, held by the springs of 12 Hz that it "
+                              "allows: load / effective mass x g / w^2 = 3.2 cm",
+                              1, 1, 10, 600,
+                              rest_depth(12, 9) + 1e-6)); /* floats of a height of 10 m are 1e-6 m apart */
+  cases.push_back(passes_case("substeps-1000", "1,000 substeps: a column of ten cubes, 17 microseconds a substep", 1000,
+                              1, 10, 30));
   cases.push_back({"gravity-0", "settings", "27 cubes that touch face to face, without gravity",
                    "nothing moves or turns in 10 s but for rounding", weightless_trial});
   cases.push_back({"gravity-1000", "settings", "a column of five cubes under 1,000 m/s^2",

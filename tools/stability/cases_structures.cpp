@@ -20,7 +20,8 @@ Trial standing_trial(const std::string &spec, uint64_t steps, const Standing &bo
   return trial;
 }
 
-/* A pyramid of 1 m cubes: contacts may each be as deep as the slop, so that the top sinks by rows x slop and no more. */
+/* A pyramid of 1 m cubes: contacts may each be as deep as the slop, so that the top sinks by rows x slop and no
+ * more. */
 Case pyramid_case(int rows, const Standing &bounds)
 {
   return {fmt::format("pyramid-{}", rows),
@@ -38,17 +39,18 @@ Case pyramid_case(int rows, const Standing &bounds)
 
 Case column_case(int height, const Standing &bounds)
 {
-  return {fmt::format("column-{}", height),
-          "stacks",
-          fmt::format("a column of {} cubes of 1 m", height),
-          fmt::format(
-              "stands 20 s: contacts at most {} m deep, turned, moved and, at the end, at rest but for rounding",
-              *bounds.depth),
-          [height, bounds](Length length) {
-            const int used = length == Length::brief ? 6 + height / 10 : height;
-            return standing_trial(fmt::format("box-stack:n={},height={}", used, used), steps_for(length, 1200, 600), bounds);
-          },
-          true};
+  return {
+      fmt::format("column-{}", height),
+      "stacks",
+      fmt::format("a column of {} cubes of 1 m", height),
+      fmt::format("stands 20 s: contacts at most {} m deep, turned, moved and, at the end, at rest but for rounding",
+                  *bounds.depth),
+      [height, bounds](Length length) {
+        const int used = length == Length::brief ? 6 + height / 10 : height;
+        return standing_trial(fmt::format("box-stack:n={},height={}", used, used), steps_for(length, 1200, 600),
+                              bounds);
+      },
+      true};
 }
 
 Case built_case(const std::string &name, const std::string &what, const std::string &spec, const Standing &bounds)
@@ -77,7 +79,8 @@ Figure still_upright(const Scene &scene, size_t first)
 
 Trial dominoes_trial(Length length)
 {
-  Trial trial = trial_of(load_scene(length == Length::brief ? "dominoes:n=5" : "dominoes:n=30"), steps_for(length, 600, 600));
+  Trial trial =
+      trial_of(load_scene(length == Length::brief ? "dominoes:n=5" : "dominoes:n=30"), steps_for(length, 600, 600));
   trial.checks.push_back(at_end(check("dominoes left upright", "", 0, still_upright(trial.scene, 1))));
   trial.checks.push_back(check("gain of energy", "J/kg", energy_from_rounding(trial), energy_gain()));
   trial.checks.push_back(check("deepest contact", "m", 0.05, penetration()));
@@ -99,10 +102,12 @@ Figure fastest_brick()
 
 Trial wall_trial(Length length)
 {
-  Trial trial = trial_of(load_scene(length == Length::brief ? "wall:rows=4,length=3,distance=1" : "wall"), steps_for(length, 600, 600));
+  Trial trial = trial_of(load_scene(length == Length::brief ? "wall:rows=4,length=3,distance=1" : "wall"),
+                         steps_for(length, 600, 600));
   trial.checks.push_back(check("gain of energy", "J/kg", energy_from_rounding(trial), energy_gain()));
   trial.checks.push_back(at_end(check("fastest brick at the end", "m/s", speed_from_rounding(trial), fastest_brick())));
-  trial.checks.push_back(check("farthest under the ground", "m", 0, below(0.15))); /* a brick on edge has its centre at 0.2 */
+  trial.checks.push_back(
+      check("farthest under the ground", "m", 0, below(0.15))); /* a brick on edge has its centre at 0.2 */
   trial.checks.push_back(check("deepest contact", "m", 0.2, penetration()));
   return trial;
 }
@@ -122,8 +127,8 @@ void add_structure_cases(std::vector<Case> &cases)
       built_case("arch", "a corbelled arch of six courses a side, closed by a lintel", "arch", {0.01, 0.01, 0.01, {}}));
   cases.push_back(built_case("tower", "54 planks in 18 levels, each level across the one below", "tower",
                              {0.0015, 0.001, 0.001, {}}));
-  cases.push_back({"dominoes", "stacks", "a row of 30 dominoes, the first pushed over", "all 30 fall; energy never grows; contacts at most 5 cm deep",
-                   dominoes_trial});
+  cases.push_back({"dominoes", "stacks", "a row of 30 dominoes, the first pushed over",
+                   "all 30 fall; energy never grows; contacts at most 5 cm deep", dominoes_trial});
   cases.push_back({"wall-hit", "stacks", "a wall of 95 bricks of 1 kg, hit by a ball of 20 kg at 20 m/s",
                    "energy never grows, nothing sinks into the ground, contacts at most 20 cm deep (half a brick), all "
                    "bricks at rest but for rounding after 10 s",

@@ -52,8 +52,9 @@ std::string bounds_text(const Results &results)
     for (const CheckResult &check : result.outcome.checks)
       text += fmt::format("{:28} {:10} {:36} {:>12} of {:>12}  ratio {:<9} {}{}\n", result.outcome.name,
                           result.outcome.solver, check.what, with_unit(check.figure, check.unit),
-                          with_unit(check.bound.value, check.unit), std::isnan(check.ratio()) ? "exact" : fmt::format("{:.3g}", check.ratio()), check.loose() ? "LOOSE " : "",
-                          check.passed ? check.bound.derivation : "FAIL");
+                          with_unit(check.bound.value, check.unit),
+                          std::isnan(check.ratio()) ? "exact" : fmt::format("{:.3g}", check.ratio()),
+                          check.loose() ? "LOOSE " : "", check.passed ? check.bound.derivation : "FAIL");
   return text;
 }
 

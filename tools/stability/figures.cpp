@@ -29,8 +29,7 @@ Figure largest(std::function<double(const Moment &, size_t body)> of)
 }
 
 /* A difference from what the same quantity was at the first moment seen. */
-template <typename Value, typename Compare>
-Figure since_start(Value value, Compare compare)
+template <typename Value, typename Compare> Figure since_start(Value value, Compare compare)
 {
   using Result = decltype(value(std::declval<const Moment &>()));
   auto start = std::make_shared<std::optional<Result>>();
@@ -73,7 +72,8 @@ double moving_mass(const Scene &scene)
 double total_kinetic(const Moment &moment)
 {
   double sum = 0;
-  for (size_t i = 0; i < moment.bodies.size(); ++i) sum += kinetic_energy(moment.scene(), moment.scene().bodies[i], moment.bodies[i]);
+  for (size_t i = 0; i < moment.bodies.size(); ++i)
+    sum += kinetic_energy(moment.scene(), moment.scene().bodies[i], moment.bodies[i]);
   return sum;
 }
 
@@ -124,7 +124,9 @@ Figure tilt(const Scene &scene)
 {
   std::vector<Eigen::Quaterniond> start;
   for (const Body &body : scene.bodies)
-    start.push_back(Eigen::Quaterniond(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2]).normalized());
+    start.push_back(
+        Eigen::Quaterniond(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2])
+            .normalized());
   return largest([start](const Moment &moment, size_t i) {
     const Quat &q = moment.bodies[i].orientation;
     const Eigen::Quaterniond turn = Eigen::Quaterniond(q[3], q[0], q[1], q[2]) * start[i].conjugate();
@@ -162,7 +164,8 @@ Figure penetration()
 
 Figure below(double height)
 {
-  return largest([height](const Moment &moment, size_t i) { return larger(0, height - double(moment.bodies[i].position[1])); });
+  return largest(
+      [height](const Moment &moment, size_t i) { return larger(0, height - double(moment.bodies[i].position[1])); });
 }
 
 Figure energy_gain()
@@ -179,25 +182,33 @@ Figure kinetic_energy_drift()
 
 Figure linear_momentum_drift()
 {
-  return since_start(momentum_of, [](const Momentum &start, const Momentum &now) { return (now.linear - start.linear).norm() / start.linear_scale; });
+  return since_start(momentum_of, [](const Momentum &start, const Momentum &now) {
+    return (now.linear - start.linear).norm() / start.linear_scale;
+  });
 }
 
 Figure angular_momentum_drift()
 {
-  return since_start(momentum_of, [](const Momentum &start, const Momentum &now) { return (now.angular - start.angular).norm() / start.angular_scale; });
+  return since_start(momentum_of, [](const Momentum &start, const Momentum &now) {
+    return (now.angular - start.angular).norm() / start.angular_scale;
+  });
 }
 
 Figure spin_momentum_drift(uint32_t body)
 {
-  return since_start([body](const Moment &moment) { return spin_momentum(moment.scene(), moment.scene().bodies[body], moment.bodies[body]); },
-                     [](const Vector &start, const Vector &now) { return (now - start).norm() / start.norm(); });
+  return since_start(
+      [body](const Moment &moment) {
+        return spin_momentum(moment.scene(), moment.scene().bodies[body], moment.bodies[body]);
+      },
+      [](const Vector &start, const Vector &now) { return (now - start).norm() / start.norm(); });
 }
 
 Figure spin_energy_drift(uint32_t body)
 {
   return since_start(
       [body](const Moment &moment) {
-        return vector_of(moment.bodies[body].angular_velocity).dot(spin_momentum(moment.scene(), moment.scene().bodies[body], moment.bodies[body]));
+        return vector_of(moment.bodies[body].angular_velocity)
+            .dot(spin_momentum(moment.scene(), moment.scene().bodies[body], moment.bodies[body]));
       },
       [](double start, double now) { return std::abs(now - start) / start; });
 }

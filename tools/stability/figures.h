@@ -5,8 +5,9 @@
  */
 #pragma once
 
-#include <Eigen/Geometry>
 #include <functional>
+
+#include <Eigen/Geometry>
 
 #include "tools/stability/trial.h"
 
@@ -25,18 +26,18 @@ inline Vec3 vec3_of(const Vector &v) { return {float(v.x()), float(v.y()), float
 Matrix axes_of(const Quat &q);
 Quat turn_about(const Vector &axis, double angle);
 
-Vector moments_of(const Scene &scene, const Body &body);                               /* principal; 0 where infinite */
-Vector spin_momentum(const Scene &scene, const Body &body, const BodyState &state); /* kg m^2/s, world axes */
-double kinetic_energy(const Scene &scene, const Body &body, const BodyState &state);   /* J */
+Vector moments_of(const Scene &scene, const Body &body);                             /* principal; 0 where infinite */
+Vector spin_momentum(const Scene &scene, const Body &body, const BodyState &state);  /* kg m^2/s, world axes */
+double kinetic_energy(const Scene &scene, const Body &body, const BodyState &state); /* J */
 double mechanical_energy(const Moment &moment); /* J, kinetic and of gravity (factor included), dynamic bodies */
 
 /* Largest over the dynamic bodies. */
-Figure tilt(const Scene &scene);           /* rad, angle of the turn from the start */
-Figure sideways(const Scene &scene);       /* m, from the start, across gravity's axis y */
-Figure displacement(const Scene &scene);   /* m, from the start */
-Figure speed();                            /* m/s, linear */
-Figure penetration();                      /* m, over contact points */
-Figure below(double height);               /* m, how far a centre is under y = height; 0 if none is */
+Figure tilt(const Scene &scene);         /* rad, angle of the turn from the start */
+Figure sideways(const Scene &scene);     /* m, from the start, across gravity's axis y */
+Figure displacement(const Scene &scene); /* m, from the start */
+Figure speed();                          /* m/s, linear */
+Figure penetration();                    /* m, over contact points */
+Figure below(double height);             /* m, how far a centre is under y = height; 0 if none is */
 
 /* Gain of mechanical energy over that at the start, in J per kg of moving mass; below 0 if energy went. */
 Figure energy_gain();

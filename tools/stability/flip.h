@@ -1,13 +1,16 @@
-/* flip.h - the flips of a body that spins about its middle axis: when theory has them, and a clock that watches for them.
+/* flip.h - the flips of a body that spins about its middle axis: when theory has them, and a clock that watches for
+ * them.
  *
- * Landau and Lifshitz, Mechanics, section 37. Header only: the tests of physics use it too, also where the tools are not built.
+ * Landau and Lifshitz, Mechanics, section 37. Header only: the tests of physics use it too, also where the tools are
+ * not built.
  */
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 #include <numbers>
 #include <utility>
+
+#include <Eigen/Core>
 
 namespace tandem {
 
@@ -23,7 +26,8 @@ inline double twice_complete_elliptic(double modulus_squared)
   return std::numbers::pi / a;
 }
 
-/* Time between two flips: from one zero of the spin about the middle axis to the next. moments ascending, spin in body axes. */
+/* Time between two flips: from one zero of the spin about the middle axis to the next. moments ascending, spin in body
+ * axes. */
 inline double flip_interval(const Eigen::Vector3d &moments, const Eigen::Vector3d &spin)
 {
   const double energy2 = moments.dot(spin.cwiseProduct(spin)), momentum2 = moments.cwiseProduct(spin).squaredNorm();
@@ -34,7 +38,8 @@ inline double flip_interval(const Eigen::Vector3d &moments, const Eigen::Vector3
   return twice_complete_elliptic(modulus_squared) / rate;
 }
 
-/* Mean time between sign changes of one body-axis component of the spin, each found between two moments by linear interpolation. */
+/* Mean time between sign changes of one body-axis component of the spin, each found between two moments by linear
+ * interpolation. */
 class FlipClock {
 public:
   void note(double time, double spin)

@@ -24,7 +24,8 @@ Point project(const Vector &v) { return {v.x() - 0.3 * v.z(), v.y() - 0.2 * v.z(
 
 bool drawable(const BodyState &state)
 {
-  return vector_of(state.position).allFinite() && std::isfinite(state.orientation[0] + state.orientation[1] + state.orientation[2] + state.orientation[3]);
+  return vector_of(state.position).allFinite() &&
+         std::isfinite(state.orientation[0] + state.orientation[1] + state.orientation[2] + state.orientation[3]);
 }
 
 /* The shape's centre: not the body's where it has a pose there. */
@@ -53,12 +54,16 @@ double reach_of(const Shape &shape)
   return reach;
 }
 
-double cross(const Point &o, const Point &a, const Point &b) { return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x); }
+double cross(const Point &o, const Point &a, const Point &b)
+{
+  return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
+}
 
 /* Andrew's monotone chain. */
 std::vector<Point> hull_of(std::vector<Point> points)
 {
-  std::sort(points.begin(), points.end(), [](const Point &a, const Point &b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(points.begin(), points.end(),
+            [](const Point &a, const Point &b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<Point> hull;
   for (int pass = 0; pass < 2; ++pass) {
     const size_t start = hull.size();
@@ -88,7 +93,10 @@ struct Frame {
   double scale = most_pixels / std::max(window.right - window.left, window.top - window.bottom);
   double width() const { return (window.right - window.left) * scale; }
   double height() const { return (window.top - window.bottom) * scale; }
-  std::string at(const Point &p) const { return fmt::format("{:.1f},{:.1f}", (p.x - window.left) * scale, (window.top - p.y) * scale); }
+  std::string at(const Point &p) const
+  {
+    return fmt::format("{:.1f},{:.1f}", (p.x - window.left) * scale, (window.top - p.y) * scale);
+  }
 };
 
 /* Far beyond the window's edge there is nothing to see, and coordinates would fill the page. */
@@ -98,14 +106,16 @@ bool outside(const Frame &frame, const Point &p, double reach)
   return p.x + reach < w.left || p.x - reach > w.right || p.y + reach < w.bottom || p.y - reach > w.top;
 }
 
-std::string drawing_of(const Shape &shape, const Body &body, const BodyState &state, const Frame &frame, const char *style)
+std::string drawing_of(const Shape &shape, const Body &body, const BodyState &state, const Frame &frame,
+                       const char *style)
 {
   const Vector origin = vector_of(frame.window.origin);
   const Point centre = project(centre_of(body, state, origin));
   if (outside(frame, centre, reach_of(shape))) return "";
   if (shape.type == ShapeType::sphere)
-    return fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", style, (centre.x - frame.window.left) * frame.scale,
-                       (frame.window.top - centre.y) * frame.scale, std::max(0.5, double(shape.size[0]) * frame.scale));
+    return fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>\n", style,
+                       (centre.x - frame.window.left) * frame.scale, (frame.window.top - centre.y) * frame.scale,
+                       std::max(0.5, double(shape.size[0]) * frame.scale));
   std::string points;
   for (const Point &p : hull_of(points_of(shape, body, state, origin))) points += frame.at(p) + " ";
   return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, points);
@@ -120,7 +130,8 @@ std::vector<size_t> drawing_order(const std::vector<Body> &bodies, const std::ve
   std::vector<size_t> order = fixed;
   const size_t stride = (moving.size() + most_drawn - 1) / most_drawn;
   for (size_t i = 0; i < moving.size(); i += std::max<size_t>(1, stride)) order.push_back(moving[i]);
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return states[a].position[2] < states[b].position[2]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return states[a].position[2] < states[b].position[2]; });
   return order;
 }
 
@@ -129,14 +140,16 @@ std::vector<size_t> drawing_order(const std::vector<Body> &bodies, const std::ve
 std::vector<BodyState> states_of(const std::vector<Body> &bodies)
 {
   std::vector<BodyState> states;
-  for (const Body &body : bodies) states.push_back({body.position, body.orientation, body.linear_velocity, body.angular_velocity});
+  for (const Body &body : bodies)
+    states.push_back({body.position, body.orientation, body.linear_velocity, body.angular_velocity});
   return states;
 }
 
 Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &start, const std::vector<BodyState> &end)
 {
   Window tight;
-  const auto first = std::find_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
+  const auto first =
+      std::find_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
   if (first == start.end()) return tight;
   tight.origin = {first->position[0], 0, first->position[2]};
   tight.left = tight.bottom = HUGE_VAL;
@@ -147,8 +160,10 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
   Window wide = tight;
   for (size_t i = 0; i < end.size(); ++i)
     if (start[i].motion == Motion::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], start[i], end[i]);
-  const auto moving = std::count_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
-  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size, least_height = 0.3 * size, least_width = 0.1 * size;
+  const auto moving =
+      std::count_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
+  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size,
+               least_height = 0.3 * size, least_width = 0.1 * size;
   const double most_wide = moving <= 5 ? 10 * size : size; /* few bodies travel far, seen by their own size */
   wide.left = std::max(wide.left, tight.left - most_wide) - room;
   wide.right = std::min(wide.right, tight.right + most_wide) + room;
@@ -158,18 +173,21 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
   return wide;
 }
 
-std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bodies, const std::vector<BodyState> &states, const Window &window,
-                   const std::string &title)
+std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bodies,
+                   const std::vector<BodyState> &states, const Window &window, const std::string &title)
 {
   const Frame frame{window};
-  std::string svg = fmt::format("<svg class=\"scene\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" role=\"img\" aria-label=\"{}\">\n<title>{}</title>\n",
+  std::string svg = fmt::format("<svg class=\"scene\" viewBox=\"0 0 {:.0f} {:.0f}\" width=\"{:.0f}\" role=\"img\" "
+                                "aria-label=\"{}\">\n<title>{}</title>\n",
                                 frame.width(), frame.height(), frame.width(), title, title);
   for (size_t i : drawing_order(bodies, states)) {
     const Shape &shape = shapes[bodies[i].shape];
-    if (shape.type != ShapeType::half_space) svg += drawing_of(shape, bodies[i], states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
+    if (shape.type != ShapeType::half_space)
+      svg += drawing_of(shape, bodies[i], states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
     else {
       const double y = (window.top - double(states[i].position[1])) * frame.scale;
-      svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", frame.width(), y, y);
+      svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", frame.width(),
+                         y, y);
     }
   }
   return svg + "</svg>\n";

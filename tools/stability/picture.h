@@ -25,7 +25,7 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
 std::vector<BodyState> states_of(const std::vector<Body> &bodies);
 
 /* At most 1,500 moving bodies are drawn, evenly chosen; bodies that are not finite are left out. */
-std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bodies, const std::vector<BodyState> &states, const Window &window,
-                   const std::string &title);
+std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bodies,
+                   const std::vector<BodyState> &states, const Window &window, const std::string &title);
 
 } // namespace tandem::stability

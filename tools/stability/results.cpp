@@ -73,7 +73,8 @@ PageCell verdict_cell(const Result &result)
 {
   const Outcome &outcome = result.outcome;
   const std::string settings = outcome.by_default ? ", only with " + with_what(outcome) : "";
-  PageCell cell(fmt::format("{} {}{}", outcome.passed ? "pass" : "FAIL", with_unit(outcome.headline.figure, outcome.headline.unit), settings),
+  PageCell cell(fmt::format("{} {}{}", outcome.passed ? "pass" : "FAIL",
+                            with_unit(outcome.headline.figure, outcome.headline.unit), settings),
                 outcome.headline.figure);
   cell.mark = outcome.passed ? "good" : "bad";
   return cell;
@@ -114,11 +115,13 @@ ChartSeries series_of(const std::string &name, const std::vector<Sample> &sample
   ChartSeries series{name, {}, false};
   const size_t stride = std::max<size_t>(1, samples.size() / 150);
   for (size_t i = 0; i < samples.size(); i += stride) series.points.push_back({samples[i].time, samples[i].value});
-  if (!samples.empty() && (samples.size() - 1) % stride) series.points.push_back({samples.back().time, samples.back().value});
+  if (!samples.empty() && (samples.size() - 1) % stride)
+    series.points.push_back({samples.back().time, samples.back().value});
   return series;
 }
 
-/* The figure that the first solver is judged by, for all of them. Logarithmic where they differ by more than a chart can show. */
+/* The figure that the first solver is judged by, for all of them. Logarithmic where they differ by more than a chart
+ * can show. */
 Chart chart_of(const CaseResults &results)
 {
   const CheckResult &check = results.front()->outcome.headline;
@@ -174,13 +177,17 @@ void add_case(Page &page, const CaseResults &results)
 {
   const Result &first = *results.front();
   page.subsection(first.outcome.name);
-  page.paragraph(fmt::format("{}. Passes if: {}. Settings: {}; {} steps.", first.which.what, first.which.criterion, first.outcome.settings, first.outcome.steps));
+  page.paragraph(fmt::format("{}. Passes if: {}. Settings: {}; {} steps.", first.which.what, first.which.criterion,
+                             first.outcome.settings, first.outcome.steps));
   for (const Result *result : results)
-    if (!result->outcome.note.empty()) page.paragraph(fmt::format("{}: {}", result->outcome.solver, result->outcome.note));
+    if (!result->outcome.note.empty())
+      page.paragraph(fmt::format("{}: {}", result->outcome.solver, result->outcome.note));
   const Window window = window_of(first.shapes, first.start, first.outcome.end);
-  page.html("<div class=\"scenes\">" + captioned(svg_of(first.shapes, first.start, states_of(first.start), window, "start"), "start"));
+  page.html("<div class=\"scenes\">" +
+            captioned(svg_of(first.shapes, first.start, states_of(first.start), window, "start"), "start"));
   if (!first.outcome.end.empty())
-    page.html(captioned(svg_of(first.shapes, first.start, first.outcome.end, window, "end"), fmt::format("end, {}", first.outcome.solver)));
+    page.html(captioned(svg_of(first.shapes, first.start, first.outcome.end, window, "end"),
+                        fmt::format("end, {}", first.outcome.solver)));
   page.html("</div>\n");
   page.chart(chart_of(results));
   page.table(checks_of(results));
@@ -201,8 +208,9 @@ svg.scene .ground { stroke: currentColor; stroke-width: 1; }
 void add_times(Page &page, const Results &results)
 {
   page.section("Time");
-  page.paragraph(fmt::format("{:.1f} s in all, summed over runs of which {} went side by side: worlds made, steps and figures.",
-                             1e-3 * results.total_milliseconds(), results.at_once));
+  page.paragraph(
+      fmt::format("{:.1f} s in all, summed over runs of which {} went side by side: worlds made, steps and figures.",
+                  1e-3 * results.total_milliseconds(), results.at_once));
   PageTable table{"seconds by solver, and its longest case", {"solver", "s", "longest case", "s of it"}};
   for (const std::string &solver : results.solvers) {
     double sum = 0;
@@ -263,7 +271,8 @@ double Results::total_milliseconds() const
 
 void Results::add(const Case &which, const Scene &scene, Outcome outcome, size_t place)
 {
-  const auto after = std::find_if(results.begin(), results.end(), [&](const Result &other) { return other.place > place; });
+  const auto after =
+      std::find_if(results.begin(), results.end(), [&](const Result &other) { return other.place > place; });
   results.insert(after, {which, std::move(outcome), scene.bodies, scene.shapes, place});
 }
 
@@ -273,7 +282,8 @@ std::string series_csv(const Results &results)
   for (const Result &result : results.results)
     for (const CheckResult &check : result.outcome.checks)
       for (const Sample &sample : check.series)
-        text += fmt::format("{},{},{},{},{:.6g},{:.6g}\n", result.outcome.name, result.outcome.solver, check.what, check.unit, sample.time, sample.value);
+        text += fmt::format("{},{},{},{},{:.6g},{:.6g}\n", result.outcome.name, result.outcome.solver, check.what,
+                            check.unit, sample.time, sample.value);
   return text;
 }
 

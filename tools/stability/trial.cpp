@@ -63,7 +63,9 @@ void conclude(Outcome &outcome, const std::vector<Record> &records, World &world
   }
   outcome.passed = passed;
   outcome.headline = outcome.checks.at(headline);
-  if (lost != poisoned) outcome.note = fmt::format("{} bodies stopped being finite, {} expected: {}", lost, poisoned, names_of(world.quarantined()));
+  if (lost != poisoned)
+    outcome.note =
+        fmt::format("{} bodies stopped being finite, {} expected: {}", lost, poisoned, names_of(world.quarantined()));
   outcome.end = world.bodies();
   outcome.body_hash = world.body_hash();
 }
@@ -84,7 +86,8 @@ void simulate(Outcome &outcome, std::vector<Record> &records, World &world, cons
     if (after_step) after_step(outcome.steps, trial.steps);
     if (world.quarantined().size() > trial.poisoned) break;
   }
-  outcome.milliseconds_per_step = std::chrono::duration<double, std::milli>(spent).count() / static_cast<double>(std::max<uint64_t>(outcome.steps, 1));
+  outcome.milliseconds_per_step = std::chrono::duration<double, std::milli>(spent).count() /
+                                  static_cast<double>(std::max<uint64_t>(outcome.steps, 1));
 }
 
 /* Without a figure: no number can pass for one. */
@@ -112,9 +115,9 @@ Pass Outcome::pass() const
 }
 
 Moment::Moment(World &world, uint64_t step)
-  : world(world), step(step), time(static_cast<double>(step) * static_cast<double>(world.settings().step)), bodies(world.bodies())
-{
-}
+    : world(world), step(step), time(static_cast<double>(step) * static_cast<double>(world.settings().step)),
+      bodies(world.bodies())
+{}
 
 const Statistics &Moment::statistics() const
 {
@@ -195,7 +198,9 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
 {
   const std::optional<Trial> trial = documented_trial(which, length, first.solver);
   if (!trial) return first;
-  Outcome second = run_trial(first.name, *trial, trial->documented_solver.empty() ? first.solver : trial->documented_solver, placement, after_step);
+  Outcome second =
+      run_trial(first.name, *trial, trial->documented_solver.empty() ? first.solver : trial->documented_solver,
+                placement, after_step);
   second.settings = documented_text(*trial, second);
   second.milliseconds += first.milliseconds;
   if (!second.passed) {
@@ -206,7 +211,8 @@ Outcome run_as_documented(const Case &which, Length length, const Placement &pla
   second.documented_solver = trial->documented_solver;
   second.solver = first.solver;
   second.by_default = first.headline;
-  second.note = fmt::format("with {}; by default {:.3g} {} ({})", second.settings, first.headline.figure, first.headline.unit, first.headline.what);
+  second.note = fmt::format("with {}; by default {:.3g} {} ({})", second.settings, first.headline.figure,
+                            first.headline.unit, first.headline.what);
   return second;
 }
 
@@ -225,7 +231,8 @@ std::string settings_text(const Settings &settings)
   const Settings defaults = settings_for(settings.solver);
   std::string text;
   const auto add = [&](const char *name, auto value, auto standard) {
-    if (value != standard) text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, static_cast<double>(value));
+    if (value != standard)
+      text += fmt::format("{}{} {:.6g}", text.empty() ? "" : ", ", name, static_cast<double>(value));
   };
   add("dt", settings.step, defaults.step);
   add("substeps", settings.substeps, defaults.substeps);

@@ -24,8 +24,8 @@ class Moment {
 public:
   Moment(World &world, uint64_t step);
   World &world;
-  uint64_t step; /* steps done */
-  double time;   /* s */
+  uint64_t step;                 /* steps done */
+  double time;                   /* s */
   std::vector<BodyState> bodies; /* in the order of Scene::bodies */
   const Scene &scene() const { return world.scene(); }
   const Statistics &statistics() const; /* read once, when first asked for */
@@ -50,8 +50,8 @@ private:
 /* One figure; smaller is better. */
 struct Check {
   enum class Over { maximum, last }; /* of the values seen, which one counts */
-  std::string what; /* "largest tilt of a box" */
-  std::string unit; /* "rad"; empty for a ratio */
+  std::string what;                  /* "largest tilt of a box" */
+  std::string unit;                  /* "rad"; empty for a ratio */
   Bound bound;
   std::function<double(const Moment &)> value; /* called in order of time; may keep state of its own */
   Over over = Over::maximum;
@@ -63,24 +63,25 @@ struct Trial {
   Settings settings;
   std::optional<Settings> documented; /* tried if the case fails: what it needs, where the default settings do not do */
   std::string documented_solver;      /* or this solver with its own defaults, tried where the default solver fails */
-  bool own_passes = false; /* substeps and iterations are the case's point: a solver's own defaults do not replace them */
+  bool own_passes =
+      false; /* substeps and iterations are the case's point: a solver's own defaults do not replace them */
   uint64_t steps = 600;
-  uint64_t every = 1;       /* steps between two moments that are looked at; the last step always is */
+  uint64_t every = 1;        /* steps between two moments that are looked at; the last step always is */
   std::vector<Check> checks; /* the first is the case's figure */
   std::function<void(World &, uint64_t step)> disturb; /* called before each step, if set */
-  uint64_t poisoned = 0;    /* bodies that `disturb` makes non-finite: as many quarantined are right */
+  uint64_t poisoned = 0; /* bodies that `disturb` makes non-finite: as many quarantined are right */
 };
 
 /* brief: for tests and for comparing backends, where only that it runs and its bits matter. */
 enum class Length { full, quick, brief };
 
 struct Case {
-  std::string name;      /* as given to --only */
+  std::string name; /* as given to --only */
   std::string group;
   std::string what;      /* one sentence: the scene, and why it is hard */
   std::string criterion; /* one sentence: what passing means, and where the bound is from */
   std::function<Trial(Length)> build;
-  bool shorter = false;  /* quick is shorter or smaller than full: the name then says so */
+  bool shorter = false; /* quick is shorter or smaller than full: the name then says so */
 };
 
 /* Name in reports: a shortened case must not be taken for the whole one. */
@@ -108,13 +109,13 @@ struct Outcome {
   bool passed = false;
   CheckResult headline; /* the first check that failed, else the first */
   std::vector<CheckResult> checks;
-  std::string settings;       /* settings_text() of the run */
+  std::string settings;                  /* settings_text() of the run */
   std::optional<CheckResult> by_default; /* where only a documented setting or solver passes: what failed without it */
   std::string documented_solver;         /* that which passed, if the case's own solver did not */
-  std::string note;           /* why there is no figure, which body was lost, or what the default settings gave */
+  std::string note;                 /* why there is no figure, which body was lost, or what the default settings gave */
   double milliseconds_per_step = 0; /* of the run that `settings` names, without its figures */
   double milliseconds = 0;          /* of all runs of the case: worlds made, steps, figures */
-  uint64_t steps = 0; /* done */
+  uint64_t steps = 0;               /* done */
   uint64_t body_hash = 0;
   std::vector<BodyState> end;
   Pass pass() const;
@@ -123,8 +124,8 @@ struct Outcome {
 /* The trial's settings with this solver, and its own substeps and iterations where the case leaves them open. */
 Settings settings_of(const Trial &trial, const std::string &solver);
 
-/* Runs to the end, or until the first body is lost; what a device or solver throws, but for want of memory, becomes a failed outcome, with the
- * reason as its note. `after_step(done, of)` may be empty. */
+/* Runs to the end, or until the first body is lost; what a device or solver throws, but for want of memory, becomes a
+ * failed outcome, with the reason as its note. `after_step(done, of)` may be empty. */
 Outcome run_trial(const std::string &name, const Trial &trial, const std::string &solver, const Placement &placement,
                   const std::function<void(uint64_t done, uint64_t of)> &after_step = {});
 

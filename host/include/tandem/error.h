@@ -11,8 +11,8 @@ struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/* What was wanted where memory ran out: the buffer and its bytes, the bodies and pairs of the world. A bare std::bad_alloc says
- * nothing that anyone could act on. */
+/* What was wanted where memory ran out: the buffer and its bytes, the bodies and pairs of the world. A bare
+ * std::bad_alloc says nothing that anyone could act on. */
 struct OutOfMemory : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

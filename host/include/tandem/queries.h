@@ -1,7 +1,9 @@
-/* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays and those after it.
+/* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays
+ * and those after it.
  *
- * Which structure of the broadphase answers changes no bit of an answer. Of bodies hit at one place the one of the lower index counts as
- * nearest. A query and a body must accept each other's groups, as two bodies must. Quarantined bodies are not found.
+ * Which structure of the broadphase answers changes no bit of an answer. Of bodies hit at one place the one of the
+ * lower index counts as nearest. A query and a body must accept each other's groups, as two bodies must. Quarantined
+ * bodies are not found.
  */
 #pragma once
 
@@ -34,7 +36,8 @@ struct QueryHit {
   uint32_t body = no_body; /* index into Scene::bodies; the rest is 0 where nothing is hit */
   float fraction = 0;      /* of the direction or displacement */
   Point point{0, 0, 0};    /* of the body's surface; where the query starts inside of a body: its start */
-  Vec3 normal{0, 0, 0};    /* of the body's surface there, unit, outward; from the inside against the direction (a sweep of length 0 then has none) */
+  Vec3 normal{0, 0, 0}; /* of the body's surface there, unit, outward; from the inside against the direction (a sweep of
+                           length 0 then has none) */
 };
 
 using RayHit = QueryHit;

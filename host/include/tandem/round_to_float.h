@@ -1,11 +1,12 @@
 /* round_to_float.h - a double becomes a float here and nowhere else in host/.
  *
- * Scenes are built in double and simulated in float, and what was rounded is often widened again: positions are doubles that
- * hold floats, and a coordinate is a float and a second one that holds what the first left over. All of it hangs on the rounding
- * being done. GCC 12 leaves it out from -O2 on: its vectorizer of straight-line code makes two conversions of vectors of
- * double -> float -> double, and its simplifier takes them for one that changes nothing. (It compares how many numbers a vector
- * holds instead of how wide they are.) The value goes through an empty assembler statement instead, of which a compiler knows only
- * that it may change the float: nothing can be folded over it, at any level of optimisation. docs/exactness.md tells the story.
+ * Scenes are built in double and simulated in float, and what was rounded is often widened again: positions are doubles
+ * that hold floats, and a coordinate is a float and a second one that holds what the first left over. All of it hangs
+ * on the rounding being done. GCC 12 leaves it out from -O2 on: its vectorizer of straight-line code makes two
+ * conversions of vectors of double -> float -> double, and its simplifier takes them for one that changes nothing. (It
+ * compares how many numbers a vector holds instead of how wide they are.) The value goes through an empty assembler
+ * statement instead, of which a compiler knows only that it may change the float: nothing can be folded over it, at any
+ * level of optimisation. docs/exactness.md tells the story.
  */
 #pragma once
 

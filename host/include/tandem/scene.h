@@ -22,9 +22,9 @@ enum class Combine : uint32_t { average = 0, minimum = 1, maximum = 2, multiply 
 
 struct Material {
   std::string name;
-  float static_friction = 0.6f;  /* >= 0 */
-  float dynamic_friction = 0.6f; /* >= 0 */
-  float restitution = 0.0f;      /* 0 .. 1 */
+  float static_friction = 0.6f;                       /* >= 0 */
+  float dynamic_friction = 0.6f;                      /* >= 0 */
+  float restitution = 0.0f;                           /* 0 .. 1 */
   Combine friction_combine = Combine::geometric_mean; /* of all four kinds of friction */
   Combine restitution_combine = Combine::maximum;
   float rolling_friction = 0.0f;  /* m, >= 0: the torque against rolling is at most this times the normal force */
@@ -40,24 +40,27 @@ enum class Motion : uint32_t {
 struct Body {
   std::string name;
   Motion motion = Motion::dynamic;
-  bool trigger = false;  /* is touched and reported (World::contact_events), but neither pushes nor is pushed */
-  uint32_t shape = 0;    /* index into Scene::shapes */
-  uint32_t material = 0; /* index into Scene::materials */
+  bool trigger = false;         /* is touched and reported (World::contact_events), but neither pushes nor is pushed */
+  uint32_t shape = 0;           /* index into Scene::shapes */
+  uint32_t material = 0;        /* index into Scene::materials */
   Point position{0, 0, 0};      /* centre of mass */
   Quat orientation{0, 0, 0, 1}; /* of the principal axes of inertia */
-  Vec3 shape_position{0, 0, 0}; /* of the shape's frame in the body's: not 0 where the shape's origin is not the centre of mass */
+  Vec3 shape_position{
+      0, 0, 0}; /* of the shape's frame in the body's: not 0 where the shape's origin is not the centre of mass */
   Quat shape_orientation{0, 0, 0, 1};
   Vec3 linear_velocity{0, 0, 0};  /* world axes */
   Vec3 angular_velocity{0, 0, 0}; /* world axes */
   float mass = 1.0f;              /* > 0 for dynamic bodies; ignored otherwise */
-  Vec3 inertia{0, 0, 0};          /* principal moments about body axes; one or two 0: infinite there; all 0: from shape and mass */
-  bool infinite_inertia = false;  /* never rotates under torque */
+  Vec3 inertia{0, 0,
+               0}; /* principal moments about body axes; one or two 0: infinite there; all 0: from shape and mass */
+  bool infinite_inertia = false; /* never rotates under torque */
   float gravity_factor = 1.0f;
-  float linear_damping = 0.0f;  /* 1/s, >= 0 */
-  float angular_damping = 0.0f; /* 1/s, >= 0 */
-  uint32_t filter_group = 1;           /* bit set of the groups this body is in */
-  uint32_t filter_mask = 0xffffffffu;  /* groups it collides with; both bodies must agree */
-  bool continuous = false; /* collides along its way through a step, so that thin walls hold at any speed; not for half-spaces */
+  float linear_damping = 0.0f;        /* 1/s, >= 0 */
+  float angular_damping = 0.0f;       /* 1/s, >= 0 */
+  uint32_t filter_group = 1;          /* bit set of the groups this body is in */
+  uint32_t filter_mask = 0xffffffffu; /* groups it collides with; both bodies must agree */
+  bool continuous =
+      false; /* collides along its way through a step, so that thin walls hold at any speed; not for half-spaces */
 };
 
 struct Scene {
@@ -73,15 +76,17 @@ struct Scene {
  * indices out of range, dynamic half-spaces. `where` prefixes the message (a file name). */
 void validate(const Scene &scene, const std::string &where);
 
-/* One line for each body that can be simulated, but hardly as meant: moving meshes that are not closed, whose volume is a guess. */
+/* One line for each body that can be simulated, but hardly as meant: moving meshes that are not closed, whose volume is
+ * a guess. */
 std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
 
-/* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes that
- * take_mass_properties gives its body. */
+/* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes
+ * that take_mass_properties gives its body. */
 Vec3 inertia_of(const Shape &shape, float mass);
 
-/* For a body whose position, orientation and shape pose place its shape: makes the shape's centre of mass and principal axes (of
- * uniform density) the body's own, and leaves the shape where it is in the world. Nothing to do for shapes that are symmetric. */
+/* For a body whose position, orientation and shape pose place its shape: makes the shape's centre of mass and principal
+ * axes (of uniform density) the body's own, and leaves the shape where it is in the world. Nothing to do for shapes
+ * that are symmetric. */
 void take_mass_properties(const Scene &scene, Body &body);
 
 } // namespace tandem

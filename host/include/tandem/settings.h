@@ -16,17 +16,20 @@ struct Settings {
   uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
   std::string solver = "soft-step";
-  std::string broadphase = "grid";      /* which of host/pipeline/broadphases/, or auto: as the scene suggests; changes no bit */
-  std::string bounds = "affine";        /* tight: from the support map; other pairs, so other bits */
-  std::string midphase = "walk";        /* how the trees of meshes and compounds are walked; the same list either way */
-  std::string narrowphase = "sat";      /* of shapes without a test of their own */
-  std::string support = "brute-force";  /* how hulls find their farthest vertex; cube-map alone is not exact */
-  uint32_t support_cells = 16;          /* along a side of the cube maps, 1 .. 256 */
-  std::string batching = "coloring";    /* coloring, sequential, single-group, iterative, two-stage */
-  bool check = false;     /* prove the batches of every step (shared/batching/check.h); changes no result */
-  bool events = false;    /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
-  bool pair_events = false; /* list which pairs of bodies come near, stay so and leave (World::pair_events); changes no motion */
-  uint32_t max_pairs = most_pairs; /* 1 .. most_pairs: a step that needs room for more fails, and memory never grows past them */
+  std::string broadphase =
+      "grid"; /* which of host/pipeline/broadphases/, or auto: as the scene suggests; changes no bit */
+  std::string bounds = "affine";       /* tight: from the support map; other pairs, so other bits */
+  std::string midphase = "walk";       /* how the trees of meshes and compounds are walked; the same list either way */
+  std::string narrowphase = "sat";     /* of shapes without a test of their own */
+  std::string support = "brute-force"; /* how hulls find their farthest vertex; cube-map alone is not exact */
+  uint32_t support_cells = 16;         /* along a side of the cube maps, 1 .. 256 */
+  std::string batching = "coloring";   /* coloring, sequential, single-group, iterative, two-stage */
+  bool check = false;  /* prove the batches of every step (shared/batching/check.h); changes no result */
+  bool events = false; /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
+  bool pair_events =
+      false; /* list which pairs of bodies come near, stay so and leave (World::pair_events); changes no motion */
+  uint32_t max_pairs =
+      most_pairs;         /* 1 .. most_pairs: a step that needs room for more fails, and memory never grows past them */
   bool specialise = true; /* false: every feature built and run, same bits */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */
@@ -59,7 +62,7 @@ void validate(const Settings &settings);
 struct Placement {
   std::string on = "tbb";
   std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
-  bool allow_inexact = false; /* accept a device whose results may differ in bits */
+  bool allow_inexact = false;                                  /* accept a device whose results may differ in bits */
 };
 
 /* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='

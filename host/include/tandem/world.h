@@ -25,7 +25,8 @@
 
 namespace tandem {
 
-/* What runs inside: host/runtime/interface/ says what they are, for those who compare, profile or extend the pipeline. */
+/* What runs inside: host/runtime/interface/ says what they are, for those who compare, profile or extend the
+ * pipeline. */
 enum class Kernel : uint16_t;
 class Backend;
 class Memory;
@@ -49,8 +50,8 @@ struct PreciseBodyState {
  * detection: metres, positive when shapes overlap; touching ahead of contact counts as 0. */
 struct Statistics {
   uint64_t steps = 0;
-  uint32_t pairs = 0;    /* overlapping bounds */
-  uint32_t contacts = 0; /* contact points */
+  uint32_t pairs = 0;     /* overlapping bounds */
+  uint32_t contacts = 0;  /* contact points */
   uint32_t manifolds = 0; /* touching pairs */
   uint32_t colors = 0;
   double max_penetration = 0;
@@ -77,31 +78,33 @@ public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
   ~World();
 
-  /* Advances by settings.step. std::runtime_error when a device fails, memory runs out (OutOfMemory: what was wanted, and for how many
-   * bodies and pairs) or more pairs are found than Settings::max_pairs: the state is then that before the step, and the world goes on from
-   * there as if there had been no attempt. Until a step succeeds there are no events and no figures of contacts. */
+  /* Advances by settings.step. std::runtime_error when a device fails, memory runs out (OutOfMemory: what was wanted,
+   * and for how many bodies and pairs) or more pairs are found than Settings::max_pairs: the state is then that before
+   * the step, and the world goes on from there as if there had been no attempt. Until a step succeeds there are no
+   * events and no figures of contacts. */
   void step();
 
-  /* Moves kernels to other backends from the next step on; what follows keeps its bits. Buffers travel when they are first
-   * needed there. InputError or a device's std::runtime_error leave the placement as it was. */
+  /* Moves kernels to other backends from the next step on; what follows keeps its bits. Buffers travel when they are
+   * first needed there. InputError or a device's std::runtime_error leave the placement as it was. */
   void place(const Placement &placement);
 
   const Scene &scene() const;
   const Settings &settings() const; /* with the broadphase that `auto` chose */
 
-  std::vector<BodyState> bodies();                     /* in the order of Scene::bodies */
+  std::vector<BodyState> bodies(); /* in the order of Scene::bodies */
   std::vector<PreciseBodyState> precise_bodies();
   void set_body(uint32_t body, const BodyState &state); /* InputError unless finite and in range */
   /* As set_body, but unchecked: for tests of what happens to a NaN. */
   void set_body_unchecked(uint32_t body, const BodyState &state);
 
-  /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with larger buffers
-   * tells them once. InputError without Settings::events. */
+  /* Of the last step, sorted by (a, b); none before the first. Whole steps alone have events: one that ran again with
+   * larger buffers tells them once. InputError without Settings::events. */
   std::vector<ContactEvent> contact_events();
   /* Of the last step, sorted by (a, b); none before the first. InputError without Settings::pair_events. */
   std::vector<PairEvent> pair_events();
-  /* Queries of the present state, by the batch, where the stage `queries` is placed (sweeps of shapes: `sweeps`); they change nothing.
-   * Answers in the order of the questions, with the same bits on every backend. InputError as check_rays, check_boxes, check_sweep. */
+  /* Queries of the present state, by the batch, where the stage `queries` is placed (sweeps of shapes: `sweeps`); they
+   * change nothing. Answers in the order of the questions, with the same bits on every backend. InputError as
+   * check_rays, check_boxes, check_sweep. */
   std::vector<RayHit> cast_rays(std::span<const Ray> rays);
   /* Whether each hits anything at all: cheaper, as it stops at the first body that it finds. */
   std::vector<bool> find_blocked_rays(std::span<const Ray> rays);
@@ -110,7 +113,8 @@ public:
   /* Every body whose box a box touches, where it stands or on its way; sorted by (fraction, body). */
   std::vector<std::vector<BoxHit>> sweep_boxes(std::span<const QueryBox> boxes);
   /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
-  std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements, const QueryFilter &filter = {});
+  std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
+                              const QueryFilter &filter = {});
 
   Statistics statistics();
   uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */

@@ -1,17 +1,21 @@
-/* scene_gltf_body.cpp - see scene_gltf_body.h. */
+/* body.cpp - see body.h. */
 #include "host/io/gltf/body.h"
 
 #include <fmt/format.h>
 
-#include "host/geometry/shape_mass.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/shape_mass.h"
 #include "host/io/gltf/materials.h"
 #include "host/io/gltf/motion.h"
 
 namespace tandem {
 namespace {
 
-template <class Value> void append_bytes(std::string &key, const Value &value) { key.append(reinterpret_cast<const char *>(&value), sizeof(Value)); }
+template <class Value> void append_bytes(std::string &key, const Value &value)
+{
+  key.append(reinterpret_cast<const char *>(&value), sizeof(Value));
+}
 
 /* Equal for shapes that are the same: bodies alike share theirs, and its tables. */
 std::string identity_of(const Shape &shape)
@@ -26,7 +30,8 @@ std::string identity_of(const Shape &shape)
     key += identity_of(child.shape);
     append_bytes(key, child.position);
     append_bytes(key, child.orientation);
-    for (uint32_t number : {child.material.value_or(0), child.filter_group.value_or(0), child.filter_mask.value_or(0)}) append_bytes(key, number);
+    for (uint32_t number : {child.material.value_or(0), child.filter_group.value_or(0), child.filter_mask.value_or(0)})
+      append_bytes(key, number);
   }
   return key;
 }
@@ -42,7 +47,8 @@ void set_frame(const RigidPlace &frame, Body &body)
 GltfBodies::GltfBodies(const GltfDocument &document) : document_(document), shapes_(document)
 {
   const JsonValue bodies = document.extension(bodies_extension, document.where);
-  static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras", "extensions"};
+  static constexpr const char *keys[] = {"physicsMaterials", "collisionFilters", "physicsJoints", "extras",
+                                         "extensions"};
   bodies.only_keys(keys);
   scene_.name = document.where;
   scene_.gravity = {0, -9.81f, 0};
@@ -72,13 +78,15 @@ GltfFilter GltfBodies::read_filter(const JsonValue &collider) const
   std::optional<JsonValue> filter = collider.find("collisionFilter");
   if (!filter) return {};
   const uint32_t chosen = filter->unsigned_integer();
-  if (chosen >= filters_.size()) filter->fail(fmt::format("filter {} does not exist; the file has {}", chosen, filters_.size()));
+  if (chosen >= filters_.size())
+    filter->fail(fmt::format("filter {} does not exist; the file has {}", chosen, filters_.size()));
   return filters_[chosen];
 }
 
 GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at, bool trigger)
 {
-  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras", "extensions"};
+  static constexpr const char *collider_keys[] = {"geometry", "physicsMaterial", "collisionFilter", "extras",
+                                                  "extensions"};
   static constexpr const char *trigger_keys[] = {"geometry", "collisionFilter", "extras", "extensions"};
   const JsonValue json = document_.physics_of(at.node)->member(trigger ? "trigger" : "collider");
   if (trigger) json.only_keys(trigger_keys);
@@ -103,8 +111,11 @@ void GltfBodies::place_alone(const BodyNodes &nodes, Body &body)
   body.filter_mask = collider.filter.mask;
   set_frame({collider.position, collider.orientation, {}}, body);
   const bool apart = nodes.moves && at.node != nodes.body.node, plane = collider.shape.type == ShapeType::half_space;
-  if (apart && plane) document_.refuse(at.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
-  if (!plane && (apart || (at.node == nodes.body.node && collider.position != frame.position))) move_frame(body, frame.position, frame.orientation);
+  if (apart && plane)
+    document_.refuse(
+        at.node, fmt::format("a plane below the motion of {} is not supported yet", document_.label(nodes.body.node)));
+  if (!plane && (apart || (at.node == nodes.body.node && collider.position != frame.position)))
+    move_frame(body, frame.position, frame.orientation);
 }
 
 /* Children stand in the frame of the node with the motion; its scale went into their places and sizes. */
@@ -117,9 +128,12 @@ void GltfBodies::place_together(const BodyNodes &nodes, Body &body)
   for (const PlacedNode &at : nodes.colliders) {
     const Collider collider = read_collider(at, nodes.trigger);
     if (collider.shape.type == ShapeType::half_space)
-      document_.refuse(at.node, fmt::format("an infinite plane in the compound of {} is not supported yet; a plane with sizeX and sizeZ is",
-                                            document_.label(nodes.body.node)));
-    const Double3 from{collider.position[0] - frame.position[0], collider.position[1] - frame.position[1], collider.position[2] - frame.position[2]};
+      document_.refuse(
+          at.node,
+          fmt::format("an infinite plane in the compound of {} is not supported yet; a plane with sizeX and sizeZ is",
+                      document_.label(nodes.body.node)));
+    const Double3 from{collider.position[0] - frame.position[0], collider.position[1] - frame.position[1],
+                       collider.position[2] - frame.position[2]};
     const Double3 position = turned(back, from);
     const Rotation orientation = product(back, collider.orientation);
     Child child;

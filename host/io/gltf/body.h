@@ -1,4 +1,4 @@
-/* scene_gltf_body.h - from the nodes of one rigid body to a body of the scene.
+/* body.h - from the nodes of one rigid body to a body of the scene.
  *
  *   colliders                     the body's shape
  *   one                           it, where its node is

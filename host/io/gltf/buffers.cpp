@@ -1,4 +1,4 @@
-/* scene_gltf_buffers.cpp - see scene_gltf_buffers.h; after the glTF 2.0 specification, chapter 3.6. */
+/* buffers.cpp - see buffers.h; after the glTF 2.0 specification, chapter 3.6. */
 #include "host/io/gltf/buffers.h"
 
 #include <algorithm>
@@ -114,7 +114,8 @@ std::string percent_decoded(const std::string &text)
   return result;
 }
 
-/* Groups of four characters, the last filled up with one = or two, or cut short. The library would end at the first =. */
+/* Groups of four characters, the last filled up with one = or two, or cut short. The library would end at the first
+ * =. */
 bool is_base64(const std::string &text)
 {
   const size_t digits = std::min(text.find('='), text.size()), filled = text.size() - digits;

@@ -1,5 +1,5 @@
-/* scene_gltf_buffers.h - the numbers that glTF accessors stand for. Buffers are read when a collider asks for them: what only renders may
- * be missing. Not a public header. */
+/* buffers.h - the numbers that glTF accessors stand for. Buffers are read when a collider asks for them:
+ * what only renders may be missing. Not a public header. */
 #pragma once
 
 #include <tiny_gltf.h>

@@ -1,4 +1,5 @@
-/* scene_gltf_document.cpp - see scene_gltf_document.h; after the glTF 2.0 specification, chapters 3.5 (nodes) and 4 (binary files). */
+/* document.cpp - see document.h; after the glTF 2.0 specification, chapters 3.5 (nodes) and 4
+ * (binary files). */
 #include "host/io/gltf/document.h"
 
 #include <algorithm>
@@ -229,7 +230,8 @@ JsonValue GltfDocument::extension(const char *name, const std::string &place) co
 {
   static const nlohmann::json none = nlohmann::json::object();
   const bool given = gltf_extension_of(root(), name).has_value();
-  return {given ? file.value().at("extensions").at(name) : none, place, std::string("extensions.") + name, JsonFloats::numbers};
+  return {given ? file.value().at("extensions").at(name) : none, place, std::string("extensions.") + name,
+          JsonFloats::numbers};
 }
 
 bool GltfDocument::uses(const std::string &extension) const

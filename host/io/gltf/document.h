@@ -1,8 +1,8 @@
-/* scene_gltf_document.h - a glTF file as far as physics reads it, for the readers of its parts (scene_gltf_*.cpp).
+/* document.h - a glTF file as far as physics reads it, for the readers of its parts beside it.
  *
- * tinygltf's parser passes over values of wrong types and loads pictures that physics never looks at, so its structures are filled
- * here, through the same strict reader as our own format: nodes and scenes at once, meshes when a collider asks (scene_gltf_mesh).
- * Whatever only renders is not even looked at. Not a public header.
+ * tinygltf's parser passes over values of wrong types and loads pictures that physics never looks at, so its structures
+ * are filled here, through the same strict reader as our own format: nodes and scenes at once, meshes when a collider
+ * asks (mesh.h). Whatever only renders is not even looked at. Not a public header.
  */
 #pragma once
 
@@ -41,7 +41,8 @@ struct GltfDocument {
   [[noreturn]] void refuse(int node, const std::string &what) const; /* InputError: file: node 'Cup': what */
   std::optional<JsonValue> physics_of(int node) const;
   JsonValue root() const { return {file.value(), where, "", JsonFloats::numbers}; }
-  /* Of the document; an empty object where it has none. Complaints about it begin with `place`, that of what asks for it. */
+  /* Of the document; an empty object where it has none. Complaints about it begin with `place`, that of what asks for
+   * it. */
   JsonValue extension(const char *name, const std::string &place) const;
   bool uses(const std::string &extension) const;
 };

@@ -1,4 +1,4 @@
-/* scene_gltf_extensions.cpp - see scene_gltf_extensions.h; after the registry of glTF extensions (Khronos). */
+/* extensions.cpp - see extensions.h; after the registry of glTF extensions (Khronos). */
 #include "host/io/gltf/extensions.h"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ constexpr std::string_view families_without_meaning[] = {
     "KHR_materials_", "EXT_materials_", "ADOBE_materials_",      "KHR_texture_", "EXT_texture_",
     "MSFT_texture_",  "KHR_lights_",    "EXT_lights_",           "KHR_audio_",   "MSFT_audio_",
     "MSFT_packing_",  "KHR_xmp",        "KHR_gaussian_splatting"};
-/* Visibility and levels of detail of what is drawn, outlines, techniques, data about parts of a mesh, a promise about its surface. */
+/* Visibility and levels of detail of what is drawn, outlines, techniques, data about parts of a mesh, a promise about
+ * its surface. */
 constexpr std::string_view without_meaning[] = {
     "KHR_node_visibility",     "KHR_techniques_webgl",     "MSFT_lod",
     "MSFT_screencoverage",     "CESIUM_primitive_outline", "EXT_mesh_features",

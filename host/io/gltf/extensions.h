@@ -1,7 +1,7 @@
-/* scene_gltf_extensions.h - which required extensions of a glTF file a simulation may pass over. Not a public header.
+/* extensions.h - which required extensions of a glTF file a simulation may pass over. Not a public header.
  *
  *   understood        the two of physics, KHR_mesh_quantization, KHR_animation_pointer
- *   judged by use     compressed and instanced meshes: refused where a collider reads one (scene_gltf_mesh)
+ *   judged by use     compressed and instanced meshes: refused where a collider reads one (mesh.h)
  *   without meaning   what is seen, heard, or said about the file
  *   all others        refused: nobody knows whether they would change the motion
  */

@@ -1,4 +1,4 @@
-/* scene_gltf_filters.cpp - see scene_gltf_filters.h. */
+/* filters.cpp - see filters.h. */
 #include "host/io/gltf/filters.h"
 
 #include <algorithm>
@@ -30,7 +30,8 @@ Systems read_systems(const JsonValue &list)
 
 FilterText read_filter(const JsonValue &json)
 {
-  static constexpr const char *keys[] = {"collisionSystems", "collideWithSystems", "notCollideWithSystems", "name", "extras", "extensions"};
+  static constexpr const char *keys[] = {"collisionSystems", "collideWithSystems", "notCollideWithSystems", "name",
+                                         "extras",           "extensions"};
   json.only_keys(keys);
   FilterText filter;
   if (auto list = json.find("collisionSystems")) filter.member_of = read_systems(*list);
@@ -54,7 +55,8 @@ std::vector<GltfFilter> read_gltf_filters(const JsonValue &bodies_extension)
   for (const FilterText &text : texts) {
     auto at = std::find(combinations.begin(), combinations.end(), text.member_of);
     if (at == combinations.end()) at = combinations.insert(at, text.member_of);
-    if (combinations.size() > 32) list->fail("more than 31 different combinations of collision systems are not supported yet");
+    if (combinations.size() > 32)
+      list->fail("more than 31 different combinations of collision systems are not supported yet");
     filters.push_back({uint32_t(1) << (at - combinations.begin()), 0});
   }
   for (size_t i = 0; i < texts.size(); ++i)

@@ -1,4 +1,4 @@
-/* scene_gltf_materials.cpp - see scene_gltf_materials.h. */
+/* materials.cpp - see materials.h. */
 #include "host/io/gltf/materials.h"
 
 namespace tandem {
@@ -15,8 +15,9 @@ Combine read_combine(const JsonValue &material, const char *key)
 
 Material read_material(const JsonValue &json)
 {
-  static constexpr const char *keys[] = {"staticFriction", "dynamicFriction", "restitution", "frictionCombine", "restitutionCombine",
-                                         "name",           "extras",          "extensions"};
+  static constexpr const char *keys[] = {"staticFriction",  "dynamicFriction",    "restitution",
+                                         "frictionCombine", "restitutionCombine", "name",
+                                         "extras",          "extensions"};
   json.only_keys(keys);
   Material material;
   if (auto name = json.find("name")) material.name = name->text();

@@ -1,4 +1,4 @@
-/* scene_gltf_materials.h - the physics materials of KHR_physics_rigid_bodies. Not a public header. */
+/* materials.h - the physics materials of KHR_physics_rigid_bodies. Not a public header. */
 #pragma once
 
 #include "host/io/json/reader.h"

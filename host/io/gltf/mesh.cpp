@@ -1,10 +1,11 @@
-/* scene_gltf_mesh.cpp - see scene_gltf_mesh.h; accessors after the glTF 2.0 specification, chapter 3.6. */
+/* mesh.cpp - see mesh.h; accessors after the glTF 2.0 specification, chapter 3.6. */
 #include "host/io/gltf/mesh.h"
 
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "host/io/gltf/transform.h"
 
@@ -22,7 +23,8 @@ std::vector<uint32_t> indices_of(const GltfElements &elements, size_t vertices, 
   std::vector<uint32_t> indices;
   for (size_t i = 0; i < elements.count; ++i) {
     indices.push_back(uint32_t(elements.at(i)));
-    if (indices.back() >= vertices) asks.fail(fmt::format("index {} of the mesh is out of range; it has {} vertices", indices.back(), vertices));
+    if (indices.back() >= vertices)
+      asks.fail(fmt::format("index {} of the mesh is out of range; it has {} vertices", indices.back(), vertices));
   }
   return indices;
 }
@@ -76,7 +78,9 @@ void append_vertices(const GltfElements &points, const std::vector<uint32_t> &in
   for (uint32_t at : indices) {
     const Double3 point{points.at(at, 0), points.at(at, 1), points.at(at, 2)};
     for (double x : point)
-      if (!std::isfinite(x)) asks.fail(fmt::format("vertex {} of the mesh is [{}, {}, {}]; three finite numbers are needed", at, point[0], point[1], point[2]));
+      if (!std::isfinite(x))
+        asks.fail(fmt::format("vertex {} of the mesh is [{}, {}, {}]; three finite numbers are needed", at, point[0],
+                              point[1], point[2]));
     mesh.vertices.push_back(transformed(place, point));
   }
 }

@@ -1,4 +1,4 @@
-/* scene_gltf_mesh.h - the vertices and triangles of glTF meshes, from accessors and buffers. Not a public header. */
+/* mesh.h - the vertices and triangles of glTF meshes, from accessors and buffers. Not a public header. */
 #pragma once
 
 #include "host/geometry/geometry.h"
@@ -18,7 +18,8 @@ public:
 
   /* `asks`, a geometry of a collider, begins the complaints. */
   GltfMesh of_mesh(uint32_t mesh, const JsonValue &asks);
-  /* The meshes of the node and of all below it, in the node's own space: its own transform places the node, not the mesh. */
+  /* The meshes of the node and of all below it, in the node's own space: its own transform places the node, not the
+   * mesh. */
   GltfMesh of_node(uint32_t node, const JsonValue &asks);
 
 private:

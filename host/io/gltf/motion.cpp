@@ -1,11 +1,13 @@
-/* scene_gltf_motion.cpp - see scene_gltf_motion.h. */
+/* motion.cpp - see motion.h. */
 #include "host/io/gltf/motion.h"
 
 #include <cmath>
+
 #include <fmt/format.h>
 
-#include "host/geometry/shape_mass.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/shape_mass.h"
 
 namespace tandem {
 namespace {
@@ -20,14 +22,15 @@ bool read_flag(const JsonValue &motion, const char *key)
   return flag && flag->boolean();
 }
 
-/* Given in node space: turned, but not scaled, to world axes. In a mirrored node a velocity is mirrored with it; a spin, whose vector is
- * the axis of a turn, the other way. */
+/* Given in node space: turned, but not scaled, to world axes. In a mirrored node a velocity is mirrored with it; a
+ * spin, whose vector is the axis of a turn, the other way. */
 Vec3 turned_to_world(const Transform &world, const Vec3 &local, bool spin)
 {
   double turned[3] = {0, 0, 0};
   const double sign = spin && is_mirrored(world) ? -1 : 1;
   for (size_t j = 0; j < 3; ++j) {
-    const double *column = world.column[j], length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
+    const double *column = world.column[j],
+                 length = std::sqrt(column[0] * column[0] + column[1] * column[1] + column[2] * column[2]);
     for (size_t row = 0; row < 3; ++row) turned[row] += sign * column[row] / length * double(local[j]);
   }
   return {round_to_float(turned[0]), round_to_float(turned[1]), round_to_float(turned[2])};
@@ -35,18 +38,21 @@ Vec3 turned_to_world(const Transform &world, const Vec3 &local, bool spin)
 
 void read_velocities(const JsonValue &motion, const Transform &world, Body &body)
 {
-  if (const auto linear = motion.find("linearVelocity")) body.linear_velocity = turned_to_world(world, linear->vec3(), false);
-  if (const auto angular = motion.find("angularVelocity")) body.angular_velocity = turned_to_world(world, angular->vec3(), true);
+  if (const auto linear = motion.find("linearVelocity"))
+    body.linear_velocity = turned_to_world(world, linear->vec3(), false);
+  if (const auto angular = motion.find("angularVelocity"))
+    body.angular_velocity = turned_to_world(world, angular->vec3(), true);
 }
 
-/* From the axes of inertia to those of the body's frame, which in a mirrored node is that of the node with its X turned round: the axes,
- * being lines, are mirrored along it. */
+/* From the axes of inertia to those of the body's frame, which in a mirrored node is that of the node with its X turned
+ * round: the axes, being lines, are mirrored along it. */
 std::optional<Rotation> read_axes(const JsonValue &motion, const Transform &world)
 {
   std::optional<JsonValue> json = motion.find("inertiaOrientation");
   if (!json) return {};
   const Quat q = json->quat();
-  const double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
+  const double length =
+      std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
   if (!(std::abs(length - 1) < 1e-2)) json->fail("is not a quaternion of length 1");
   const bool turned = std::abs(q[0]) + std::abs(q[1]) + std::abs(q[2]) > 1e-6f;
   if (turned && !motion.find("inertiaDiagonal")) json->fail("turns an inertiaDiagonal, which is missing");
@@ -79,12 +85,14 @@ template <class Calculate> void require_volume(const JsonValue &motion, const Ca
   try {
     calculate();
   } catch (const InputError &error) {
-    motion.fail(fmt::format("without mass, inertiaDiagonal and centerOfMass, all three, these are the shape's: {}", error.what()));
+    motion.fail(fmt::format("without mass, inertiaDiagonal and centerOfMass, all three, these are the shape's: {}",
+                            error.what()));
   }
 }
 
 /* To the given centre and axes; where one is missing, to the shape's. */
-void move_to_mass(const Scene &scene, const std::optional<Double3> &center, const std::optional<Rotation> &axes, Body &body)
+void move_to_mass(const Scene &scene, const std::optional<Double3> &center, const std::optional<Rotation> &axes,
+                  Body &body)
 {
   if (is_plane(scene, body)) return;
   if (center && axes) return move_frame(body, *center, *axes);
@@ -111,8 +119,9 @@ bool is_infinite(const JsonValue &motion, const Body &body)
 
 void read_gltf_motion(const JsonValue &motion, const Transform &world, const Scene &scene, Body &body)
 {
-  static constexpr const char *keys[] = {"isKinematic",    "mass",            "centerOfMass",  "inertiaDiagonal", "inertiaOrientation",
-                                         "linearVelocity", "angularVelocity", "gravityFactor", "extras",          "extensions"};
+  static constexpr const char *keys[] = {
+      "isKinematic",     "mass",          "centerOfMass", "inertiaDiagonal", "inertiaOrientation", "linearVelocity",
+      "angularVelocity", "gravityFactor", "extras",       "extensions"};
   motion.only_keys(keys);
   const Quat node = body.orientation;
   if (auto factor = motion.find("gravityFactor")) body.gravity_factor = factor->number();
@@ -124,7 +133,8 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   const bool own_moments = !kinematic && body.inertia != Vec3{0, 0, 0};
   if (own_moments) axes = product(Rotation{node[0], node[1], node[2], node[3]}, axes.value_or(Rotation{0, 0, 0, 1}));
   else axes.reset();
-  if (!kinematic || has_volume(scene.shapes[body.shape])) require_volume(motion, [&] { move_to_mass(scene, center, axes, body); });
+  if (!kinematic || has_volume(scene.shapes[body.shape]))
+    require_volume(motion, [&] { move_to_mass(scene, center, axes, body); });
   else if (center) move_frame(body, *center, Rotation{node[0], node[1], node[2], node[3]});
   body.motion = kinematic ? Motion::kinematic : Motion::dynamic;
   if (kinematic) {
@@ -134,7 +144,10 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   if (is_plane(scene, body)) motion.fail("a plane that moves freely is not supported yet");
   std::optional<JsonValue> mass = motion.find("mass");
   if (mass) body.mass = mass->number();
-  else require_volume(motion, [&] { body.mass = round_to_float(default_density * mass_properties_of(scene.shapes[body.shape]).mass); });
+  else
+    require_volume(motion, [&] {
+      body.mass = round_to_float(default_density * mass_properties_of(scene.shapes[body.shape]).mass);
+    });
 }
 
 } // namespace tandem

@@ -1,9 +1,10 @@
-/* scene_gltf_round.cpp - see scene_gltf_round.h. */
+/* round.cpp - see round.h. */
 #include "host/io/gltf/round.h"
 
 #include <numbers>
 
 #include <tandem/round_to_float.h>
+
 #include "host/base/trigonometry.h"
 
 namespace tandem {

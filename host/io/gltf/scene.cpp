@@ -1,7 +1,7 @@
-/* scene_gltf.cpp - from a glTF node tree to a flat list of bodies.
+/* scene.cpp - from a glTF node tree to a flat list of bodies.
  *
- * The tree is walked once, depth first. A node with a motion becomes a body, and so does one with a collider that has no motion
- * above it; a collider below a motion belongs to that body:
+ * The tree is walked once, depth first. A node with a motion becomes a body, and so does one with a collider that has
+ * no motion above it; a collider below a motion belongs to that body:
  *
  *   node (motion)           -> body, frame in the node's place
  *     node                  ->   decoration
@@ -10,14 +10,14 @@
  *
  * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
  *
- * The parts are read by scene_gltf_document, _extensions, _buffers, _transform, _body, _shapes, _mesh, _materials, _filters and _motion, after the extension
- * texts KHR_implicit_shapes and KHR_physics_rigid_bodies (Khronos, drafts).
- */
+ * The parts are read by the files beside it, after the extension texts KHR_implicit_shapes and KHR_physics_rigid_bodies
+ * (Khronos, drafts). */
 #include "host/io/gltf/scene.h"
 
-#include <fmt/format.h>
 #include <map>
 #include <set>
+
+#include <fmt/format.h>
 
 #include "host/io/gltf/body.h"
 
@@ -67,7 +67,8 @@ void Walk::add(const JsonValue &physics, Visit &below)
     bodies_.push_back({here, true});
   }
   if (has_trigger) add_trigger(physics.member("trigger"), below);
-  if (!has_collider || (!has_motion && is_scaled_to_nothing(here.world))) return; /* so scaled, the extension calls it disabled */
+  if (!has_collider || (!has_motion && is_scaled_to_nothing(here.world)))
+    return; /* so scaled, the extension calls it disabled */
   if (below.body == none) bodies_.push_back({here, false, false, {here}});
   else bodies_[below.body].colliders.push_back(here);
 }
@@ -98,7 +99,8 @@ void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
   const JsonValue nodes = trigger.member("nodes");
   if (nodes.array_size() == 0) nodes.fail("is empty; at least one node is needed");
   for (size_t i = 0; i < nodes.array_size(); ++i)
-    if (!parts_.emplace(gltf_index(nodes.element(i), "node", document_.nodes.size()), bodies_.size()).second) nodes.element(i).fail("is listed twice");
+    if (!parts_.emplace(gltf_index(nodes.element(i), "node", document_.nodes.size()), bodies_.size()).second)
+      nodes.element(i).fail("is listed twice");
   at.list = bodies_.size();
   bodies_.push_back({{at.node, at.parent}, false, true});
 }
@@ -108,16 +110,22 @@ void Walk::settle_triggers()
 {
   if (!parts_.empty()) {
     const auto [part, whole] = *parts_.begin();
-    document_.refuse(bodies_[whole].body.node, fmt::format("trigger.nodes lists {}, which is no node below it with a trigger geometry", document_.label(part)));
+    document_.refuse(bodies_[whole].body.node,
+                     fmt::format("trigger.nodes lists {}, which is no node below it with a trigger geometry",
+                                 document_.label(part)));
   }
   for (BodyNodes &nodes : bodies_) {
     if (nodes.carried.empty()) continue;
     if (!nodes.colliders.empty())
-      document_.refuse(nodes.carried.front().node, fmt::format("a trigger that moves with the colliders of {} is not supported yet", document_.label(nodes.body.node)));
+      document_.refuse(nodes.carried.front().node,
+                       fmt::format("a trigger that moves with the colliders of {} is not supported yet",
+                                   document_.label(nodes.body.node)));
     nodes.trigger = true;
     nodes.colliders = nodes.carried;
   }
-  std::erase_if(bodies_, [](const BodyNodes &nodes) { return nodes.trigger && nodes.colliders.empty(); }); /* all parts disabled */
+  std::erase_if(bodies_, [](const BodyNodes &nodes) {
+    return nodes.trigger && nodes.colliders.empty();
+  }); /* all parts disabled */
 }
 
 void Walk::visit(const Visit &at)
@@ -156,7 +164,8 @@ Scene read_scene_gltf(const std::string &path, OutsideFiles outside)
   for (const BodyNodes &nodes : Walk(document).bodies()) bodies.add(nodes);
   Scene scene = bodies.take();
   if (scene.bodies.empty())
-    throw InputError(fmt::format("{}: no node has a collider or a trigger ({}); there is nothing to simulate", path, bodies_extension));
+    throw InputError(fmt::format("{}: no node has a collider or a trigger ({}); there is nothing to simulate", path,
+                                 bodies_extension));
   validate(scene, path);
   return scene;
 }

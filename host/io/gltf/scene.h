@@ -1,13 +1,14 @@
-/* scene_gltf.h - scenes from glTF 2.0 files with KHR_implicit_shapes and KHR_physics_rigid_bodies.
+/* scene.h - scenes from glTF 2.0 files with KHR_implicit_shapes and KHR_physics_rigid_bodies.
  *
- * What the pipeline knows is loaded: all shapes, convex hulls, meshes, several colliders a body; motions, materials, collision
- * filters. What it does not know is refused by name, with the node that asks for it; nothing is left out silently.
- * docs/scene-format.md lists both.
+ * What the pipeline knows is loaded: all shapes, convex hulls, meshes, several colliders a body; motions, materials,
+ * collision filters. What it does not know is refused by name, with the node that asks for it; nothing is left out
+ * silently. docs/scene-format.md lists both.
  */
 #pragma once
 
-#include "host/io/input_file.h"
 #include <tandem/scene.h>
+
+#include "host/io/input_file.h"
 
 namespace tandem {
 

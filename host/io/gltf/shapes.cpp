@@ -1,12 +1,14 @@
-/* scene_gltf_shapes.cpp - see scene_gltf_shapes.h. */
+/* shapes.cpp - see shapes.h. */
 #include "host/io/gltf/shapes.h"
 
 #include <algorithm>
 #include <cmath>
+
 #include <fmt/format.h>
 
-#include "host/geometry/mass_properties.h"
 #include <tandem/round_to_float.h>
+
+#include "host/geometry/mass_properties.h"
 #include "host/io/gltf/mesh.h"
 #include "host/io/gltf/round.h"
 
@@ -17,7 +19,10 @@ namespace {
 constexpr double same_volume = 1e-4;
 
 bool even(float a, float b) { return std::max(a, b) <= std::min(a, b) * 1.0001f; }
-bool even(const Vec3 &scale) { return even(scale[0], scale[1]) && even(scale[1], scale[2]) && even(scale[0], scale[2]); }
+bool even(const Vec3 &scale)
+{
+  return even(scale[0], scale[1]) && even(scale[1], scale[2]) && even(scale[0], scale[2]);
+}
 
 float number_or(const JsonValue &json, const char *key, float otherwise)
 {
@@ -39,10 +44,13 @@ Shape read_plane(const JsonValue &json, const Vec3 &scale)
 {
   static constexpr const char *keys[] = {"doubleSided", "sizeX", "sizeZ", "extras", "extensions"};
   json.only_keys(keys);
-  const std::optional<JsonValue> size_x = json.find("sizeX"), size_z = json.find("sizeZ"), sides = json.find("doubleSided");
+  const std::optional<JsonValue> size_x = json.find("sizeX"), size_z = json.find("sizeZ"),
+                                 sides = json.find("doubleSided");
   const bool double_sided = sides && sides->boolean();
-  if (size_x.has_value() != size_z.has_value()) json.fail("a plane finite along one axis alone is not supported yet; sizeX and sizeZ together are");
-  if (!size_x && double_sided) json.fail("an infinite double-sided plane is not supported yet; with sizeX and sizeZ it is");
+  if (size_x.has_value() != size_z.has_value())
+    json.fail("a plane finite along one axis alone is not supported yet; sizeX and sizeZ together are");
+  if (!size_x && double_sided)
+    json.fail("an infinite double-sided plane is not supported yet; with sizeX and sizeZ it is");
   if (!size_x) return half_space_shape();
   for (const JsonValue &size : {*size_x, *size_z})
     if (!(size.number() > 0)) size.fail(fmt::format("is {}; a number above 0 is needed", size.number()));
@@ -88,8 +96,9 @@ Shape read_capsule(const JsonValue &json, const Vec3 &scale, double &offset)
   const Vec3 own = read_round(json, {1, 1, 1}), size = read_round(json, scale);
   const auto &[bottom, half_height, top] = own;
   if (std::min(bottom, top) < 0 || std::max(bottom, top) == 0 || !(half_height > 0))
-    json.fail(fmt::format("a capsule of radii {} and {} and of height {}; a height above 0 and radii of at least 0, one above it, are needed", bottom, top,
-                          2 * half_height));
+    json.fail(fmt::format("a capsule of radii {} and {} and of height {}; a height above 0 and radii of at least 0, "
+                          "one above it, are needed",
+                          bottom, top, 2 * half_height));
   const bool sphere = std::abs(double(bottom) - top) >= 2.0 * half_height;
   if (sphere && even(scale)) {
     offset = bottom > top ? -double(size[1]) : double(size[1]);
@@ -103,7 +112,8 @@ bool is_closed_without_dents(const TriangleMesh &mesh)
 {
   const MeshFindings &found = mesh.findings;
   if (mesh.flat || found.boundary_edges + found.non_manifold_edges + found.misoriented_edges > 0) return false;
-  return std::none_of(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge &edge) { return edge.kind == EdgeKind::concave; });
+  return std::none_of(mesh.edges.begin(), mesh.edges.end(),
+                      [](const MeshEdge &edge) { return edge.kind == EdgeKind::concave; });
 }
 
 bool is_surface_of(const ConvexHull &hull, const TriangleMesh &mesh)
@@ -115,7 +125,9 @@ bool is_surface_of(const ConvexHull &hull, const TriangleMesh &mesh)
 std::vector<Vec3> scaled_vertices(const GltfMesh &mesh, const std::array<double, 3> &scale)
 {
   std::vector<Vec3> vertices;
-  for (const Double3 &v : mesh.vertices) vertices.push_back({round_to_float(v[0] * scale[0]), round_to_float(v[1] * scale[1]), round_to_float(v[2] * scale[2])});
+  for (const Double3 &v : mesh.vertices)
+    vertices.push_back(
+        {round_to_float(v[0] * scale[0]), round_to_float(v[1] * scale[1]), round_to_float(v[2] * scale[2])});
   return vertices;
 }
 
@@ -125,7 +137,8 @@ Shape solid_of(const GltfMesh &mesh, const std::array<double, 3> &scale, bool hu
   if (mesh.vertices.empty()) geometry.fail("a mesh without vertices; a collider needs a shape");
   const std::vector<Vec3> vertices = scaled_vertices(mesh, scale);
   if (hull_asked) return hull_shape(vertices, where);
-  if (mesh.triangles.empty()) geometry.fail("a mesh without triangles; \"convexHull\": true asks for the hull of its points");
+  if (mesh.triangles.empty())
+    geometry.fail("a mesh without triangles; \"convexHull\": true asks for the hull of its points");
   const std::vector<Triangle> triangles = scale[0] < 0 ? turned_round(mesh.triangles) : mesh.triangles;
   auto surface = std::make_shared<const TriangleMesh>(triangle_mesh(vertices, triangles, where));
   if (is_closed_without_dents(*surface)) {
@@ -144,22 +157,27 @@ GltfShape GltfShapes::read_implicit(const JsonValue &geometry, uint32_t index, c
   const JsonValue document = document_.extension(shapes_extension, geometry.where());
   document.only_keys(document_keys);
   JsonValue list = document.member("shapes");
-  if (index >= list.array_size()) geometry.member("shape").fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
+  if (index >= list.array_size())
+    geometry.member("shape").fail(fmt::format("shape {} does not exist; the file has {}", index, list.array_size()));
   JsonValue json = list.element(index);
   std::string type = json.member("type").text();
   GltfShape result;
-  if (type == "plane") result.shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())), scale);
+  if (type == "plane")
+    result.shape = read_plane(json.find("plane").value_or(JsonValue(empty, geometry.where())), scale);
   else if (type == "sphere") result.shape = read_sphere(json.member("sphere"), scale);
   else if (type == "box") result.shape = read_box(json.member("box"), scale);
   else if (type == "cylinder") result.shape = read_cylinder(json.member("cylinder"), scale);
   else if (type == "capsule") result.shape = read_capsule(json.member("capsule"), scale, result.offset);
-  else geometry.fail(fmt::format("shape type {} is not supported yet; sphere, box, capsule, cylinder and plane are", type));
+  else
+    geometry.fail(
+        fmt::format("shape type {} is not supported yet; sphere, box, capsule, cylinder and plane are", type));
   return result;
 }
 
 GltfShape GltfShapes::read(const JsonValue &geometry, const std::array<double, 3> &scale)
 {
-  static constexpr const char *keys[] = {"shape", "node", "mesh", "convexHull", "extras", "extensions"}, *sources[] = {"shape", "node", "mesh"};
+  static constexpr const char *keys[] = {"shape", "node", "mesh", "convexHull", "extras", "extensions"},
+                              *sources[] = {"shape", "node", "mesh"};
   geometry.only_keys(keys);
   Use use{0, false, 0, scale};
   int given = 0;
@@ -174,9 +192,13 @@ GltfShape GltfShapes::read(const JsonValue &geometry, const std::array<double, 3
   const auto found = known_.find(use);
   if (found != known_.end()) return found->second;
   GltfShape result;
-  if (use.source == 0) result = read_implicit(geometry, use.index, {round_to_float(std::abs(scale[0])), round_to_float(scale[1]), round_to_float(scale[2])});
+  if (use.source == 0)
+    result = read_implicit(geometry, use.index,
+                           {round_to_float(std::abs(scale[0])), round_to_float(scale[1]), round_to_float(scale[2])});
   else
-    result.shape = solid_of(use.source == 1 ? meshes_.of_node(use.index, geometry) : meshes_.of_mesh(use.index, geometry), scale, use.hull_asked, geometry);
+    result.shape =
+        solid_of(use.source == 1 ? meshes_.of_node(use.index, geometry) : meshes_.of_mesh(use.index, geometry), scale,
+                 use.hull_asked, geometry);
   return known_.emplace(use, std::move(result)).first->second;
 }
 

@@ -1,7 +1,7 @@
-/* scene_gltf_shapes.h - from the geometry of a collider to a shape: KHR_implicit_shapes, and meshes.
+/* shapes.h - from the geometry of a collider to a shape: KHR_implicit_shapes, and meshes.
  *
- * A mesh becomes its convex hull where the file says so ("convexHull"), and where it is the same solid without: a closed surface
- * without dents. All others stay meshes. Not a public header.
+ * A mesh becomes its convex hull where the file says so ("convexHull"), and where it is the same solid without: a
+ * closed surface without dents. All others stay meshes. Not a public header.
  */
 #pragma once
 
@@ -18,8 +18,8 @@ class GltfShapes {
 public:
   explicit GltfShapes(const GltfDocument &document) : document_(document), meshes_(document) {}
 
-  /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. The same geometry in the
-   * same scale gives the same shape: hull and mesh are shared. */
+  /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. The same
+   * geometry in the same scale gives the same shape: hull and mesh are shared. */
   GltfShape read(const JsonValue &geometry, const std::array<double, 3> &scale);
 
 private:

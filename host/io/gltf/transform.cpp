@@ -1,8 +1,9 @@
-/* scene_gltf_transform.cpp - see scene_gltf_transform.h. */
+/* transform.cpp - see transform.h. */
 #include "host/io/gltf/transform.h"
 
 #include <algorithm>
 #include <cmath>
+
 #include <fmt/format.h>
 
 namespace tandem {
@@ -65,7 +66,8 @@ Transform operator*(const Transform &a, const Transform &b)
 Point transformed(const Transform &t, const Point &p)
 {
   Point result;
-  for (size_t row = 0; row < 3; ++row) result[row] = t.translation[row] + t.column[0][row] * p[0] + t.column[1][row] * p[1] + t.column[2][row] * p[2];
+  for (size_t row = 0; row < 3; ++row)
+    result[row] = t.translation[row] + t.column[0][row] * p[0] + t.column[1][row] * p[1] + t.column[2][row] * p[2];
   return result;
 }
 
@@ -84,7 +86,8 @@ Transform local_transform(const GltfDocument &document, int index)
   if (!node.rotation.empty()) {
     double length_squared = 0;
     for (double x : node.rotation) length_squared += x * x;
-    if (!(length_squared > 0.99 && length_squared < 1.01)) document.refuse(index, "rotation is not a quaternion of length 1");
+    if (!(length_squared > 0.99 && length_squared < 1.01))
+      document.refuse(index, "rotation is not a quaternion of length 1");
     rotation_columns(node.rotation, local);
   }
   if (!node.scale.empty())
@@ -107,7 +110,8 @@ RigidPlace rigid_place(const GltfDocument &document, int index, const Transform 
   for (int j = 0; j < 3; ++j) {
     const double factor = length(world.column[j]);
     if (!(factor > 0) || !std::isfinite(factor))
-      document.refuse(index, fmt::format("its scale is {} along {}; another than 0 along each axis is needed (0 along all three disables a collider)",
+      document.refuse(index, fmt::format("its scale is {} along {}; another than 0 along each axis is needed (0 along "
+                                         "all three disables a collider)",
                                          factor, "XYZ"[j]));
     for (double &x : rotation.column[j]) x /= factor;
     place.scale[size_t(j)] = factor;

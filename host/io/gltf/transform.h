@@ -1,4 +1,4 @@
-/* scene_gltf_transform.h - transforms of glTF nodes, and what a rigid body can take of them.
+/* transform.h - transforms of glTF nodes, and what a rigid body can take of them.
  *
  *   node matrices  M = parent · T · R · S   -> position   = last column
  *                                           -> scale      = lengths of the columns  -> sizes of the shape
@@ -24,8 +24,8 @@ bool is_mirrored(const Transform &t);
 /* InputError where the node's numbers are no transform. */
 Transform local_transform(const GltfDocument &document, int node);
 
-/* What is left of a transform when its scale went into the shape. A mirroring scale is a mirroring along X, of which `scale` keeps
- * the sign, before a rotation: the implicit shapes are symmetric to it. */
+/* What is left of a transform when its scale went into the shape. A mirroring scale is a mirroring along X, of which
+ * `scale` keeps the sign, before a rotation: the implicit shapes are symmetric to it. */
 struct RigidPlace {
   Point position{0, 0, 0};
   std::array<double, 4> orientation{0, 0, 0, 1}; /* x y z w */

@@ -1,12 +1,13 @@
-/* json_numbers.h - numbers written so that reading them gives the same bits: floats in hexadecimal. */
+/* numbers.h - numbers written so that reading them gives the same bits: floats in hexadecimal. */
 #pragma once
 
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fmt/format.h>
 #include <string>
+
+#include <fmt/format.h>
 
 namespace tandem {
 

@@ -1,11 +1,12 @@
-/* json_reader.cpp - see json_reader.h. */
+/* reader.cpp - see reader.h. */
 #include "host/io/json/reader.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fmt/format.h>
 #include <limits>
+
+#include <fmt/format.h>
 
 #include <tandem/round_to_float.h>
 
@@ -67,8 +68,8 @@ double zero_or_least(const std::string &text)
   return text.starts_with("-") ? -least : least;
 }
 
-/* Builds a document as it is parsed: what an exception leaves half built is a JsonDocument, too. Duplicate keys would silently lose a
- * value; depth would end in a full stack. */
+/* Builds a document as it is parsed: what an exception leaves half built is a JsonDocument, too. Duplicate keys would
+ * silently lose a value; depth would end in a full stack. */
 class Builder : public nlohmann::json_sax<nlohmann::json> {
 public:
   Builder(const std::string &text, const std::string &where) : text_(text), where_(where) {}
@@ -125,7 +126,9 @@ nlohmann::json &Builder::place(nlohmann::json &&value)
 bool Builder::open(nlohmann::json &&empty)
 {
   if (open_.size() >= most_json_levels)
-    throw InputError(fmt::format("{}: arrays and objects stand more than {} deep within one another; no scene needs that", where_, most_json_levels));
+    throw InputError(
+        fmt::format("{}: arrays and objects stand more than {} deep within one another; no scene needs that", where_,
+                    most_json_levels));
   open_.push_back(&place(std::move(empty)));
   return true;
 }
@@ -133,7 +136,8 @@ bool Builder::open(nlohmann::json &&empty)
 bool Builder::key(string_t &key)
 {
   const auto [member, is_new] = open_.back()->get_ref<nlohmann::json::object_t &>().try_emplace(key, nullptr);
-  if (!is_new) throw InputError(fmt::format("{}: the key {} stands twice in one object", where_, nlohmann::json(key).dump()));
+  if (!is_new)
+    throw InputError(fmt::format("{}: the key {} stands twice in one object", where_, nlohmann::json(key).dump()));
   member_ = &member->second;
   return true;
 }
@@ -206,7 +210,8 @@ template <class Real> Real JsonValue::number_of() const
   }
   if (!value_->is_number()) fail(fmt::format("is {}; a number is needed", shown(*value_)));
   const auto result = value_->get<double>();
-  if (!std::isfinite(round_to_float(result))) fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
+  if (!std::isfinite(round_to_float(result)))
+    fail(fmt::format("is {}; no finite 32-bit float holds that", shown(*value_)));
   return Real(result);
 }
 

@@ -1,4 +1,4 @@
-/* json_reader.h - JSON values that know where they stand, so that every complaint names its place.
+/* reader.h - JSON values that know where they stand, so that every complaint names its place.
  *
  * Both scene readers (our own format and the glTF extensions) take values through JsonValue: wrong
  * types, unknown keys and numbers that no float holds become one line such as
@@ -7,12 +7,13 @@
  */
 #pragma once
 
-#include <tandem/scene.h>
-
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <tandem/scene.h>
 
 namespace tandem {
 
@@ -22,7 +23,8 @@ enum class JsonFloats { numbers_and_hexadecimal, numbers };
 class JsonValue {
 public:
   /* `where` (a file, perhaps a node in it) begins every message; it and `value` must outlive this. */
-  JsonValue(const nlohmann::json &value, const std::string &where, std::string path = "", JsonFloats floats = JsonFloats::numbers_and_hexadecimal)
+  JsonValue(const nlohmann::json &value, const std::string &where, std::string path = "",
+            JsonFloats floats = JsonFloats::numbers_and_hexadecimal)
       : value_(&value), where_(&where), path_(std::move(path)), floats_(floats)
   {}
 
@@ -41,8 +43,8 @@ public:
   size_t array_size() const; /* fails when it is not an array */
   JsonValue element(size_t index) const;
 
-  /* Finite floats: a number, or (JsonFloats) a string with a hexadecimal float such as "-0x1.8p+1". Fails for one that is not 0 but
-   * would be rounded to it, since 0 may stand for something else, as for a mass without end. */
+  /* Finite floats: a number, or (JsonFloats) a string with a hexadecimal float such as "-0x1.8p+1". Fails for one that
+   * is not 0 but would be rounded to it, since 0 may stand for something else, as for a mass without end. */
   float number() const;
   float coordinate()
       const; /* the same of places, directions and speeds, among which 0 is one as any other: it may be rounded to */
@@ -68,8 +70,9 @@ private:
 /* Deeper than any scene; far from where recursion over values (their text, their end) runs out of stack. */
 inline constexpr int most_json_levels = 100;
 
-/* A whole file's value, which ends without allocating. The destructor of nlohmann's values makes a list of what they hold, and ends the
- * process where there is no memory for it; here they are taken apart from the leaves on, so that it finds nothing to list. */
+/* A whole file's value, which ends without allocating. The destructor of nlohmann's values makes a list of what they
+ * hold, and ends the process where there is no memory for it; here they are taken apart from the leaves on, so that it
+ * finds nothing to list. */
 class JsonDocument {
 public:
   JsonDocument() = default;
@@ -88,8 +91,8 @@ private:
   nlohmann::json value_;
 };
 
-/* Throws InputError: `where:line:column: malformed JSON: …`, a key that stands twice in one object, or more than most_json_levels arrays
- * and objects within one another. */
+/* Throws InputError: `where:line:column: malformed JSON: …`, a key that stands twice in one object, or more than
+ * most_json_levels arrays and objects within one another. */
 JsonDocument parse_json(const std::string &text, const std::string &where);
 
 } // namespace tandem

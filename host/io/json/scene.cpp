@@ -1,15 +1,17 @@
-/* scene_json.cpp - one list of fields per record, from which both the reader and the writer follow. */
+/* scene.cpp - one list of fields per record, from which both the reader and the writer follow. */
 #include "host/io/json/scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include <tandem/round_to_float.h>
 
 #include "host/geometry/shape_mass.h"
 #include "host/io/json/numbers.h"
 #include "host/io/json/reader.h"
-#include "host/io/output_file.h"
-#include <tandem/round_to_float.h>
 #include "host/io/json/shapes.h"
-
-#include <algorithm>
-#include <fmt/format.h>
+#include "host/io/output_file.h"
 
 namespace tandem {
 namespace {
@@ -124,7 +126,8 @@ void take_densities(const JsonValue &bodies, Scene &scene, const std::string &wh
   for (size_t i = 0; i < scene.bodies.size(); ++i)
     if (bodies.element(i).find("density")) given.push_back(i);
   if (given.empty()) return;
-  Scene sound = scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
+  Scene sound =
+      scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
   for (size_t i : given) sound.bodies[i].motion = std::min(sound.bodies[i].motion, Motion::kinematic);
   validate(sound, where);
   for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
@@ -207,7 +210,10 @@ Scene parse_scene_json(const std::string &text, const std::string &where, Outsid
   return scene;
 }
 
-Scene read_scene_json(const std::string &path, OutsideFiles outside) { return parse_scene_json(read_file(path), path, outside); }
+Scene read_scene_json(const std::string &path, OutsideFiles outside)
+{
+  return parse_scene_json(read_file(path), path, outside);
+}
 
 std::string to_scene_json(const Scene &scene)
 {

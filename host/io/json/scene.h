@@ -1,12 +1,13 @@
-/* scene_json.h - Tandem's own scene files: lossless JSON, described in docs/scene-format.md.
+/* scene.h - Tandem's own scene files: lossless JSON, described in docs/scene-format.md.
  *
  * Every float is written as a hexadecimal string, so that reading a written scene gives the same
  * bits; plain numbers are read as well, for files written by hand.
  */
 #pragma once
 
-#include "host/io/input_file.h"
 #include <tandem/scene.h>
+
+#include "host/io/input_file.h"
 
 namespace tandem {
 

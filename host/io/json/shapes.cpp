@@ -1,23 +1,26 @@
-/* scene_json_shapes.cpp - see scene_json_shapes.h. One reader and one writer a type. */
+/* shapes.cpp - see shapes.h. One reader and one writer a type. */
 #include "host/io/json/shapes.h"
 
 #include <algorithm>
 
 #include "host/geometry/convex_hull.h"
-#include "host/io/obj.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/io/json/numbers.h"
+#include "host/io/obj.h"
 
 namespace tandem {
 namespace {
 
 using tandem::written; /* beside those of this file */
 
-/* The first stand for the ShapeType of the same place in `types`. A cone is a cylinder and a field of heights a mesh, and written as such. */
+/* The first stand for the ShapeType of the same place in `types`. A cone is a cylinder and a field of heights a mesh,
+ * and written as such. */
 enum Name { sphere, box, half_space, capsule, cylinder, hull, mesh, compound, cone, height_field };
-constexpr const char *names[] = {"sphere", "box", "half_space", "capsule", "cylinder", "hull", "mesh", "compound", "cone", "height_field"};
-constexpr ShapeType types[] = {ShapeType::sphere, ShapeType::box,  ShapeType::half_space, ShapeType::capsule,  ShapeType::cylinder,
-                               ShapeType::hull,   ShapeType::mesh, ShapeType::compound,   ShapeType::cylinder, ShapeType::mesh};
+constexpr const char *names[] = {"sphere", "box",  "half_space", "capsule", "cylinder",
+                                 "hull",   "mesh", "compound",   "cone",    "height_field"};
+constexpr ShapeType types[] = {ShapeType::sphere,   ShapeType::box,  ShapeType::half_space, ShapeType::capsule,
+                               ShapeType::cylinder, ShapeType::hull, ShapeType::mesh,       ShapeType::compound,
+                               ShapeType::cylinder, ShapeType::mesh};
 
 std::vector<const char *> keys_of(Name name)
 {
@@ -47,7 +50,8 @@ std::vector<const char *> replaced_by_size(Name name)
 
 void only_one(const JsonValue &json, const char *first, const char *second)
 {
-  if (json.find(first) && json.find(second)) json.fail(fmt::format("\"{}\" and \"{}\" exclude each other", first, second));
+  if (json.find(first) && json.find(second))
+    json.fail(fmt::format("\"{}\" and \"{}\" exclude each other", first, second));
 }
 
 /* "radius" for both ends, or one for each. */
@@ -73,7 +77,8 @@ std::vector<Triangle> read_triangles(const JsonValue &json)
   std::vector<Triangle> triangles(json.array_size());
   for (size_t i = 0; i < triangles.size(); ++i) {
     const JsonValue corners = json.element(i);
-    if (corners.array_size() != 3) corners.fail(fmt::format("has {} numbers; the three vertices of a triangle are needed", corners.array_size()));
+    if (corners.array_size() != 3)
+      corners.fail(fmt::format("has {} numbers; the three vertices of a triangle are needed", corners.array_size()));
     for (size_t k = 0; k < 3; ++k) triangles[i][k] = corners.element(k).unsigned_integer();
   }
   return triangles;
@@ -125,12 +130,14 @@ Shape read_height_field(const JsonValue &json)
   if (spacing.array_size() != 2) spacing.fail("two numbers are needed: the spacing along x and along z");
   std::vector<float> heights(list.array_size());
   for (size_t i = 0; i < heights.size(); ++i) heights[i] = list.element(i).coordinate();
-  return height_field_shape(heights, json.member("columns").unsigned_integer(), spacing.element(0).number(), spacing.element(1).number(), json.place());
+  return height_field_shape(heights, json.member("columns").unsigned_integer(), spacing.element(0).number(),
+                            spacing.element(1).number(), json.place());
 }
 
 Child read_child(const JsonValue &json, OutsideFiles outside)
 {
-  static constexpr const char *keys[] = {"shape", "position", "orientation", "density", "material", "filter_group", "filter_mask"};
+  static constexpr const char *keys[] = {"shape",    "position",     "orientation", "density",
+                                         "material", "filter_group", "filter_mask"};
   json.only_keys(keys);
   Child child;
   child.shape = read_shape(json.member("shape"), outside);
@@ -209,8 +216,9 @@ std::string written_size(const Shape &shape, const Vec3 &expected)
 std::string written_radii(const Shape &shape)
 {
   const auto &[bottom, half_height, top] = shape.size;
-  const std::string radii = same(bottom, top) ? ", \"radius\": " + written(bottom)
-                                              : fmt::format(", \"radius_bottom\": {}, \"radius_top\": {}", written(bottom), written(top));
+  const std::string radii =
+      same(bottom, top) ? ", \"radius\": " + written(bottom)
+                        : fmt::format(", \"radius_bottom\": {}, \"radius_top\": {}", written(bottom), written(top));
   return radii + ", \"half_height\": " + written(half_height);
 }
 
@@ -246,8 +254,11 @@ std::string written_shape(const Shape &shape)
   }
   case ShapeType::box: return text + ", \"half_extents\": " + written(shape.size) + "}";
   case ShapeType::half_space: return text + written_size(shape, {0, 0, 0}) + "}";
-  case ShapeType::hull: return text + ", \"points\": " + written(shape.hull->vertices) + written_size(shape, {0, 0, 0}) + "}";
-  case ShapeType::mesh: return text + ", \"vertices\": " + written(shape.mesh->vertices) + ", \"triangles\": " + written(shape.mesh->triangles) + "}";
+  case ShapeType::hull:
+    return text + ", \"points\": " + written(shape.hull->vertices) + written_size(shape, {0, 0, 0}) + "}";
+  case ShapeType::mesh:
+    return text + ", \"vertices\": " + written(shape.mesh->vertices) +
+           ", \"triangles\": " + written(shape.mesh->triangles) + "}";
   case ShapeType::compound: return text + ", \"children\": " + written(shape.compound->children) + "}";
   case ShapeType::capsule:
   case ShapeType::cylinder: break;

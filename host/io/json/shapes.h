@@ -1,4 +1,4 @@
-/* scene_json_shapes.h - the shapes of a scene file: docs/scene-format.md. Not a public header. */
+/* shapes.h - the shapes of a scene file: docs/scene-format.md. Not a public header. */
 #pragma once
 
 #include "host/io/input_file.h"

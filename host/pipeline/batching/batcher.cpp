@@ -29,7 +29,8 @@ const Batcher &batcher_named(const std::string &name)
 
 void launch_check(StepLaunches &step)
 {
-  for (Kernel kernel : {Kernel::clear_body_marks, Kernel::clear_pair_marks, Kernel::mark_batches, Kernel::check_batches, Kernel::check_pairs})
+  for (Kernel kernel : {Kernel::clear_body_marks, Kernel::clear_pair_marks, Kernel::mark_batches, Kernel::check_batches,
+                        Kernel::check_pairs})
     step.run(kernel);
 }
 

@@ -1,9 +1,9 @@
 /* batcher.h - the ways to batch contacts, one small file each: what `--batching NAME` picks.
  *
- * A batcher launches kernels that give each touching pair a colour: pair_color below COLOR_LIMIT, or COLOR_TAIL. It finds
- * them at COLOR_NONE, the colours in use at each body cleared (but for those kept from the last step, if it asked for
- * them) and bids cleared. It leaves COUNT_UNCOLORED at 0, or too few rounds were launched and the step runs again with
- * more. Sorting by colour, and all that comes after, is the same for every batcher (host/pipeline/step.cpp).
+ * A batcher launches kernels that give each touching pair a colour: pair_color below COLOR_LIMIT, or COLOR_TAIL. It
+ * finds them at COLOR_NONE, the colours in use at each body cleared (but for those kept from the last step, if it asked
+ * for them) and bids cleared. It leaves COUNT_UNCOLORED at 0, or too few rounds were launched and the step runs again
+ * with more. Sorting by colour, and all that comes after, is the same for every batcher (host/pipeline/step.cpp).
  */
 #pragma once
 
@@ -23,7 +23,7 @@ struct Batcher {
   void (*launch)(StepLaunches &step);
 };
 
-std::span<const Batcher> batchers(); /* default first */
+std::span<const Batcher> batchers();                   /* default first */
 const Batcher &batcher_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
 
 /* Each in the file of its name. */
@@ -36,7 +36,8 @@ void batch_in_two_stages(StepLaunches &step);
 /* Proves the batches on the device: the verdict is in counts (shared/batching/check.h). */
 void launch_check(StepLaunches &step);
 
-/* Cells of a class for two-stage batching, a power of two: about one for each 512 bodies, as many as the bodies of one. */
+/* Cells of a class for two-stage batching, a power of two: about one for each 512 bodies, as many as the bodies of
+ * one. */
 uint32_t batch_cells_for(uint32_t bodies);
 
 } // namespace tandem

@@ -1,8 +1,7 @@
 /* iterative.cpp - the talks' iterative batching: batch after batch, a few rounds each (shared/batching/iterative.h). */
-#include "host/pipeline/batching/batcher.h"
-
 #include <algorithm>
 
+#include "host/pipeline/batching/batcher.h"
 #include "shared/batching/limits.h"
 
 namespace tandem {

@@ -1,4 +1,5 @@
-/* single_group.cpp - the talks' naive batching: one work-group, the batches of the oracle (shared/batching/single_group.h). */
+/* single_group.cpp - the talks' naive batching: one work-group, the batches of the oracle
+ * (shared/batching/single_group.h). */
 #include "host/pipeline/batching/batcher.h"
 
 namespace tandem {

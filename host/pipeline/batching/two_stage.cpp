@@ -1,8 +1,8 @@
-/* two_stage.cpp - the talks' two-stage batching: cells of space, then the contacts of each (shared/batching/cells.h). */
-#include "host/pipeline/batching/batcher.h"
-
+/* two_stage.cpp - the talks' two-stage batching: cells of space, then the contacts of each
+ * (shared/batching/cells.h). */
 #include <bit>
 
+#include "host/pipeline/batching/batcher.h"
 #include "shared/batching/limits.h"
 
 namespace tandem {

@@ -14,18 +14,26 @@ std::span<const Broadphase> broadphases()
 {
   static constexpr std::array<Broadphase, 13> rows{{
       {"grid", "uniform grid, 27 cells in nine rows of three", find_pairs_in_grid, QUERY_GRID},
-      {"grid-bitonic", "the same, its bodies sorted by a bitonic network instead of by digits", find_pairs_in_bitonic_grid, QUERY_GRID},
+      {"grid-bitonic", "the same, its bodies sorted by a bitonic network instead of by digits",
+       find_pairs_in_bitonic_grid, QUERY_GRID},
       {"grid-14", "the grid by symmetry: 14 cells, and pairs to be sorted", find_pairs_in_half_the_cells, QUERY_GRID},
-      {"brute-force", "every body against every one before it: the oracle", find_pairs_by_brute_force, QUERY_EVERY_BODY},
-      {"sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory", find_pairs_by_sweep},
+      {"brute-force", "every body against every one before it: the oracle", find_pairs_by_brute_force,
+       QUERY_EVERY_BODY},
+      {"sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory",
+       find_pairs_by_sweep},
       {"sap-pca", "the same along the principal direction", find_pairs_by_principal_sweep},
       {"sap-plain", "the sweep before it was optimised, one work-item a body", find_pairs_by_plain_sweep},
-      {"sap3", "incremental sweep and prune along three axes: only ends that changed their places are looked at", find_pairs_incrementally},
+      {"sap3", "incremental sweep and prune along three axes: only ends that changed their places are looked at",
+       find_pairs_incrementally},
       {"hybrid", "small bodies in a grid, large ones in a hierarchy", find_pairs_in_hybrid},
-      {"bvh", "linear hierarchy of boxes, refitted until too many have left their places; walked by skip indices", find_pairs_by_skipping},
+      {"bvh", "linear hierarchy of boxes, refitted until too many have left their places; walked by skip indices",
+       find_pairs_by_skipping},
       {"bvh-stack", "the same, walked with a stack", find_pairs_by_stack},
       {"bvh-history", "the same, walked by history flags, two bits a level", find_pairs_by_history},
-      {"trees", "a moving and a standing tree of boxes with room to move in, and pairs that are kept until a body leaves its box", find_pairs_in_trees},
+      {"trees",
+       "a moving and a standing tree of boxes with room to move in, and pairs that are kept until a body leaves its "
+       "box",
+       find_pairs_in_trees},
   }};
   return rows;
 }
@@ -40,7 +48,8 @@ const Broadphase &broadphase_named(const std::string &name)
 void forget_kept(Memory &memory)
 {
   const uint32_t none = 0;
-  for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT}) memory.upload(Buffer::counts, &none, sizeof none, entry * sizeof none);
+  for (const uint32_t entry : {COUNT_KEPT, COUNT_HIERARCHY_KEPT})
+    memory.upload(Buffer::counts, &none, sizeof none, entry * sizeof none);
 }
 
 void find_extent(StepLaunches &step, bool hybrid)
@@ -53,8 +62,8 @@ void find_extent(StepLaunches &step, bool hybrid)
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity)
 {
   for (unsigned first_bit : {0u, 32u})
-    sort_keys64(step.launcher(), keys, other_keys, Buffer::sort_histogram, Buffer::scan_sums, length, capacity, first_bit,
-                first_bit + static_cast<unsigned>(std::bit_width(step.plan().bodies)));
+    sort_keys64(step.launcher(), keys, other_keys, Buffer::sort_histogram, Buffer::scan_sums, length, capacity,
+                first_bit, first_bit + static_cast<unsigned>(std::bit_width(step.plan().bodies)));
 }
 
 void pairs_from_keys(StepLaunches &step)

@@ -1,8 +1,8 @@
 /* broadphase.h - the ways to find bodies whose bounds overlap, one small file each: what `--broadphase NAME` picks.
  *
- * A broadphase finds `bounds` filled. It leaves the pairs that may meet (shared/broadphase/overlap.h) in pair_a and pair_b, sorted
- * by (a, b) with a > b, where those of each body start in pair_start, and COUNT_PAIRS. Every one yields the same list, hence the
- * same bits in all that comes after: they differ in time alone.
+ * A broadphase finds `bounds` filled. It leaves the pairs that may meet (shared/broadphase/overlap.h) in pair_a and
+ * pair_b, sorted by (a, b) with a > b, where those of each body start in pair_start, and COUNT_PAIRS. Every one yields
+ * the same list, hence the same bits in all that comes after: they differ in time alone.
  */
 #pragma once
 
@@ -18,11 +18,13 @@ struct Broadphase {
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
-  uint32_t queries = QUERY_HIERARCHY; /* the structure that queries between its steps walk: its own where it has one, QUERY_ of body_codes.h */
+  uint32_t queries = QUERY_HIERARCHY; /* the structure that queries between its steps walk: its own where it has one,
+                                         QUERY_ of body_codes.h */
 };
 
 std::span<const Broadphase> broadphases(); /* default first */
-const Broadphase &broadphase_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
+const Broadphase &
+broadphase_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
 
 /* What is kept from the last launch no longer holds. */
 void forget_kept(Memory &memory);
@@ -42,7 +44,8 @@ void find_pairs_by_stack(StepLaunches &step);
 void find_pairs_by_history(StepLaunches &step);
 void find_pairs_in_trees(StepLaunches &step);
 
-/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the curve. */
+/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the
+ * curve. */
 void find_extent(StepLaunches &step, bool hybrid = false);
 /* The small bodies, sorted by cells of their own extent: for the grid, and for queries. */
 void sort_into_cells(StepLaunches &step, bool bitonic = false);
@@ -50,10 +53,11 @@ void sort_into_cells(StepLaunches &step, bool bitonic = false);
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity);
 /* The list from pair_key, in any order. */
 void pairs_from_keys(StepLaunches &step);
-/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and becomes, a kept one. */
+/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and
+ * becomes, a kept one. */
 void build_hierarchy(StepLaunches &step, bool keep);
-/* The order and the links of its leaves, once they are sorted, and the boxes of its nodes. boxes: those that it is of; the ranges of the
- * leaves and of the nodes are entries of counts. */
+/* The order and the links of its leaves, once they are sorted, and the boxes of its nodes. boxes: those that it is of;
+ * the ranges of the leaves and of the nodes are entries of counts. */
 void link_leaves(StepLaunches &step, Buffer boxes);
 void raise_boxes(StepLaunches &step, Buffer boxes, uint32_t leaves = COUNT_LEAVES, uint32_t nodes = COUNT_HIERARCHY);
 

@@ -1,5 +1,6 @@
-/* bvh.cpp - a hierarchy of boxes over the bodies along a curve, walked by every body (shared/broadphase/hierarchy.h). Its order is kept
- * from step to step and its boxes are made anew, until too many bodies have left the places they were filed under. */
+/* bvh.cpp - a hierarchy of boxes over the bodies along a curve, walked by every body (shared/broadphase/hierarchy.h).
+ * Its order is kept from step to step and its boxes are made anew, until too many bodies have left the places they were
+ * filed under. */
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
 #include "shared/body_codes.h"

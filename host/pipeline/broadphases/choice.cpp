@@ -1,4 +1,5 @@
-/* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross (docs/results/). */
+/* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross
+ * (docs/results/). */
 #include "host/pipeline/broadphases/choice.h"
 
 #include <algorithm>
@@ -27,9 +28,13 @@ BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backen
   const bool on_device = backend.starts_with("cl");
   const size_t bodies = scene.bodies.size(), few = on_device ? few_bodies_on_a_device : few_bodies;
   if (bodies <= few) return {"brute-force", fmt::format("{} bodies; up to {} the fewest launches win", bodies, few)};
-  if (!on_device) return {"trees", fmt::format("{} bodies on a CPU, where to look again only for those that left their boxes saves most", bodies)};
+  if (!on_device)
+    return {
+        "trees",
+        fmt::format("{} bodies on a CPU, where to look again only for those that left their boxes saves most", bodies)};
   const size_t large = large_bodies_of(scene);
-  const std::string sizes = fmt::format("{} bodies, of which {} are more than {} times as large as the median", bodies, large, large_ratio);
+  const std::string sizes =
+      fmt::format("{} bodies, of which {} are more than {} times as large as the median", bodies, large, large_ratio);
   if (large > most_large_bodies) return {"trees", fmt::format("{}; a grid takes {} of them", sizes, most_large_bodies)};
   return {"grid", sizes};
 }

@@ -1,5 +1,5 @@
-/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what `--broadphase auto` means, and why. The bits are
- * those of every other choice. */
+/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what `--broadphase auto` means, and
+ * why. The bits are those of every other choice. */
 #pragma once
 
 #include <string>

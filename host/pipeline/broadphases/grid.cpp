@@ -22,7 +22,8 @@ void sort_into_cells(StepLaunches &step, bool bitonic)
   find_extent(step);
   step.run(Kernel::grid_keys);
   if (bitonic) bitonic_sort(step.launcher(), Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies);
-  else step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies, 0, std::bit_width(plan.capacity_cells));
+  else
+    step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_SMALL, plan.bodies, 0, std::bit_width(plan.capacity_cells));
   step.run_at_most(Kernel::grid_cells, plan.capacity_cells + 1, {COUNT_SMALL});
 }
 

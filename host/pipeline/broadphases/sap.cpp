@@ -1,4 +1,5 @@
-/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep.h) and as it ends (sweep_window.h). */
+/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep.h) and as it ends
+ * (sweep_window.h). */
 #include "host/pipeline/broadphases/broadphase.h"
 
 namespace tandem {

@@ -17,7 +17,8 @@ void sort_ends(StepLaunches &step)
 void find_changed_pairs(StepLaunches &step)
 {
   step.run(Kernel::count_changes);
-  exclusive_scan(step.launcher(), Buffer::share_start, Buffer::share_start, Buffer::scan_sums, COUNT_HALVES, 2 * step.plan().bodies);
+  exclusive_scan(step.launcher(), Buffer::share_start, Buffer::share_start, Buffer::scan_sums, COUNT_HALVES,
+                 2 * step.plan().bodies);
   step.run(Kernel::total_changes);
   step.run(Kernel::write_changes);
   sort_pair_keys(step, Buffer::pair_key, Buffer::pair_key_other, COUNT_CHANGES, step.plan().capacity_pairs);

@@ -1,7 +1,8 @@
-/* trees.cpp - a moving and a standing tree of fat boxes, and the pairs of those that are kept (shared/broadphase/fat_boxes.h, near_pairs.h).
+/* trees.cpp - a moving and a standing tree of fat boxes, and the pairs of those that are kept
+ * (shared/broadphase/fat_boxes.h, near_pairs.h).
  *
- * Where no body left its box, the kernels between plan_trees and the filter have next to nothing to run over: the device knows, the host
- * need not ask.
+ * Where no body left its box, the kernels between plan_trees and the filter have next to nothing to run over: the
+ * device knows, the host need not ask.
  */
 #include <bit>
 
@@ -30,7 +31,8 @@ void find_new_pairs(StepLaunches &step)
 {
   const StepPlan &plan = step.plan();
   step.run_at_most(Kernel::near_count, plan.bodies);
-  exclusive_scan(step.launcher(), Buffer::sweep_start, Buffer::sweep_start, Buffer::scan_sums, COUNT_CHANGED, plan.bodies);
+  exclusive_scan(step.launcher(), Buffer::sweep_start, Buffer::sweep_start, Buffer::scan_sums, COUNT_CHANGED,
+                 plan.bodies);
   step.run(Kernel::count_near_keys);
   step.run_at_most(Kernel::near_write, plan.bodies);
   sort_pair_keys(step, Buffer::near_key, Buffer::near_key_other, COUNT_NEAR_KEYS, NEAR_PER_PAIR * plan.capacity_pairs);

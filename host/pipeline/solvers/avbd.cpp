@@ -21,7 +21,8 @@ void color_bodies(StepLaunches &step)
   step.run(Kernel::body_color_starts);
 }
 
-/* Colours of the last step and one more; what lies behind them is solved in order by avbd_rest, with the same result. */
+/* Colours of the last step and one more; what lies behind them is solved in order by avbd_rest, with the same
+ * result. */
 uint32_t body_colors(const StepPlan &plan)
 {
   uint32_t colors = 0;
@@ -32,7 +33,8 @@ uint32_t body_colors(const StepPlan &plan)
 
 void launch_iteration(StepLaunches &step, uint32_t colors)
 {
-  for (uint32_t color = 0; color < colors; ++color) step.run_range(Kernel::avbd_bodies, BODY_COLOR_START + color, BODY_COLOR_START + color + 1);
+  for (uint32_t color = 0; color < colors; ++color)
+    step.run_range(Kernel::avbd_bodies, BODY_COLOR_START + color, BODY_COLOR_START + color + 1);
   step.run(Kernel::avbd_rest, {colors});
   step.run(Kernel::avbd_duals);
 }

@@ -1,7 +1,7 @@
 /* direct.cpp - the soft step with each small island solved to convergence after every pass of its rows.
  *
- * The iterative rows run over all constraints: they are what large islands get, and the first guess of small ones, which
- * solve_islands (host/pipeline/solvers/islands.h) then brings to the solution in double on the CPU. */
+ * The iterative rows run over all constraints: they are what large islands get, and the first guess of small ones,
+ * which solve_islands (host/pipeline/solvers/islands.h) then brings to the solution in double on the CPU. */
 #include "host/pipeline/solvers/islands.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
@@ -20,7 +20,8 @@ void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep
 {
   step.begin_substep(substep);
   warm_start_contacts(step, tail);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration) launch_pass(step, tail, PASS_BIASED);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration)
+    launch_pass(step, tail, PASS_BIASED);
   step.run(Kernel::solve_islands, {island_pass_biased});
   solve_rolling(step);
   step.run(Kernel::integrate_positions);

@@ -1,8 +1,8 @@
 /* island_solver.cpp - see island_solver.h. The one file of the library that uses Eigen.
  *
- * Results must be the same on every processor. Eigen's blocked products and factorisations cut their sums by the size of
- * the caches, so only its vectors are used, and elimination goes row by row. Manifolds come in an order in which neighbours
- * are near each other, so rows are short: a stack costs n b^2 instead of n^3.
+ * Results must be the same on every processor. Eigen's blocked products and factorisations cut their sums by the size
+ * of the caches, so only its vectors are used, and elimination goes row by row. Manifolds come in an order in which
+ * neighbours are near each other, so rows are short: a stack costs n b^2 instead of n^3.
  */
 #include "host/pipeline/solvers/island_solver.h"
 
@@ -17,17 +17,19 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/* Four points of a face carry one load in many ways, and floats have rounded each a little differently, so that no way fits
- * exactly. A compliance, relative to each row's own, chooses the way nearest to the guess: at rest, where the guess is the
- * answer, it gives no speed away. Much smaller, and rounding alone would decide which points bear. */
+/* Four points of a face carry one load in many ways, and floats have rounded each a little differently, so that no way
+ * fits exactly. A compliance, relative to each row's own, chooses the way nearest to the guess: at rest, where the
+ * guess is the answer, it gives no speed away. Much smaller, and rounding alone would decide which points bear. */
 constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* of the sums that make a speed */
 constexpr int rounds = 4, newton_limit = 16, first_sweeps = 32;
-/* Where plain Newton stalls: much compliance about what is known, which is easy, then less and less (proximal point method). */
+/* Where plain Newton stalls: much compliance about what is known, which is easy, then less and less (proximal point
+ * method). */
 constexpr double softened[] = {1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 
-/* Gaussian elimination with row pivots on rows that end early: [0, ends[i]). The solution replaces `right`; false: singular. */
+/* Gaussian elimination with row pivots on rows that end early: [0, ends[i]). The solution replaces `right`; false:
+ * singular. */
 bool eliminate(Matrix &a, Vector &right)
 {
   const Eigen::Index n = a.rows();
@@ -328,7 +330,8 @@ private:
     return true;
   }
 
-  /* Careful: no step may make the map larger. At a kink none can; there whole steps, however large, often find the way. */
+  /* Careful: no step may make the map larger. At a kink none can; there whole steps, however large, often find the
+   * way. */
   void newton(Vector &x, bool careful)
   {
     Vector change;

@@ -38,9 +38,9 @@ struct IslandResult {
   uint32_t newton_steps = 0, sweeps = 0;
 };
 
-/* Rows yield by a millionth of their own response to what their impulse differs from the guess. Converged: the residual is at
- * most 1e-9 of the largest speed of the problem. If neither method gets there, the impulses are the best seen, the guess
- * among them. Always finite if the problem is. */
+/* Rows yield by a millionth of their own response to what their impulse differs from the guess. Converged: the residual
+ * is at most 1e-9 of the largest speed of the problem. If neither method gets there, the impulses are the best seen,
+ * the guess among them. Always finite if the problem is. */
 IslandResult solve_island(IslandProblem &problem);
 
 } // namespace tandem

@@ -56,7 +56,8 @@ std::vector<row> read_planes(Memory &memory, Buffer buffer, size_t planes, size_
 Parameters read_parameters(Memory &memory)
 {
   Parameters parameters{};
-  const std::vector<double> reals = memory.read_reals(Buffer::parameters, offsetof(Parameters, features) / sizeof(double));
+  const std::vector<double> reals =
+      memory.read_reals(Buffer::parameters, offsetof(Parameters, features) / sizeof(double));
   std::memcpy(&parameters, reals.data(), reals.size() * sizeof(double));
   parameters.features = memory.read<uint32_t>(Buffer::parameters, 1, reals.size()).at(0);
   return parameters;
@@ -67,12 +68,14 @@ struct Rows {
   Rows(Memory &memory, const std::vector<uint32_t> &counts)
       : count(counts[COUNT_CONSTRAINTS]), stride(counts[CAPACITY_PAIRS]), parameters(read_parameters(memory)),
         a(memory.read<uint32_t>(Buffer::constraint_a, count)), b(memory.read<uint32_t>(Buffer::constraint_b, count)),
-        normal(read_rows(memory, Buffer::constraint_normal, count)), points(read_planes(memory, Buffer::constraint_points, 8, count, stride)),
+        normal(read_rows(memory, Buffer::constraint_normal, count)),
+        points(read_planes(memory, Buffer::constraint_points, 8, count, stride)),
         center(read_planes(memory, Buffer::constraint_center, 2, count, stride)),
         normal_impulse(read_rows(memory, Buffer::constraint_normal_impulse, count)),
         friction_impulse(read_rows(memory, Buffer::constraint_friction_impulse, count)),
         velocity(read_rows(memory, Buffer::solver_velocity, 2 * size_t{counts[COUNT_BODIES]})),
-        inertia(read_rows(memory, Buffer::solver_inertia, velocity.size())), delta(read_rows(memory, Buffer::solver_delta, velocity.size()))
+        inertia(read_rows(memory, Buffer::solver_inertia, velocity.size())),
+        delta(read_rows(memory, Buffer::solver_delta, velocity.size()))
   {
     slop = memory.read_reals(Buffer::constraint_slop, count);
     if (bounces()) bounce = read_planes(memory, Buffer::constraint_bounce, 2, count, stride);
@@ -155,11 +158,13 @@ std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &c
   return order;
 }
 
-/* Neighbours near each other, so that the matrix is narrow (Cuthill and McKee, 1969): from the far end of a first walk. */
+/* Neighbours near each other, so that the matrix is narrow (Cuthill and McKee, 1969): from the far end of a first
+ * walk. */
 std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32_t> &constraints)
 {
   const uint32_t end = walk_from(rows, constraints, 0).back();
-  return walk_from(rows, constraints, static_cast<size_t>(std::find(constraints.begin(), constraints.end(), end) - constraints.begin()));
+  return walk_from(rows, constraints,
+                   static_cast<size_t>(std::find(constraints.begin(), constraints.end(), end) - constraints.begin()));
 }
 
 /* --- rows of a constraint -------------------------------------------------------------------------- */
@@ -173,7 +178,8 @@ struct Row {
 
 class Island {
 public:
-  Island(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass) : rows_(rows), constraints_(constraints), pass_(pass)
+  Island(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t pass)
+      : rows_(rows), constraints_(constraints), pass_(pass)
   {
     for (uint32_t i : constraints_) add_constraint(i);
     problem_.rows = static_cast<uint32_t>(list_.size());
@@ -229,7 +235,8 @@ void Island::add_row(const Row &row, double bias)
 
 void Island::add_constraint(uint32_t i)
 {
-  const contact c = load_contact(rows_.a.data(), rows_.b.data(), rows_.normal.data(), rows_.velocity.data(), rows_.inertia.data(), i);
+  const contact c =
+      load_contact(rows_.a.data(), rows_.b.data(), rows_.normal.data(), rows_.velocity.data(), rows_.inertia.data(), i);
   const drift moved = load_drift(rows_.delta.data(), c);
   const arm_shift shift = shift_of_contact(c, moved.translation);
   const row old = rows_.normal_impulse[i];
@@ -248,7 +255,8 @@ void Island::add_constraint(uint32_t i)
   problem_.manifolds.push_back(manifold);
 }
 
-/* The law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid; false: it takes no part. */
+/* The law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid; false: it takes no
+ * part. */
 bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const
 {
   const Parameters &p = rows_.parameters;
@@ -286,7 +294,8 @@ void Island::add_normals(uint32_t i, const contact &c, const support &s, const d
 
 void Island::add_friction(uint32_t i, const contact &c, arm_shift shift)
 {
-  const vec3 arm_a = add(xyz(load_row(rows_.center.data(), i)), shift.a), arm_b = add(xyz(load_row(rows_.center.data(), rows_.count + i)), shift.b);
+  const vec3 arm_a = add(xyz(load_row(rows_.center.data(), i)), shift.a),
+             arm_b = add(xyz(load_row(rows_.center.data(), rows_.count + i)), shift.b);
   const tangents t = tangents_of(c.normal);
   row &kept = rows_.friction_impulse[i];
   add_row({c.a, c.b, t.first, outer(arm_a, t.first), outer(arm_b, t.first), &kept.x}, 0);
@@ -296,7 +305,8 @@ void Island::add_friction(uint32_t i, const contact &c, arm_shift shift)
 double Island::speed_of(const Row &r) const
 {
   const motion one = load_motion(rows_.velocity.data(), r.a), other = load_motion(rows_.velocity.data(), r.b);
-  return inner(r.direction, subtract(other.linear, one.linear)) + inner(r.turn_b, other.angular) - inner(r.turn_a, one.angular);
+  return inner(r.direction, subtract(other.linear, one.linear)) + inner(r.turn_b, other.angular) -
+         inner(r.turn_a, one.angular);
 }
 
 /* W and the speeds without any impulse: those of now less what the present impulses give. */
@@ -308,7 +318,8 @@ void Island::assemble()
     for (const bool second : {false, true}) {
       const uint32_t body = second ? list_[r].b : list_[r].a;
       if (!rows_.moves(body)) continue;
-      const vec3 turn = symmetric_times(load_inertia(rows_.inertia.data(), body), second ? list_[r].turn_b : list_[r].turn_a);
+      const vec3 turn =
+          symmetric_times(load_inertia(rows_.inertia.data(), body), second ? list_[r].turn_b : list_[r].turn_a);
       for (size_t s = r; s < n; ++s) {
         if (list_[s].a != body && list_[s].b != body) continue;
         const bool other = list_[s].b == body;
@@ -369,7 +380,8 @@ Outcome solve_one(Rows &rows, const std::vector<uint32_t> &constraints, uint32_t
   return island.solve() ? Outcome::solved : Outcome::stalled;
 }
 
-void write_counts(Memory &memory, const std::vector<Outcome> &outcomes, const std::vector<std::vector<uint32_t>> &islands, uint32_t stalled_before)
+void write_counts(Memory &memory, const std::vector<Outcome> &outcomes,
+                  const std::vector<std::vector<uint32_t>> &islands, uint32_t stalled_before)
 {
   uint32_t values[3] = {0, 0, stalled_before};
   for (size_t k = 0; k < islands.size(); ++k) {
@@ -391,8 +403,10 @@ void solve_islands(const Launch &launch, Memory &memory)
   const std::vector<std::vector<uint32_t>> islands = find_islands(rows);
   std::vector<Outcome> outcomes(islands.size(), Outcome::left);
   minicl::settle_threads();
-  tbb::parallel_for(size_t{0}, islands.size(), [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); });
-  if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; })) rows.write(memory);
+  tbb::parallel_for(size_t{0}, islands.size(),
+                    [&](size_t k) { outcomes[k] = solve_one(rows, islands[k], launch.values.at(0)); });
+  if (std::any_of(outcomes.begin(), outcomes.end(), [](Outcome outcome) { return outcome != Outcome::left; }))
+    rows.write(memory);
   write_counts(memory, outcomes, islands, counts[COUNT_DIRECT_STALLED]);
 }
 

@@ -6,9 +6,10 @@
  *         |  /          |
  *   ======[c]===========|=====
  *
- * It runs after a pass of the iterative rows (shared/solve/contact.h) and solves the same rows: normals, one cone at the
- * centre of a manifold, one twist. Contacts are rigid here: the soft rows give way under a heavy load, these do not; the
- * speed that pushes penetration out is theirs. Islands of more than most_island_points keep what the rows left.
+ * It runs after a pass of the iterative rows (shared/solve/contact.h) and solves the same rows: normals, one cone at
+ * the centre of a manifold, one twist. Contacts are rigid here: the soft rows give way under a heavy load, these do
+ * not; the speed that pushes penetration out is theirs. Islands of more than most_island_points keep what the rows
+ * left.
  */
 #pragma once
 
@@ -21,7 +22,8 @@ enum : uint32_t { island_pass_relaxing = 0, island_pass_biased = 1, island_pass_
 
 constexpr uint32_t most_island_points = 96;
 
-/* A stage of form HOST. Islands run in parallel; each is solved by one task, so the result does not depend on threads. */
+/* A stage of form HOST. Islands run in parallel; each is solved by one task, so the result does not depend on
+ * threads. */
 void solve_islands(const Launch &launch, Memory &memory);
 
 } // namespace tandem

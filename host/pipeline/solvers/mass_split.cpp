@@ -56,7 +56,8 @@ void MassSplit::join_parts()
 {
   const bool trees = step_.plan().colors > COLOR_LIMIT;
   if (trees)
-    for (Kernel kernel : {Kernel::split_sum, Kernel::split_join}) step_.run_range(kernel, COUNT_ZERO, incidence_count(first_color_));
+    for (Kernel kernel : {Kernel::split_sum, Kernel::split_join})
+      step_.run_range(kernel, COUNT_ZERO, incidence_count(first_color_));
   step_.run(Kernel::split_apply, {trees ? 1u : 0u});
 }
 

@@ -21,8 +21,9 @@ public:
   static MassSplit all_of(StepLaunches &step) { return {step, 0, true}; }
   static MassSplit tail_of(StepLaunches &step) { return {step, COLOR_TAIL, step.plan().colors > COLOR_LIMIT}; }
 
-  /* How often colours and tail shall take turns in an iteration. What rests on a body of many contacts is spread over both,
-   * and one turn leaves them at odds: 200 kg of boxes on a slab of 20 kg then jitter for ever, at twice the depth. */
+  /* How often colours and tail shall take turns in an iteration. What rests on a body of many contacts is spread over
+   * both, and one turn leaves them at odds: 200 kg of boxes on a slab of 20 kg then jitter for ever, at twice the
+   * depth. */
   uint32_t turns() const { return launched_ ? 2 : 1; }
 
   /* Lists and masses; before any other pass. */
@@ -34,7 +35,9 @@ public:
   void apply_restitution();
 
 private:
-  MassSplit(StepLaunches &step, uint32_t first_color, bool launched) : step_(step), first_color_(first_color), launched_(launched) {}
+  MassSplit(StepLaunches &step, uint32_t first_color, bool launched)
+      : step_(step), first_color_(first_color), launched_(launched)
+  {}
   void run_rows(Kernel kernel, const std::vector<uint32_t> &values = {});
   void join_parts();
 

@@ -7,13 +7,15 @@
 namespace tandem {
 namespace {
 
-/* Of constraints that have a colour: those of the tail are accelerated in a way of their own (shared/solve/mass_split.h). */
+/* Of constraints that have a colour: those of the tail are accelerated in a way of their own
+ * (shared/solve/mass_split.h). */
 constexpr uint32_t colored = COLOR_START + COLOR_TAIL;
 
 void go_on_along_direction(StepLaunches &step, bool first)
 {
   step.run_range(Kernel::nncg_change, COUNT_ZERO, colored);
-  reduce_real(step.launcher(), Reduction::sum, Buffer::nncg_square, Buffer::nncg_partial, Buffer::nncg_sum, colored, step.plan().capacity_pairs);
+  reduce_real(step.launcher(), Reduction::sum, Buffer::nncg_square, Buffer::nncg_partial, Buffer::nncg_sum, colored,
+              step.plan().capacity_pairs);
   step.run(Kernel::nncg_beta, {first ? 1u : 0u});
   step.for_each_color(Kernel::nncg_advance);
 }

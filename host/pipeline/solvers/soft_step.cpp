@@ -1,4 +1,5 @@
-/* soft_step.cpp - the default solver: small substeps, each solved softly, moved, and relaxed; see shared/solve/contact.h. */
+/* soft_step.cpp - the default solver: small substeps, each solved softly, moved, and relaxed; see
+ * shared/solve/contact.h. */
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
@@ -13,8 +14,8 @@ void solve(StepLaunches &step, MassSplit &tail, uint32_t pass)
   solve_rolling(step);
 }
 
-/* The first substep starts from the impulses that the last step's contacts carried, and is solved once more for that: it
- * takes a quarter off the penetration of a pile, at an eighth of what another substep costs (docs/departures.md). */
+/* The first substep starts from the impulses that the last step's contacts carried, and is solved once more for that:
+ * it takes a quarter off the penetration of a pile, at an eighth of what another substep costs (docs/departures.md). */
 uint32_t passes_of(const StepLaunches &step, const MassSplit &tail, uint32_t substep)
 {
   return (step.settings().iterations + (substep == 0 ? 1 : 0)) * tail.turns();
@@ -38,7 +39,8 @@ void launch_soft_step(StepLaunches &step)
 {
   MassSplit tail = MassSplit::tail_of(step);
   tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_soft_step_substep(step, tail, substep);
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
+    launch_soft_step_substep(step, tail, substep);
   apply_restitution(step, tail);
 }
 

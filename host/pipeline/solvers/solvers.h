@@ -2,7 +2,8 @@
  *
  * A solver runs between prepare_contacts, which makes the constraints, and check_bodies, and leaves solver_velocity,
  * solver_delta and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
- * constraint_friction_impulse, for the next step's warm start. Each is one small file here over row kernels of shared/solve/. */
+ * constraint_friction_impulse, for the next step's warm start. Each is one small file here over row kernels of
+ * shared/solve/. */
 #pragma once
 
 #include <string>
@@ -16,7 +17,8 @@ struct Solver {
   const char *name, *what;
   uint32_t substeps, iterations; /* where the user names none */
   void (*launch)(StepLaunches &step);
-  void (*commit)(StepLaunches &step) = nullptr; /* what it keeps for the next step, once the step is known to be whole */
+  void (*commit)(StepLaunches &step) =
+      nullptr; /* what it keeps for the next step, once the step is known to be whole */
 };
 
 /* Default first. */
@@ -36,8 +38,9 @@ void launch_direct(StepLaunches &step);
 
 class MassSplit;
 
-/* What several solvers launch: the impulses of the last step or substep, applied once more; one sweep of pgs, friction after all
- * normals (pass: of shared/solve/pass.h); restitution and the torques of rolling friction, nothing in a scene without. */
+/* What several solvers launch: the impulses of the last step or substep, applied once more; one sweep of pgs, friction
+ * after all normals (pass: of shared/solve/pass.h); restitution and the torques of rolling friction, nothing in a scene
+ * without. */
 void warm_start_contacts(StepLaunches &step, MassSplit &tail);
 void launch_pgs_sweep(StepLaunches &step, MassSplit &tail, uint32_t pass);
 void apply_restitution(StepLaunches &step, MassSplit &tail);

@@ -1,5 +1,6 @@
-/* address_sanitizer.h - makes an access to the bytes by which an allocation is longer than what it holds an error, as one beyond
- * the allocation is: buffers are rounded up to whole pages, which would hide an overrun. No code in other builds.
+/* address_sanitizer.h - makes an access to the bytes by which an allocation is longer than what it holds an error, as
+ * one beyond the allocation is: buffers are rounded up to whole pages, which would hide an overrun. No code in other
+ * builds.
  */
 #pragma once
 

@@ -7,7 +7,8 @@ namespace tandem {
 
 void Backend::run_host_stage(const Launch &launch, Memory &)
 {
-  throw std::logic_error(std::string("kernel ") + row_of(launch.kernel).name + " runs on the host alone, not on " + name());
+  throw std::logic_error(std::string("kernel ") + row_of(launch.kernel).name + " runs on the host alone, not on " +
+                         name());
 }
 
 } // namespace tandem

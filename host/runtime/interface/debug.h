@@ -1,8 +1,8 @@
 /* debug.h - where the simulation is, for debuggers.
  *
- * `tandem diff` prints a gdb line that stops in one item of one kernel of one step; its condition reads this variable. The launcher
- * sets it in the thread that launches, and MiniCL in every thread that takes part, so that worlds which step at the same time do
- * not speak for each other. Volatile, so that the compiler keeps every write.
+ * `tandem diff` prints a gdb line that stops in one item of one kernel of one step; its condition reads this variable.
+ * The launcher sets it in the thread that launches, and MiniCL in every thread that takes part, so that worlds which
+ * step at the same time do not speak for each other. Volatile, so that the compiler keeps every write.
  */
 #pragma once
 

@@ -1,7 +1,9 @@
-/* faults.h - where tests let something fail that fails on a full machine alone: the n-th allocation, build, launch or move of bytes.
+/* faults.h - where tests let something fail that fails on a full machine alone: the n-th allocation, build, launch or
+ * move of bytes.
  *
- * After the out-of-memory tests of SQLite. Each place asks strikes() before it does its work, and fails as if the machine had refused;
- * tests/host/runtime/faults_test.cpp lets them fail one by one. Without a hook that is one look at a pointer.
+ * After the out-of-memory tests of SQLite. Each place asks strikes() before it does its work, and fails as if the
+ * machine had refused; tests/host/runtime/faults_test.cpp lets them fail one by one. Without a hook that is one look at
+ * a pointer.
  */
 #pragma once
 

@@ -47,8 +47,9 @@ const BufferRow &row_of(Buffer buffer) { return buffer_rows[index_of(buffer)]; }
 
 const char *name_of(Stage stage)
 {
-  static const char *const names[stage_count] = {"parallel", "broadphase", "midphase", "narrowphase", "batching",
-                                                 "setup",    "solve",      "events",   "integrate",   "queries", "sweeps", "problem"};
+  static const char *const names[stage_count] = {"parallel",  "broadphase", "midphase", "narrowphase",
+                                                 "batching",  "setup",      "solve",    "events",
+                                                 "integrate", "queries",    "sweeps",   "problem"};
   return names[static_cast<size_t>(stage)];
 }
 

@@ -37,14 +37,55 @@ constexpr size_t buffer_count = 0
 
 enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
-enum class Stage : uint8_t { parallel, broadphase, midphase, narrowphase, batching, setup, solve, events, integrate, queries, sweeps, problem };
+enum class Stage : uint8_t {
+  parallel,
+  broadphase,
+  midphase,
+  narrowphase,
+  batching,
+  setup,
+  solve,
+  events,
+  integrate,
+  queries,
+  sweeps,
+  problem
+};
 constexpr size_t stage_count = 12;
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
-  NOTHING, ONE, MATERIALS, HULLS, HULL_VERTICES, HULL_FACES, HULL_CORNERS, HULL_EDGES, HULL_STRIPS, HULL_LINKS, TREES, TREE_NODES, TREE_LEAVES,
-  TREE_SUBTREES, MESH_VERTICES, MESH_TRIANGLES, SHAPES, BODIES, BODIES_PLUS_ONE, PAIRS, PAIRS_PLUS_ONE, EVENTS, CELLS, LEAVES, LEAF_TILES, NEAR_PAIRS, TILES, SORTABLE, SORT_HISTOGRAM,
-  SCAN_SUMS, REDUCE_PARTIAL
+  NOTHING,
+  ONE,
+  MATERIALS,
+  HULLS,
+  HULL_VERTICES,
+  HULL_FACES,
+  HULL_CORNERS,
+  HULL_EDGES,
+  HULL_STRIPS,
+  HULL_LINKS,
+  TREES,
+  TREE_NODES,
+  TREE_LEAVES,
+  TREE_SUBTREES,
+  MESH_VERTICES,
+  MESH_TRIANGLES,
+  SHAPES,
+  BODIES,
+  BODIES_PLUS_ONE,
+  PAIRS,
+  PAIRS_PLUS_ONE,
+  EVENTS,
+  CELLS,
+  LEAVES,
+  LEAF_TILES,
+  NEAR_PAIRS,
+  TILES,
+  SORTABLE,
+  SORT_HISTOGRAM,
+  SCAN_SUMS,
+  REDUCE_PARTIAL
 };
 
 enum class Element : uint8_t { row, real, uint, ulong, Parameters };
@@ -62,7 +103,7 @@ struct KernelRow {
   const char *name;
   Stage stage;
   Form form;
-  uint32_t items; /* entry of counts that ends the range, or items_given */
+  uint32_t items;   /* entry of counts that ends the range, or items_given */
   uint32_t feature; /* 0: always */
   std::span<const Argument> arguments;
 };
@@ -71,8 +112,8 @@ struct BufferRow {
   const char *name;
   Element element;
   Capacity capacity;
-  uint32_t per_item; /* elements */
-  uint32_t feature;  /* 0: always */
+  uint32_t per_item;  /* elements */
+  uint32_t feature;   /* 0: always */
   const char *fields; /* names of the scalars of one item, separated by spaces */
 };
 

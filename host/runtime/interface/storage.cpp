@@ -16,7 +16,8 @@
 namespace tandem {
 namespace {
 
-/* Of a million bodies searches read here and there in tens of megabytes: with small pages most of it is looking up where they are. */
+/* Of a million bodies searches read here and there in tens of megabytes: with small pages most of it is looking up
+ * where they are. */
 constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
 
 class HostStorage : public Storage {

@@ -12,9 +12,9 @@ class Storage {
 public:
   virtual ~Storage() = default;
   virtual const char *what() const = 0; /* for messages: "the host's memory" */
-  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. Sizes and offsets
-   * are those of the host's copy, whose numbers are floats, also where a storage keeps wider ones. std::bad_alloc or
-   * std::runtime_error where there is no room. */
+  /* Zero-filled; with host_memory (the buffer's bytes on the host, for devices that share them) those bytes. Sizes and
+   * offsets are those of the host's copy, whose numbers are floats, also where a storage keeps wider ones.
+   * std::bad_alloc or std::runtime_error where there is no room. */
   virtual void *allocate(Element element, size_t bytes, void *host_memory) = 0;
   virtual void release(void *handle) noexcept = 0;
   virtual void write(void *handle, size_t offset, const void *from, size_t bytes) = 0;

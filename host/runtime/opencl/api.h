@@ -5,10 +5,10 @@
 #define CL_HPP_TARGET_OPENCL_VERSION 120
 #define CL_HPP_MINIMUM_OPENCL_VERSION 120
 #define CL_HPP_ENABLE_EXCEPTIONS
-#include <CL/opencl.hpp>
-
 #include <stdexcept>
 #include <string>
+
+#include <CL/opencl.hpp>
 
 #include "host/runtime/interface/faults.h"
 

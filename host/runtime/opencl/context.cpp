@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "host/runtime/interface/floating_point.h"
 #include "host/runtime/opencl/installed_drivers.h"
 #include "host/runtime/opencl/probe.h"
-#include "host/runtime/interface/floating_point.h"
 #include "shared/platform.h"
 
 namespace tandem::opencl {
@@ -42,7 +42,8 @@ std::string why_unusable(const cl::Device &device)
   if (!device.getInfo<CL_DEVICE_ENDIAN_LITTLE>()) return "it is big-endian";
   const cl_ulong local_bytes = device.getInfo<CL_DEVICE_LOCAL_MEM_SIZE>();
   if (local_bytes < LOCAL_WORDS * sizeof(cl_uint))
-    return fmt::format("it has {} bytes of local memory, and {} are needed", local_bytes, LOCAL_WORDS * sizeof(cl_uint));
+    return fmt::format("it has {} bytes of local memory, and {} are needed", local_bytes,
+                       LOCAL_WORDS * sizeof(cl_uint));
   return {};
 }
 
@@ -55,7 +56,8 @@ std::string what_it_lacks(cl_device_fp_config config)
   return fmt::format("{}", fmt::join(missing, ", "));
 }
 
-Candidate describe(const cl::Platform &platform, const cl::Device &device, uint32_t platform_index, uint32_t device_index)
+Candidate describe(const cl::Platform &platform, const cl::Device &device, uint32_t platform_index,
+                   uint32_t device_index)
 {
   Candidate candidate;
   candidate.device = device;
@@ -76,8 +78,8 @@ Candidate describe(const cl::Platform &platform, const cl::Device &device, uint3
 
 [[noreturn]] void fail_to_open(const DeviceInfo &info, const cl::Error &error)
 {
-  throw DeviceError(fmt::format("OpenCL device {} ({}) does not open: {} failed with {}", info.device_name, info.platform_name, error.what(),
-                                error_name(error.err())));
+  throw DeviceError(fmt::format("OpenCL device {} ({}) does not open: {} failed with {}", info.device_name,
+                                info.platform_name, error.what(), error_name(error.err())));
 }
 
 /* Threads that a driver starts here inherit the floating-point environment, so it is set first. */

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "host/runtime/opencl/embedded_kernels.h"
 #include "host/runtime/opencl/api.h"
 #include "host/runtime/opencl/device.h"
+#include "host/runtime/opencl/embedded_kernels.h"
 
 namespace tandem::opencl {
 

@@ -7,16 +7,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/runtime/opencl/device_backend.h"
-#include "host/runtime/opencl/context.h"
 #include <tandem/error.h>
+
+#include "host/runtime/opencl/context.h"
+#include "host/runtime/opencl/device_backend.h"
 
 namespace tandem::opencl {
 namespace {
 
 std::string lower(std::string text)
 {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
@@ -57,17 +59,21 @@ void put_best_first(std::vector<Candidate> &candidates)
                    [&](const Candidate &a, const Candidate &b) { return rank(a) < rank(b); });
 }
 
-[[noreturn]] void refuse_unknown(const std::string &text, const std::string &choice, const std::vector<Candidate> &candidates)
+[[noreturn]] void refuse_unknown(const std::string &text, const std::string &choice,
+                                 const std::vector<Candidate> &candidates)
 {
   cl_uint platforms = 0;
   if (clGetPlatformIDs(0, nullptr, &platforms) != CL_SUCCESS || platforms == 0)
     throw InputError(fmt::format("backend '{}': no OpenCL platform is installed: install a driver, such as the package "
-                                 "pocl-opencl-icd, or use tbb", text));
+                                 "pocl-opencl-icd, or use tbb",
+                                 text));
   if (candidates.empty())
-    throw InputError(fmt::format("backend '{}': the {} installed OpenCL platform(s) have no device; use tbb", text, platforms));
+    throw InputError(
+        fmt::format("backend '{}': the {} installed OpenCL platform(s) have no device; use tbb", text, platforms));
   std::vector<std::string> titles;
   for (const Candidate &candidate : candidates) titles.push_back(title(candidate.info));
-  throw InputError(fmt::format("backend '{}': no OpenCL device is '{}'; there is {}", text, choice, fmt::join(titles, ", ")));
+  throw InputError(
+      fmt::format("backend '{}': no OpenCL device is '{}'; there is {}", text, choice, fmt::join(titles, ", ")));
 }
 
 std::vector<Candidate> candidates_for(const std::string &text)

@@ -22,8 +22,8 @@ struct DeviceInfo {
   std::string reason; /* why not; or, of a supported device, what only its self-test vouches for */
 };
 
-/* Every device of every platform, each with the verdict of its self-test. Empty without any platform. DeviceError (a std::runtime_error) where
- * a driver does not survive the question. */
+/* Every device of every platform, each with the verdict of its self-test. Empty without any platform. DeviceError (a
+ * std::runtime_error) where a driver does not survive the question. */
 std::vector<DeviceInfo> list_devices();
 
 /* Empty if this program's own arithmetic, which MiniCL runs and devices are measured by, rounds as IEEE 754 says;

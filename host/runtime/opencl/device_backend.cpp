@@ -15,26 +15,27 @@
 
 #include <fmt/format.h>
 
+#include <tandem/error.h>
+
+#include "host/runtime/interface/floating_point.h"
 #include "host/runtime/opencl/program.h"
 #include "host/runtime/opencl/storage.h"
-#include <tandem/error.h>
-#include "host/runtime/interface/floating_point.h"
 #include "shared/platform.h"
 
 namespace tandem::opencl {
 namespace {
 
-constexpr size_t items_per_group = 64;   /* ITEM and LANES kernels */
-constexpr size_t items_per_tile = 256;   /* GROUP kernels */
-constexpr size_t items_at_most = 256;    /* of a group that is made larger */
-constexpr size_t most_items = 1u << 22;  /* more items than this stride */
+constexpr size_t items_per_group = 64;  /* ITEM and LANES kernels */
+constexpr size_t items_per_tile = 256;  /* GROUP kernels */
+constexpr size_t items_at_most = 256;   /* of a group that is made larger */
+constexpr size_t most_items = 1u << 22; /* more items than this stride */
 constexpr uint32_t launches_per_flush = 32;
 constexpr size_t most_events = 4096;
 
 struct BuiltKernel {
   cl::Kernel kernel;
   size_t group_size = 0, widest_group = 0; /* a launch of many items may take larger groups */
-  std::vector<uint64_t> arguments; /* what was set last: a buffer's serial, or value_tag | value */
+  std::vector<uint64_t> arguments;         /* what was set last: a buffer's serial, or value_tag | value */
 };
 
 constexpr uint64_t value_tag = uint64_t{1} << 63;
@@ -90,7 +91,8 @@ public:
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
     if (!current_ || !current_->kernels[index_of(launch.kernel)].kernel())
-      throw std::logic_error(fmt::format("kernel {} was launched on {} before prepare", row_of(launch.kernel).name, name_));
+      throw std::logic_error(
+          fmt::format("kernel {} was launched on {} before prepare", row_of(launch.kernel).name, name_));
     BuiltKernel &built = current_->kernels[index_of(launch.kernel)];
     set_arguments(built, row_of(launch.kernel), launch, bound, counts);
     const size_t group_size = group_size_for(built, launch.expected);
@@ -137,7 +139,9 @@ private:
     cl::Program &program = programs_[{embedded.name, read}];
     BuiltKernel &built = current_->kernels[index_of(kernel)];
     try {
-      if (!program()) program = build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read) + registers_for(row.stage, read));
+      if (!program())
+        program =
+            build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read) + registers_for(row.stage, read));
       fail_where_a_test_wants(faults::Site::build, "clCreateKernel");
       cl::Kernel created(program, row.name);
       const size_t wanted = group_size_ ? group_size_ : row.form == Form::group ? items_per_tile : items_per_group;
@@ -151,17 +155,20 @@ private:
     }
   }
 
-  /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a million boxes
-   * takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with any limit; docs/results. */
+  /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a
+   * million boxes takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with
+   * any limit; docs/results. */
   std::string registers_for(Stage stage, uint32_t features) const
   {
-    const bool waits = stage == Stage::setup || stage == Stage::integrate || (stage == Stage::narrowphase && !(features & FEATURE_CONVEX));
+    const bool waits = stage == Stage::setup || stage == Stage::integrate ||
+                       (stage == Stage::narrowphase && !(features & FEATURE_CONVEX));
     return waits && context_.info.platform_name.starts_with("NVIDIA") ? " -cl-nv-maxrregcount=128" : "";
   }
 
-  /* Manifolds of hulls of 32 vertices a second on an H200: 34 M in groups of 64, 40 M in 128, 52 M in 256; docs/results. Warps of one group
-   * begin together, and so probably fetch the same code. Items of batching are so short that starting their groups takes most of the time: a
-   * million boxes in groups of 64, 128 and 256 take 0.45, 0.29 and 0.20 ms. */
+  /* Manifolds of hulls of 32 vertices a second on an H200: 34 M in groups of 64, 40 M in 128, 52 M in 256;
+   * docs/results. Warps of one group begin together, and so probably fetch the same code. Items of batching are so
+   * short that starting their groups takes most of the time: a million boxes in groups of 64, 128 and 256 take 0.45,
+   * 0.29 and 0.20 ms. */
   bool takes_large_groups(const KernelRow &row) const
   {
     const bool gains = row.stage == Stage::narrowphase || row.stage == Stage::batching || row.stage == Stage::parallel;
@@ -179,14 +186,16 @@ private:
   static size_t group_count(Form form, uint32_t expected, size_t group_size)
   {
     const size_t items = std::max<size_t>(expected, 1);
-    return form == Form::group ? (items + TILE - 1) / TILE : (std::min(items, most_items) + group_size - 1) / group_size;
+    return form == Form::group ? (items + TILE - 1) / TILE
+                               : (std::min(items, most_items) + group_size - 1) / group_size;
   }
 
-  void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch, const std::vector<BoundArgument> &bound,
-                     void *counts)
+  void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch,
+                     const std::vector<BoundArgument> &bound, void *counts)
   {
     const cl_uint n = static_cast<cl_uint>(row.arguments.size());
-    if (bound.size() != n) throw std::logic_error(fmt::format("kernel {} takes {} arguments, not {}", row.name, n, bound.size()));
+    if (bound.size() != n)
+      throw std::logic_error(fmt::format("kernel {} takes {} arguments, not {}", row.name, n, bound.size()));
     for (cl_uint i = 0; i < n; ++i)
       if (row.arguments[i].kind == Argument::Kind::value) set_value(built, row, i, bound[i].value);
       else set_buffer(built, row, i, bound[i].handle);
@@ -204,10 +213,12 @@ private:
   {
     set_if_changed(built, row, index, value_tag | value, sizeof value, &value);
   }
-  void set_if_changed(BuiltKernel &built, const KernelRow &row, cl_uint index, uint64_t identity, size_t bytes, const void *value)
+  void set_if_changed(BuiltKernel &built, const KernelRow &row, cl_uint index, uint64_t identity, size_t bytes,
+                      const void *value)
   {
     if (built.arguments[index] == identity) return;
-    const cl_int code = code_of(faults::Site::launch, [&] { return clSetKernelArg(built.kernel(), index, bytes, value); });
+    const cl_int code =
+        code_of(faults::Site::launch, [&] { return clSetKernelArg(built.kernel(), index, bytes, value); });
     if (code != CL_SUCCESS) fail(row, fmt::format("argument {}", index).c_str(), code);
     built.arguments[index] = identity;
   }
@@ -237,9 +248,9 @@ private:
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: as each has it */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  std::array<std::optional<uint32_t>, stage_count> readable_; /* by stage: the features that its program reads */
+  std::array<std::optional<uint32_t>, stage_count> readable_;        /* by stage: the features that its program reads */
   std::map<std::pair<std::string, uint32_t>, cl::Program> programs_; /* by name, and the features it reads */
-  std::map<uint32_t, Build> builds_; /* by features */
+  std::map<uint32_t, Build> builds_;                                 /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;

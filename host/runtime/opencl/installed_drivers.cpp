@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <dlfcn.h>
-
 #include <fmt/format.h>
 
 namespace tandem::opencl {
@@ -44,7 +43,8 @@ std::string why_it_does_not_load(const files::path &name)
   std::ifstream file(name);
   std::string library;
   errno = 0;
-  if (!std::getline(file, library)) return fmt::format("{}: cannot read: {}", name.string(), std::strerror(errno ? errno : EIO));
+  if (!std::getline(file, library))
+    return fmt::format("{}: cannot read: {}", name.string(), std::strerror(errno ? errno : EIO));
   if (::dlopen(library.c_str(), RTLD_LAZY | RTLD_LOCAL)) return {};
   const char *why = ::dlerror();
   return fmt::format("{}: {}", name.string(), why ? why : library);
@@ -57,7 +57,8 @@ std::string why_drivers_do_not_load()
   std::error_code error;
   const files::path place = where_drivers_are_named();
   const std::vector<files::path> names = names_of_drivers(place, error);
-  if (error && error != std::errc::no_such_file_or_directory) return fmt::format("{}: cannot read: {}", place.string(), error.message());
+  if (error && error != std::errc::no_such_file_or_directory)
+    return fmt::format("{}: cannot read: {}", place.string(), error.message());
   for (const files::path &name : names)
     if (const std::string why = why_it_does_not_load(name); !why.empty()) return why;
   return {};

@@ -21,7 +21,7 @@
 namespace tandem::opencl {
 namespace {
 
-constexpr char came_back = 'y'; /* what the child's answer begins with */
+constexpr char came_back = 'y';                           /* what the child's answer begins with */
 constexpr int usual_timeout = 60, longest_timeout = 3600; /* s; several GPUs that sleep take seconds each to wake */
 
 int timeout_seconds()
@@ -34,7 +34,8 @@ int timeout_seconds()
 /* What a dying driver says, and leaves, is nothing to the user of the parent. */
 void make_quiet()
 {
-  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGHUP}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGHUP})
+    std::signal(signal, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   const int nowhere = ::open("/dev/null", O_WRONLY);

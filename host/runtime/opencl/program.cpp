@@ -23,7 +23,8 @@ std::string all_options(const DeviceContext &context, const std::string &options
 }
 
 /* A binary that its driver no longer takes is not an error: the source is still here. */
-std::optional<cl::Program> build_cached(const DeviceContext &context, const std::string &key, const std::string &options)
+std::optional<cl::Program> build_cached(const DeviceContext &context, const std::string &key,
+                                        const std::string &options)
 {
   const std::optional<Binary> binary = load_binary(key);
   if (!binary) return std::nullopt;
@@ -42,8 +43,8 @@ cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgra
   fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithSource");
   cl::Program program(context.context, std::string(embedded.source));
   const cl_device_id device = context.device();
-  const cl_int result =
-      code_of(faults::Site::build, [&] { return clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr); });
+  const cl_int result = code_of(
+      faults::Site::build, [&] { return clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr); });
   if (result == CL_SUCCESS) return program;
   std::string log;
   try {
@@ -51,8 +52,8 @@ cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgra
   } catch (const cl::Error &) {
     log = "(the driver keeps no log)";
   }
-  throw BuildError(fmt::format("cl/{}.cl does not build on {} with '{}': {}\n{}", embedded.name, context.info.device_name,
-                               options, error_name(result), log));
+  throw BuildError(fmt::format("cl/{}.cl does not build on {} with '{}': {}\n{}", embedded.name,
+                               context.info.device_name, options, error_name(result), log));
 }
 
 Binary binary_of(const cl::Program &program)
@@ -61,7 +62,8 @@ Binary binary_of(const cl::Program &program)
   if (clGetProgramInfo(program(), CL_PROGRAM_BINARY_SIZES, sizeof bytes, &bytes, nullptr) != CL_SUCCESS) return {};
   Binary binary(bytes);
   unsigned char *place = binary.data();
-  if (bytes == 0 || clGetProgramInfo(program(), CL_PROGRAM_BINARIES, sizeof place, &place, nullptr) != CL_SUCCESS) return {};
+  if (bytes == 0 || clGetProgramInfo(program(), CL_PROGRAM_BINARIES, sizeof place, &place, nullptr) != CL_SUCCESS)
+    return {};
   return binary;
 }
 
@@ -85,7 +87,8 @@ uint32_t features_read(const EmbeddedProgram &program)
   const auto is_named = [&](const std::string &name) {
     const auto goes_on = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
     size_t at = source.find(name);
-    while (at != source.npos && at + name.size() < source.size() && goes_on(source[at + name.size()])) at = source.find(name, at + 1);
+    while (at != source.npos && at + name.size() < source.size() && goes_on(source[at + name.size()]))
+      at = source.find(name, at + 1);
     return at != source.npos;
   };
   uint32_t features = 0;

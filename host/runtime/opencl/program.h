@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "host/runtime/opencl/embedded_kernels.h"
 #include "host/runtime/opencl/context.h"
+#include "host/runtime/opencl/embedded_kernels.h"
 
 namespace tandem::opencl {
 
@@ -13,7 +13,8 @@ namespace tandem::opencl {
 const EmbeddedProgram &embedded_program(const std::string &name);
 
 /* Built with the context's options and these, from the cache where it can be. BuildError carries the compiler's log. */
-cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options = "");
+cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program,
+                          const std::string &options = "");
 
 /* FEATURE_ bits that a program asks for: builds that differ in others alone are one. */
 uint32_t features_read(const EmbeddedProgram &program);

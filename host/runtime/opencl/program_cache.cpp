@@ -45,7 +45,8 @@ files::path cache_directory()
 /* Standard output belongs to results (--json -), so warnings go to standard error. */
 void warn(const std::string &message)
 {
-  static const auto logger = std::make_shared<spdlog::logger>("tandem", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+  static const auto logger =
+      std::make_shared<spdlog::logger>("tandem", std::make_shared<spdlog::sinks::stderr_sink_mt>());
   logger->warn(message);
 }
 

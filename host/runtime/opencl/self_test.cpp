@@ -4,6 +4,8 @@
  * contraction in 30% of a * b + c, so a few thousand inputs leave no doubt. A driver that promises less than it
  * does gets more of them. NaNs compare equal: their payloads differ between devices and never enter the state.
  */
+#include "shared/parallel/self_test.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -15,12 +17,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <tandem/round_to_float.h>
+
+#include "host/runtime/interface/floating_point.h"
 #include "host/runtime/opencl/context.h"
 #include "host/runtime/opencl/program.h"
-#include <tandem/round_to_float.h>
-#include "host/runtime/interface/floating_point.h"
 #include "shared/counts.h"
-#include "shared/parallel/self_test.h"
 
 namespace tandem::opencl {
 namespace {
@@ -53,10 +55,10 @@ uint64_t next_random(uint64_t &state)
 float from_bits(uint32_t bits) { return std::bit_cast<float>(bits); }
 
 /* Zeros, units, limits of the format, neighbours of powers of two, infinity and NaN. */
-constexpr std::array<uint32_t, 24> edges = {
-    0x00000000, 0x80000000, 0x3f800000, 0xbf800000, 0x00000001, 0x80000001, 0x007fffff, 0x00800000,
-    0x00800001, 0x80800000, 0x7f7fffff, 0xff7fffff, 0x3f7fffff, 0x3f800001, 0x34000000, 0x33800000,
-    0x4b000000, 0x4b800000, 0x4f000000, 0xcf000000, 0x40490fdb, 0x3eaaaaab, 0x7f800000, 0x7fc00000};
+constexpr std::array<uint32_t, 24> edges = {0x00000000, 0x80000000, 0x3f800000, 0xbf800000, 0x00000001, 0x80000001,
+                                            0x007fffff, 0x00800000, 0x00800001, 0x80800000, 0x7f7fffff, 0xff7fffff,
+                                            0x3f7fffff, 0x3f800001, 0x34000000, 0x33800000, 0x4b000000, 0x4b800000,
+                                            0x4f000000, 0xcf000000, 0x40490fdb, 0x3eaaaaab, 0x7f800000, 0x7fc00000};
 
 float random_number(uint64_t &state, uint32_t kind)
 {
@@ -64,10 +66,11 @@ float random_number(uint64_t &state, uint32_t kind)
   const uint32_t bits = static_cast<uint32_t>(random);
   switch (kind) {
   case 0: return from_bits(edges[bits % edges.size()]);
-  case 1: return from_bits(bits);                                 /* any bits */
-  case 2: return from_bits(bits & 0x807fffffu);                   /* denormals */
-  case 3: return from_bits(bits & 0x80ffffffu);                   /* denormals and the smallest normals */
-  default: return from_bits((0x38000000u + (bits & 0x0fffffffu)) | (bits & 0x80000000u)); /* 3e-5 to 1e5, as in a scene */
+  case 1: return from_bits(bits);               /* any bits */
+  case 2: return from_bits(bits & 0x807fffffu); /* denormals */
+  case 3: return from_bits(bits & 0x80ffffffu); /* denormals and the smallest normals */
+  default:
+    return from_bits((0x38000000u + (bits & 0x0fffffffu)) | (bits & 0x80000000u)); /* 3e-5 to 1e5, as in a scene */
   }
 }
 
@@ -77,27 +80,32 @@ Inputs make_inputs(uint32_t count)
   Inputs inputs;
   for (uint32_t i = 0; i < count; ++i) {
     float a = random_number(state, i % 8), b = random_number(state, i / 8 % 8), c = random_number(state, i / 64 % 8);
-    if (i % 16 == 7) b = from_bits(std::bit_cast<uint32_t>(a) + static_cast<uint32_t>(next_random(state) % 5)); /* cancels */
+    if (i % 16 == 7)
+      b = from_bits(std::bit_cast<uint32_t>(a) + static_cast<uint32_t>(next_random(state) % 5)); /* cancels */
     if (i % 16 == 15) c = -(a * b);
     inputs.numbers.insert(inputs.numbers.end(), {a, b, c});
     const uint64_t random = next_random(state);
     const uint32_t narrow = i % 4 ? 0 : 20;
-    inputs.words.insert(inputs.words.end(), {static_cast<uint32_t>(random) >> narrow, static_cast<uint32_t>(random >> 32)});
+    inputs.words.insert(inputs.words.end(),
+                        {static_cast<uint32_t>(random) >> narrow, static_cast<uint32_t>(random >> 32)});
   }
   return inputs;
 }
 
 Results empty_results(uint32_t count)
 {
-  return {std::vector<float>(count * SELF_TEST_REAL_COUNT), std::vector<uint32_t>(count * SELF_TEST_WORD_COUNT),
-          {0, 0, 0xffffffffu, 0}, std::vector<uint32_t>(count)};
+  return {std::vector<float>(count * SELF_TEST_REAL_COUNT),
+          std::vector<uint32_t>(count * SELF_TEST_WORD_COUNT),
+          {0, 0, 0xffffffffu, 0},
+          std::vector<uint32_t>(count)};
 }
 
 Results run_here(Inputs inputs, uint32_t count)
 {
   Results results = empty_results(count);
   for (uint32_t i = 0; i < count; ++i)
-    self_test_item(inputs.numbers.data(), inputs.words.data(), results.reals.data(), results.words.data(), results.totals.data(), i);
+    self_test_item(inputs.numbers.data(), inputs.words.data(), results.reals.data(), results.words.data(),
+                   results.totals.data(), i);
   std::vector<uint32_t> memory(2 * TILE);
   for (uint32_t group = 0; group < count / TILE; ++group)
     self_test_group(inputs.words.data(), results.phases.data(), memory.data(), group);
@@ -107,7 +115,8 @@ Results run_here(Inputs inputs, uint32_t count)
 template <class T> cl::Buffer buffer_of(const DeviceContext &context, std::vector<T> &values)
 {
   fail_where_a_test_wants(faults::Site::allocation, "clCreateBuffer");
-  return cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T), values.data());
+  return cl::Buffer(context.context, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, values.size() * sizeof(T),
+                    values.data());
 }
 
 template <class T> void read_back(const DeviceContext &context, const cl::Buffer &buffer, std::vector<T> &values)
@@ -137,7 +146,8 @@ Results run_there(const DeviceContext &context, Inputs inputs, uint32_t count, c
   const cl::Buffer words = buffer_of(context, inputs.words), reals = buffer_of(context, results.reals);
   const cl::Buffer word_results = buffer_of(context, results.words), totals = buffer_of(context, results.totals);
   const cl::Buffer phases = buffer_of(context, results.phases);
-  launch(context, program, "self_test", count / 64, numbers, words, reals, word_results, totals, counts, cl_uint{0}, cl_uint{1});
+  launch(context, program, "self_test", count / 64, numbers, words, reals, word_results, totals, counts, cl_uint{0},
+         cl_uint{1});
   launch(context, program, "self_test_phases", count / TILE, words, phases, counts, cl_uint{0}, cl_uint{1});
   read_back(context, reals, results.reals);
   read_back(context, word_results, results.words);
@@ -155,7 +165,8 @@ std::string described(const std::map<std::string, uint32_t> &wrong, uint32_t cou
 {
   std::vector<std::string> parts;
   for (const auto &[name, times] : wrong) parts.push_back(fmt::format("{} ({} times)", name, times));
-  return parts.empty() ? "" : fmt::format("over {} inputs it differs from {} in {}", count, truth, fmt::join(parts, ", "));
+  return parts.empty() ? ""
+                       : fmt::format("over {} inputs it differs from {} in {}", count, truth, fmt::join(parts, ", "));
 }
 
 std::string difference(const Results &here, const Results &there, uint32_t count)
@@ -236,8 +247,10 @@ std::string host_self_test()
   const Results here = run_here(inputs, count);
   std::map<std::string, uint32_t> wrong;
   for (uint32_t i = 0; i < count; ++i)
-    for (const RightAnswer &right : right_answers(inputs.numbers[3 * i], inputs.numbers[3 * i + 1], inputs.numbers[3 * i + 2]))
-      if (right.known && !same(here.reals[i * SELF_TEST_REAL_COUNT + column_of(right.name)], right.value)) ++wrong[right.name];
+    for (const RightAnswer &right :
+         right_answers(inputs.numbers[3 * i], inputs.numbers[3 * i + 1], inputs.numbers[3 * i + 2]))
+      if (right.known && !same(here.reals[i * SELF_TEST_REAL_COUNT + column_of(right.name)], right.value))
+        ++wrong[right.name];
   return described(wrong, count, "IEEE 754");
 }
 

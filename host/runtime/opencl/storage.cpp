@@ -16,14 +16,14 @@ size_t rounded(size_t bytes) { return std::max<size_t>((bytes + 15) / 16 * 16, 1
 
 [[noreturn]] void fail(const DeviceContext &context, const char *what, size_t bytes, cl_int code)
 {
-  throw DeviceError(fmt::format("OpenCL device {} ({}): {} of {} bytes failed: {}", context.info.device_name, context.info.platform_name, what,
-                                bytes, error_name(code)));
+  throw DeviceError(fmt::format("OpenCL device {} ({}): {} of {} bytes failed: {}", context.info.device_name,
+                                context.info.platform_name, what, bytes, error_name(code)));
 }
 
 [[noreturn]] void fail_to_wait(const DeviceContext &context, cl_int code)
 {
-  throw DeviceError(fmt::format("OpenCL device {} ({}): waiting for its work failed: {}", context.info.device_name, context.info.platform_name,
-                                error_name(code)));
+  throw DeviceError(fmt::format("OpenCL device {} ({}): waiting for its work failed: {}", context.info.device_name,
+                                context.info.platform_name, error_name(code)));
 }
 
 void *map(const DeviceContext &context, cl_mem memory, size_t offset, size_t bytes, cl_map_flags flags)
@@ -38,8 +38,9 @@ void *map(const DeviceContext &context, cl_mem memory, size_t offset, size_t byt
 
 void unmap(const DeviceContext &context, cl_mem memory, void *place, size_t bytes)
 {
-  const cl_int code =
-      code_of(faults::Site::transfer, [&] { return clEnqueueUnmapMemObject(context.queue(), memory, place, 0, nullptr, nullptr); });
+  const cl_int code = code_of(faults::Site::transfer, [&] {
+    return clEnqueueUnmapMemObject(context.queue(), memory, place, 0, nullptr, nullptr);
+  });
   if (code != CL_SUCCESS) fail(context, "unmapping", bytes, code);
 }
 
@@ -115,7 +116,9 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
   const cl_mem_flags sharing = buffer->shared_with ? CL_MEM_USE_HOST_PTR : 0;
   cl_int code = CL_SUCCESS;
   if (faults::strikes(faults::Site::allocation)) code = CL_MEM_OBJECT_ALLOCATION_FAILURE;
-  else buffer->memory = clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
+  else
+    buffer->memory =
+        clCreateBuffer(context_.context(), CL_MEM_READ_WRITE | sharing, buffer->bytes, buffer->shared_with, &code);
   if (code == CL_SUCCESS && !buffer->shared_with) {
     code = code_of(faults::Site::allocation, [&] { return fill_with_zeros(context_, buffer->memory, buffer->bytes); });
     if (code != CL_SUCCESS) clReleaseMemObject(buffer->memory);
@@ -155,7 +158,8 @@ void DeviceStorage::read(void *handle, size_t offset, void *to, size_t bytes)
 {
   const DeviceBuffer &buffer = *static_cast<DeviceBuffer *>(handle);
   if (bytes == 0) return;
-  if (buffer.shared_with && to == buffer.shared_with + offset) return pass_ownership(buffer, offset, bytes, CL_MAP_READ);
+  if (buffer.shared_with && to == buffer.shared_with + offset)
+    return pass_ownership(buffer, offset, bytes, CL_MAP_READ);
   const cl_int code = code_of(faults::Site::transfer, [&] {
     return clEnqueueReadBuffer(context_.queue(), buffer.memory, CL_TRUE, offset, bytes, to, 0, nullptr, nullptr);
   });

@@ -1,22 +1,24 @@
 /* round_to_float_test.cpp - roundings that compilers leave out, compared with the bits that must come.
  *
- * The library's own code is asked, which is compiled as users get it; a test that rounds here would test the options of the tests.
+ * The library's own code is asked, which is compiled as users get it; a test that rounds here would test the options of
+ * the tests.
  */
-#include <tandem/round_to_float.h>
-
 #include <bit>
 #include <cstdint>
 #include <cstring>
 
-#include "host/scene/body_buffers.h"
+#include <tandem/round_to_float.h>
+
 #include "host/catalog/catalog.h"
+#include "host/scene/body_buffers.h"
 #include "tests/catch.h"
 
 using namespace tandem;
 
 namespace {
 
-/* The float nearest to a double between the normal floats, by whole numbers alone: of two equally near, the even one. */
+/* The float nearest to a double between the normal floats, by whole numbers alone: of two equally near, the even
+ * one. */
 double nearest_float(double x)
 {
   const uint64_t bits = std::bit_cast<uint64_t>(x), dropped = bits & 0x1fffffffu, half = 0x10000000u;
@@ -39,15 +41,17 @@ TEST_CASE("round to float: to the nearest, of two equally near to the even one",
     const uint64_t tail = i % 4 == 0 ? 0x10000000u : state & 0x1fffffffu; /* a quarter lies half way */
     const double x = std::bit_cast<double>((state & 0x800fffffe0000000u) | exponent << 52 | tail);
     CAPTURE(x);
-    REQUIRE(std::bit_cast<uint64_t>(static_cast<double>(round_to_float(x))) == std::bit_cast<uint64_t>(nearest_float(x)));
+    REQUIRE(std::bit_cast<uint64_t>(static_cast<double>(round_to_float(x))) ==
+            std::bit_cast<uint64_t>(nearest_float(x)));
   }
 }
 
 TEST_CASE("round to float: positions of built scenes hold floats, in every kind of scene", "[sanitizer]")
 {
-  for (const char *name : {"box-grid:nx=3,ny=2,nz=3", "falling-boxes:n=40", "spheres:n=40", "mixed:n=40", "box-stack:n=30,gap=0.3", "pyramid:rows=5,gap=0.07",
-                           "pyramid-2d:n=20,half_extent=0.3", "talk-3d:nx=3,ny=3,nz=3", "card-house:storeys=3", "tower:levels=4", "dominoes:n=9", "wall:rows=4",
-                           "bounce:n=9", "arch:courses=4"}) {
+  for (const char *name :
+       {"box-grid:nx=3,ny=2,nz=3", "falling-boxes:n=40", "spheres:n=40", "mixed:n=40", "box-stack:n=30,gap=0.3",
+        "pyramid:rows=5,gap=0.07", "pyramid-2d:n=20,half_extent=0.3", "talk-3d:nx=3,ny=3,nz=3", "card-house:storeys=3",
+        "tower:levels=4", "dominoes:n=9", "wall:rows=4", "bounce:n=9", "arch:courses=4"}) {
     const Scene scene = load_scene(name);
     CAPTURE(name);
     for (const Body &body : scene.bodies)
@@ -66,7 +70,8 @@ TEST_CASE("round to float: coordinates of a box-grid are those computed by whole
     for (int j = 0; j < 2; ++j)
       for (int k = 0; k < 3; ++k, ++body) {
         const double shift = (j + 1) % 2;
-        const volatile double x = shift + (i - 1) * 2.2, z = shift + (k - 1) * 2.2; /* in memory: nothing is folded into what follows */
+        const volatile double x = shift + (i - 1) * 2.2,
+                              z = shift + (k - 1) * 2.2; /* in memory: nothing is folded into what follows */
         CHECK(std::bit_cast<uint64_t>(scene.bodies[body].position[0]) == std::bit_cast<uint64_t>(nearest_float(x)));
         CHECK(std::bit_cast<uint64_t>(scene.bodies[body].position[2]) == std::bit_cast<uint64_t>(nearest_float(z)));
       }

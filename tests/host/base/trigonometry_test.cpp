@@ -1,12 +1,11 @@
 /* trigonometry_test.cpp - our sine and cosine in double against those of the C library in more digits. */
-#include "host/base/trigonometry.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "host/base/random.h"
+#include "host/base/trigonometry.h"
 #include "tests/catch.h"
 
 using namespace tandem;
@@ -22,7 +21,8 @@ double worst_error(double largest, int count)
   for (int i = 0; i < count; ++i) {
     const double angle = random.uniform(-largest, largest);
     const SineCosine own = sine_cosine(angle);
-    worst = std::max({worst, std::abs(own.sine - std::sin(static_cast<long double>(angle))), std::abs(own.cosine - std::cos(static_cast<long double>(angle)))});
+    worst = std::max({worst, std::abs(own.sine - std::sin(static_cast<long double>(angle))),
+                      std::abs(own.cosine - std::cos(static_cast<long double>(angle)))});
   }
   return static_cast<double>(worst);
 }

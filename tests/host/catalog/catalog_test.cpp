@@ -1,11 +1,12 @@
-/* scene_catalog_test.cpp - built-in scenes: published positions, determinism, no overlap at the start, refusals. */
+/* catalog_test.cpp - built-in scenes: published positions, determinism, no overlap at the start, refusals. */
+#include <bit>
+#include <cmath>
+
+#include <Eigen/Dense>
+
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
-
-#include <Eigen/Dense>
-#include <bit>
-#include <cmath>
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -44,7 +45,8 @@ Solid solid(const Scene &scene, const Body &body)
 {
   const Shape &shape = scene.shapes[body.shape];
   Eigen::Quaterniond q(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2]);
-  return {shape.type, Vector(body.position[0], body.position[1], body.position[2]), vector(shape.size), q.toRotationMatrix(), body.motion == Motion::dynamic};
+  return {shape.type, Vector(body.position[0], body.position[1], body.position[2]), vector(shape.size),
+          q.toRotationMatrix(), body.motion == Motion::dynamic};
 }
 
 std::vector<Vector> candidate_axes(const Solid &a, const Solid &b)
@@ -152,13 +154,31 @@ TEST_CASE("box-grid stands as published")
 
 TEST_CASE("built-in scenes start without overlap, and touch nothing but what they stand on")
 {
-  for (const char *spec :
-       {"box-grid:nx=4,ny=5,nz=4", "falling-boxes:n=400", "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
-        "box-stack:n=250", "box-stack:n=47,height=6,gap=0,half_extent=2", "pyramid:rows=12,gap=0", "pyramid:rows=9",
-        "spheres:n=300,jitter=0.5,seed=3", "mixed:n=400", "mixed:n=300,seed=77", "card-house:storeys=5",
-        "card-house:lean=0.8,thickness=0.1", "arch", "arch:courses=9,overhang=0.05", "tower", "dominoes", "wall", "wall:rows=3,length=4", "tops:n=3",
-        "tops:lean=0", "free-flight", "incline",
-        "incline:slope=3,half_extent=2", "bounce", "mass-ratio"}) {
+  for (const char *spec : {"box-grid:nx=4,ny=5,nz=4",
+                           "falling-boxes:n=400",
+                           "falling-boxes:n=60,half_extent=0.01,seed=9,height=0",
+                           "box-stack:n=250",
+                           "box-stack:n=47,height=6,gap=0,half_extent=2",
+                           "pyramid:rows=12,gap=0",
+                           "pyramid:rows=9",
+                           "spheres:n=300,jitter=0.5,seed=3",
+                           "mixed:n=400",
+                           "mixed:n=300,seed=77",
+                           "card-house:storeys=5",
+                           "card-house:lean=0.8,thickness=0.1",
+                           "arch",
+                           "arch:courses=9,overhang=0.05",
+                           "tower",
+                           "dominoes",
+                           "wall",
+                           "wall:rows=3,length=4",
+                           "tops:n=3",
+                           "tops:lean=0",
+                           "free-flight",
+                           "incline",
+                           "incline:slope=3,half_extent=2",
+                           "bounce",
+                           "mass-ratio"}) {
     INFO(spec);
     CHECK(deepest_overlap(load_scene(spec)) < 1e-5);
   }
@@ -227,8 +247,9 @@ TEST_CASE("parameters default, apply and show in the scene's name")
 
 TEST_CASE("bad specifications are refused with what exists")
 {
-  CHECK_THAT(complaint("box-gird"), ContainsSubstring("unknown scene 'box-gird'") &&
-                                        ContainsSubstring("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
+  CHECK_THAT(complaint("box-gird"),
+             ContainsSubstring("unknown scene 'box-gird'") &&
+                 ContainsSubstring("box-grid, falling-boxes, box-stack, pyramid, spheres, mixed"));
   CHECK_THAT(complaint("pile.urdf"), ContainsSubstring(".json, .gltf or .glb"));
   CHECK_THAT(complaint(""), ContainsSubstring("unknown scene ''"));
   CHECK_THAT(complaint("box-grid:mx=3"), ContainsSubstring("unknown parameter 'mx'; parameters: nx, ny, nz"));

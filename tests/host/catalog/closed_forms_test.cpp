@@ -1,17 +1,20 @@
-/* closed_forms_test.cpp - the exact motions, checked against physics they were not written from, and the simulation against them. */
-#include "tests/catch.h"
-
+/* closed_forms_test.cpp - the exact motions, checked against physics they were not written from, and the simulation
+ * against them. */
 #include <algorithm>
 #include <cmath>
 
-#include "host/verify/metrics.h"
 #include "host/catalog/closed_forms.h"
+#include "host/verify/metrics.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
 namespace {
 
-PreciseBodyState exact(const Scene &scene, size_t body, double time) { return closed_form_state(scene, time).value().at(body); }
+PreciseBodyState exact(const Scene &scene, size_t body, double time)
+{
+  return closed_form_state(scene, time).value().at(body);
+}
 
 double worst_position(const std::string &specification, const Settings &settings, const std::string &backend, int steps)
 {
@@ -72,7 +75,8 @@ TEST_CASE("closed form: free flight is met to rounding, by float and by double",
 
 TEST_CASE("closed form: the reference slides down the slope with an error of first order in the step", "[closed-form]")
 {
-  const double coarse = worst_position("incline", fine(1.0 / 64), "reference", 64), fine_error = worst_position("incline", fine(1.0 / 256), "reference", 256);
+  const double coarse = worst_position("incline", fine(1.0 / 64), "reference", 64),
+               fine_error = worst_position("incline", fine(1.0 / 256), "reference", 256);
   CHECK(coarse < 0.02);
   CHECK(std::log2(coarse / fine_error) / 2 == Approx(1).margin(0.15));
 }

@@ -1,9 +1,10 @@
-/* bvh_test.cpp - nothing that overlaps is missed, boxes of 16 bits contain what they stand for, skips and subtrees fit the tree. */
+/* bvh_test.cpp - nothing that overlaps is missed, boxes of 16 bits contain what they stand for, skips and subtrees fit
+ * the tree. */
+#include <limits>
+
 #include "host/geometry/bvh.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
-
-#include <limits>
 
 using namespace tandem;
 using namespace tandem::geometry_test;
@@ -32,14 +33,17 @@ std::vector<Bounds> soup(size_t count, uint64_t seed, double size)
 bool contains(const Bounds &outer, const Bounds &inner)
 {
   bool result = true;
-  for (size_t axis = 0; axis < 3; ++axis) result = result && outer.lower[axis] <= inner.lower[axis] && outer.upper[axis] >= inner.upper[axis];
+  for (size_t axis = 0; axis < 3; ++axis)
+    result = result && outer.lower[axis] <= inner.lower[axis] && outer.upper[axis] >= inner.upper[axis];
   return result;
 }
 
 Bounds box_of(const Bvh &bvh, const BvhNode &node) { return dequantised(bvh.quantisation, node.bounds); }
 
-/* Checks the subtree that starts at `at` and returns the node after it: children inside their parent, skips that meet. */
-size_t check_subtree(const Bvh &bvh, std::span<const Bounds> boxes, size_t at, uint32_t depth, uint32_t &deepest, std::vector<int> &seen)
+/* Checks the subtree that starts at `at` and returns the node after it: children inside their parent, skips that
+ * meet. */
+size_t check_subtree(const Bvh &bvh, std::span<const Bounds> boxes, size_t at, uint32_t depth, uint32_t &deepest,
+                     std::vector<int> &seen)
 {
   const BvhNode &node = bvh.nodes.at(at);
   deepest = std::max(deepest, depth);
@@ -92,7 +96,8 @@ void check_query(const Bvh &bvh, std::span<const Bounds> boxes, const Bounds &qu
   std::vector<uint32_t> found, exact, leaves, expected;
   for_each_overlap(bvh, query, [&](uint32_t primitive) { found.push_back(primitive); });
   std::sort(found.begin(), found.end());
-  std::copy_if(found.begin(), found.end(), std::back_inserter(exact), [&](uint32_t i) { return overlap(boxes[i], query); });
+  std::copy_if(found.begin(), found.end(), std::back_inserter(exact),
+               [&](uint32_t i) { return overlap(boxes[i], query); });
   for (const BvhNode &node : bvh.nodes)
     if (is_leaf(node) && overlap(box_of(bvh, node), query)) leaves.push_back(uint32_t(node.value));
   std::sort(leaves.begin(), leaves.end());
@@ -111,7 +116,8 @@ void check_queries(std::span<const Bounds> boxes, int queries)
     Bounds query = near; /* touches at least one, and is now and then a point */
     for (size_t axis = 0; axis < 3; ++axis) {
       query.lower[axis] += float(random.uniform(-0.1, 0.1)) * float(i % 4);
-      query.upper[axis] = std::max(query.lower[axis], query.upper[axis] + float(random.uniform(-0.1, 0.1)) * float(i % 5));
+      query.upper[axis] =
+          std::max(query.lower[axis], query.upper[axis] + float(random.uniform(-0.1, 0.1)) * float(i % 5));
     }
     check_query(bvh, boxes, query);
   }
@@ -173,7 +179,8 @@ TEST_CASE("bvh: positions that halve again and again do not make the tree deep",
 
 TEST_CASE("bvh: the order of the nodes is that of the sketch: left child next, right child after the skip")
 {
-  const std::vector<Bounds> boxes{{{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}, {{20, 0, 0}, {21, 1, 1}}, {{22, 0, 0}, {23, 1, 1}}};
+  const std::vector<Bounds> boxes{
+      {{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}, {{20, 0, 0}, {21, 1, 1}}, {{22, 0, 0}, {23, 1, 1}}};
   const Bvh bvh = checked_bvh(boxes);
   std::vector<int32_t> values;
   for (const BvhNode &node : bvh.nodes) values.push_back(node.value);
@@ -186,7 +193,8 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
 {
   Random random(12);
   for (int turn = 0; turn < 400; ++turn) {
-    const double scale = std::pow(10.0, random.uniform(-30, 30)), far = turn % 2 ? scale * std::pow(10.0, random.uniform(0, 8)) : 0;
+    const double scale = std::pow(10.0, random.uniform(-30, 30)),
+                 far = turn % 2 ? scale * std::pow(10.0, random.uniform(0, 8)) : 0;
     std::vector<Bounds> boxes;
     for (int i = 0; i < 8; ++i) {
       Bounds box = random_box(random, 1, turn % 3);
@@ -202,7 +210,8 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
       const QuantisedBounds q = quantised(quantisation, box);
       REQUIRE(contains(dequantised(quantisation, q), box));
       for (size_t axis = 0; axis < 3; ++axis) {
-        if (q.lower[axis] < 65535) REQUIRE(quantisation.coordinate(axis, uint16_t(q.lower[axis] + 1)) > box.lower[axis]);
+        if (q.lower[axis] < 65535)
+          REQUIRE(quantisation.coordinate(axis, uint16_t(q.lower[axis] + 1)) > box.lower[axis]);
         if (q.upper[axis] > 0) REQUIRE(quantisation.coordinate(axis, uint16_t(q.upper[axis] - 1)) < box.upper[axis]);
       }
     }
@@ -232,7 +241,7 @@ TEST_CASE("bvh: walks over the triangles of a mesh visit few of its nodes")
   size_t found = 0;
   for_each_overlap(bvh, {{0.9f, -0.05f, -0.05f}, {1.1f, 0.05f, 0.05f}}, [&](uint32_t) { ++found; });
   CHECK(found > 0);
-  CHECK(found < 100); /* of 20480 */
+  CHECK(found < 100);                                                       /* of 20480 */
   CHECK(bvh.subtrees.size() < 3 * boxes.size() / (most_subtree_nodes / 2)); /* full by a third or more in the mean */
 }
 
@@ -241,7 +250,8 @@ TEST_CASE("bvh: what has no hierarchy is refused by name")
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
   const float largest = std::numeric_limits<float>::max();
   CHECK_THAT(refusal({}), ContainsSubstring("hall.glb: a hierarchy needs at least one box"));
-  CHECK_THAT(refusal({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}}), ContainsSubstring("hall.glb: box 1 runs from 2 to 1 along y"));
+  CHECK_THAT(refusal({{{0, 0, 0}, {1, 1, 1}}, {{0, 2, 0}, {1, 1, 1}}}),
+             ContainsSubstring("hall.glb: box 1 runs from 2 to 1 along y"));
   CHECK_THAT(refusal({{{0, 0, nan}, {1, 1, 1}}}), ContainsSubstring("box 0 runs from nan to 1 along z"));
   CHECK_THAT(refusal({{{0, 0, 0}, {infinity, 1, 1}}}), ContainsSubstring("along x; finite numbers"));
   CHECK_THAT(refusal({{{-largest, 0, 0}, {largest, 1, 1}}}), ContainsSubstring("wider than floats can tell"));

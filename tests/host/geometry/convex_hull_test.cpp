@@ -1,10 +1,11 @@
-/* convex_hull_test.cpp - hulls are closed, convex and contain their points; known solids have their faces; nonsense is refused. */
+/* convex_hull_test.cpp - hulls are closed, convex and contain their points; known solids have their faces; nonsense is
+ * refused. */
+#include <limits>
+#include <set>
+
 #include "host/geometry/convex_hull.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
-
-#include <limits>
-#include <set>
 
 using namespace tandem;
 using namespace tandem::geometry_test;
@@ -12,7 +13,10 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-double height(const HullPlane &plane, const Vec3 &p) { return vector_of(plane.normal).dot(vector_of(p)) - plane.distance; }
+double height(const HullPlane &plane, const Vec3 &p)
+{
+  return vector_of(plane.normal).dot(vector_of(p)) - plane.distance;
+}
 
 /* Each edge lies between the two faces it names, in the sense it names, and each side of a face is an edge. */
 void check_edges(const ConvexHull &hull)
@@ -37,9 +41,11 @@ double dent(const ConvexHull &hull, uint32_t face)
   const std::vector<uint32_t> &polygon = hull.faces[face];
   double deepest = 0;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const Vector before = vector_of(hull.vertices[polygon[i]]), at = vector_of(hull.vertices[polygon[(i + 1) % polygon.size()]]);
+    const Vector before = vector_of(hull.vertices[polygon[i]]),
+                 at = vector_of(hull.vertices[polygon[(i + 1) % polygon.size()]]);
     const Vector after = vector_of(hull.vertices[polygon[(i + 2) % polygon.size()]]);
-    deepest = std::max(deepest, -(at - before).cross(after - at).dot(vector_of(hull.planes[face].normal)) / (after - before).norm());
+    deepest = std::max(deepest, -(at - before).cross(after - at).dot(vector_of(hull.planes[face].normal)) /
+                                    (after - before).norm());
   }
   return deepest;
 }
@@ -91,7 +97,10 @@ ConvexHull checked_hull(const std::vector<Vec3> &points)
   return hull;
 }
 
-std::array<size_t, 3> sizes(const ConvexHull &hull) { return {hull.vertices.size(), hull.edges.size(), hull.faces.size()}; }
+std::array<size_t, 3> sizes(const ConvexHull &hull)
+{
+  return {hull.vertices.size(), hull.edges.size(), hull.faces.size()};
+}
 
 using Sizes = std::array<size_t, 3>;
 
@@ -109,10 +118,12 @@ TEST_CASE("convex hull: regular solids have their vertices, edges and faces", "[
   CHECK(sizes(checked_hull(icosahedron_points())) == Sizes{12, 30, 20});
 }
 
-TEST_CASE("convex hull: faces of a box are counter-clockwise from outside, start at their smallest vertex, and are sorted")
+TEST_CASE(
+    "convex hull: faces of a box are counter-clockwise from outside, start at their smallest vertex, and are sorted")
 {
   const ConvexHull hull = checked_hull(box_corners(1, 2, 3));
-  const std::vector<std::vector<uint32_t>> expected{{0, 1, 5, 4}, {0, 2, 3, 1}, {0, 4, 6, 2}, {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
+  const std::vector<std::vector<uint32_t>> expected{{0, 1, 5, 4}, {0, 2, 3, 1}, {0, 4, 6, 2},
+                                                    {1, 3, 7, 5}, {2, 6, 7, 3}, {4, 5, 7, 6}};
   CHECK(hull.faces == expected);
   const std::vector<Double3> normals{{0, -1, 0}, {0, 0, -1}, {-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const double distances[] = {2, 3, 1, 1, 2, 3};
@@ -145,7 +156,8 @@ TEST_CASE("convex hull: points on a sphere are all vertices, and nearly all face
   CHECK(hull.faces.size() <= 2 * 1000 - 4);
 }
 
-TEST_CASE("convex hull: points inside, on faces and on edges are no vertices, although roundings put some outside", "[sanitizer]")
+TEST_CASE("convex hull: points inside, on faces and on edges are no vertices, although roundings put some outside",
+          "[sanitizer]")
 {
   std::vector<Vec3> grid;
   for (int x = -5; x <= 5; ++x)
@@ -153,7 +165,8 @@ TEST_CASE("convex hull: points inside, on faces and on edges are no vertices, al
       for (int z = -5; z <= 5; ++z) grid.push_back({float(x) / 5, float(y) / 5, float(z) / 5});
   CHECK(sizes(checked_hull(grid)) == Sizes{8, 12, 6});
   Random random(5);
-  for (int turn = 0; turn < 20; ++turn) CHECK(sizes(checked_hull(moved(grid, random_rotation(random), {0.1, 0.2, 0.3}))) == Sizes{8, 12, 6});
+  for (int turn = 0; turn < 20; ++turn)
+    CHECK(sizes(checked_hull(moved(grid, random_rotation(random), {0.1, 0.2, 0.3}))) == Sizes{8, 12, 6});
 }
 
 TEST_CASE("convex hull: repeated points and zeros of either sign are one vertex")
@@ -182,16 +195,19 @@ TEST_CASE("convex hull: hulls hardly thicker than the tolerance lose no point by
     const double thickness = std::pow(10.0, random.uniform(-5.5, -4));
     std::vector<Vec3> points;
     for (int i = 0; i < 150; ++i)
-      points.push_back({float(random.uniform(-1, 1)), float(random.uniform(-thickness, thickness)), float(random.uniform(-1, 1))});
+      points.push_back(
+          {float(random.uniform(-1, 1)), float(random.uniform(-thickness, thickness)), float(random.uniform(-1, 1))});
     INFO(turn);
     checked_hull(points);
   }
 }
 
-TEST_CASE("convex hull: where a round surface is flat within the tolerance, joined faces stay convex and flat", "[sanitizer]")
+TEST_CASE("convex hull: where a round surface is flat within the tolerance, joined faces stay convex and flat",
+          "[sanitizer]")
 {
   for (double distance : {1000.0, 3000.0, 10000.0, 30000.0}) {
-    const ConvexHull hull = checked_hull(moved(sphere_points(1000, 6), Eigen::Quaterniond::Identity(), {distance, 0, 0}));
+    const ConvexHull hull =
+        checked_hull(moved(sphere_points(1000, 6), Eigen::Quaterniond::Identity(), {distance, 0, 0}));
     CHECK(hull.faces.size() < 1950);
   }
 }
@@ -201,7 +217,8 @@ TEST_CASE("convex hull: far from the origin, roundings of the coordinates make n
   Random random(7);
   for (double distance : {1e2, 1e4, 1e5})
     for (int turn = 0; turn < 10; ++turn)
-      CHECK(sizes(checked_hull(moved(box_corners(1, 1, 1), random_rotation(random), Vector(1, -0.7, 0.3) * distance))) == Sizes{8, 12, 6});
+      CHECK(sizes(checked_hull(moved(box_corners(1, 1, 1), random_rotation(random),
+                                     Vector(1, -0.7, 0.3) * distance))) == Sizes{8, 12, 6});
 }
 
 TEST_CASE("convex hull: the same at every size, to the bit for powers of two", "[sanitizer]")
@@ -211,9 +228,11 @@ TEST_CASE("convex hull: the same at every size, to the bit for powers of two", "
   for (float factor : {0x1p-40f, 0x1p-10f, 0x1p20f, 0x1p60f}) {
     const ConvexHull other = convex_hull(scaled(points, {factor, factor, factor}, "test"), "test");
     CHECK(other.faces == hull.faces);
-    for (size_t i = 0; i < hull.planes.size(); ++i) CHECK(other.planes[i].distance == hull.planes[i].distance * double(factor));
+    for (size_t i = 0; i < hull.planes.size(); ++i)
+      CHECK(other.planes[i].distance == hull.planes[i].distance * double(factor));
   }
-  for (float factor : {1e-3f, 1e6f}) CHECK(sizes(checked_hull(scaled(prism_points(64), {factor, factor, factor}, "test"))) == Sizes{128, 192, 66});
+  for (float factor : {1e-3f, 1e6f})
+    CHECK(sizes(checked_hull(scaled(prism_points(64), {factor, factor, factor}, "test"))) == Sizes{128, 192, 66});
 }
 
 TEST_CASE("convex hull: mirrored points give the mirrored hull, still seen from outside")
@@ -246,7 +265,8 @@ TEST_CASE("convex hull: the order of the points changes nothing but the names of
 
 TEST_CASE("convex hull: moved to its centroid, planes follow the rounded vertices")
 {
-  const ConvexHull hull = checked_hull(moved(prism_points(24), Eigen::Quaterniond(1, 2, 3, 4).normalized(), {20, 30, 40}));
+  const ConvexHull hull =
+      checked_hull(moved(prism_points(24), Eigen::Quaterniond(1, 2, 3, 4).normalized(), {20, 30, 40}));
   const Double3 &c = hull.centroid;
   const ConvexHull centered = translated(hull, {-c[0], -c[1], -c[2]});
   CHECK(centered.faces == hull.faces);
@@ -262,7 +282,9 @@ TEST_CASE("convex hull: any cloud of points gives a closed convex surface", "[sa
     const uint32_t count = 4 + random.below(60), grain = 1 + random.below(30);
     for (uint32_t i = 0; i < count; ++i) {
       Vec3 p;
-      for (float &x : p) x = turn % 2 ? float(random.uniform(-1, 1)) : float(int(random.below(2 * grain + 1)) - int(grain)) / float(grain);
+      for (float &x : p)
+        x = turn % 2 ? float(random.uniform(-1, 1))
+                     : float(int(random.below(2 * grain + 1)) - int(grain)) / float(grain);
       points.push_back(p);
     }
     points.insert(points.end(), {{-2, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}}); /* never flat */
@@ -278,9 +300,11 @@ TEST_CASE("convex hull: what has no hull is refused by name")
   CHECK_THAT(refusal({}), ContainsSubstring("rock.obj: a hull needs four different points, not 0"));
   CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), ContainsSubstring("not 3"));
   CHECK_THAT(refusal({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {1, 1, 1}}), ContainsSubstring("not 1"));
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, nan, 1}}), ContainsSubstring("rock.obj: point 3 is [0, nan, 1]"));
+  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, nan, 1}}),
+             ContainsSubstring("rock.obj: point 3 is [0, nan, 1]"));
   CHECK_THAT(refusal({{0, 0, 0}, {1, 0, infinity}, {0, 1, 0}, {0, 0, 1}}), ContainsSubstring("point 1"));
-  CHECK_THAT(refusal({{1, 1, 1}, {1, 1, 1 + 0x1p-23f}, {1, 1 + 0x1p-23f, 1}, {1 + 0x1p-23f, 1, 1}}), ContainsSubstring("4 points lie in one place"));
+  CHECK_THAT(refusal({{1, 1, 1}, {1, 1, 1 + 0x1p-23f}, {1, 1 + 0x1p-23f, 1}, {1 + 0x1p-23f, 1, 1}}),
+             ContainsSubstring("4 points lie in one place"));
   std::vector<Vec3> line, plane;
   Random random(1);
   for (int i = 0; i < 40; ++i) {

@@ -1,4 +1,5 @@
-/* face_merger_test.cpp - joined faces are flat and convex within the tolerance; surfaces that are not closed are recognised. */
+/* face_merger_test.cpp - joined faces are flat and convex within the tolerance; surfaces that are not closed are
+ * recognised. */
 #include "host/geometry/face_merger.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
@@ -8,11 +9,13 @@ using namespace tandem::geometry_test;
 
 namespace {
 
-/* A shallow pyramid: a base of `sides` corners on the unit circle, and an apex above, counter-clockwise seen from outside. */
+/* A shallow pyramid: a base of `sides` corners on the unit circle, and an apex above, counter-clockwise seen from
+ * outside. */
 std::vector<Vector> pyramid_points(int sides, double height)
 {
   std::vector<Vector> points;
-  for (int i = 0; i < sides; ++i) points.emplace_back(std::cos(2 * std::numbers::pi * i / sides), 0, -std::sin(2 * std::numbers::pi * i / sides));
+  for (int i = 0; i < sides; ++i)
+    points.emplace_back(std::cos(2 * std::numbers::pi * i / sides), 0, -std::sin(2 * std::numbers::pi * i / sides));
   points.emplace_back(0, height, 0);
   return points;
 }
@@ -32,7 +35,8 @@ double deepest_dent(const std::vector<Vector> &points, const Polygon &face)
   const Vector normal = newell_normal(points, face).normalized();
   double deepest = 0;
   for (size_t i = 0; i < face.size(); ++i) {
-    const Vector &before = points[face[i]], &at = points[face[(i + 1) % face.size()]], &after = points[face[(i + 2) % face.size()]];
+    const Vector &before = points[face[i]], &at = points[face[(i + 1) % face.size()]],
+                 &after = points[face[(i + 2) % face.size()]];
     deepest = std::max(deepest, -(at - before).cross(after - at).dot(normal) / (after - before).norm());
   }
   return deepest;
@@ -40,7 +44,8 @@ double deepest_dent(const std::vector<Vector> &points, const Polygon &face)
 
 } // namespace
 
-TEST_CASE("face merger: sides of a shallow pyramid are joined as far as the polygon stays flat and convex", "[sanitizer]")
+TEST_CASE("face merger: sides of a shallow pyramid are joined as far as the polygon stays flat and convex",
+          "[sanitizer]")
 {
   const double tolerance = 0.01;
   size_t fewest = 100, most = 0;
@@ -73,7 +78,8 @@ TEST_CASE("face merger: a surface is closed if each edge has a face on both side
 {
   const std::vector<Polygon> pyramid = pyramid_faces(5);
   CHECK(is_closed_surface(pyramid));
-  std::vector<Polygon> open(pyramid.begin() + 1, pyramid.end()), flipped = pyramid, twice = pyramid, collapsed = pyramid;
+  std::vector<Polygon> open(pyramid.begin() + 1, pyramid.end()), flipped = pyramid, twice = pyramid,
+                                                                 collapsed = pyramid;
   CHECK_FALSE(is_closed_surface(open));
   std::swap(flipped[2][0], flipped[2][1]);
   CHECK_FALSE(is_closed_surface(flipped));

@@ -1,9 +1,9 @@
 /* mass_properties_test.cpp - masses and tensors against closed forms, against each other, and against quadrature. */
+#include <functional>
+
 #include "host/geometry/mass_properties.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
-
-#include <functional>
 
 using namespace tandem;
 using namespace tandem::geometry_test;
@@ -31,7 +31,10 @@ void check_same(const MassProperties &a, const MassProperties &b, double toleran
   CHECK((tensor_of(a.inertia) - expected).cwiseAbs().maxCoeff() <= tolerance * expected.cwiseAbs().maxCoeff());
 }
 
-MassProperties solid(double mass, double center_y, double across, double along) { return {mass, {0, center_y, 0}, {across, along, across, 0, 0, 0}}; }
+MassProperties solid(double mass, double center_y, double across, double along)
+{
+  return {mass, {0, center_y, 0}, {across, along, across, 0, 0, 0}};
+}
 
 /* By the rule of middles over discs of the given radius: its error falls with the square of the number of discs. */
 MassProperties summed_discs(const std::function<double(double)> &radius, double bottom, double top, int discs)
@@ -48,8 +51,8 @@ MassProperties summed_discs(const std::function<double(double)> &radius, double 
   return solid(mass, first / mass, second - first * first / mass, along);
 }
 
-/* The radius at y of the convex hull of two spheres at +-height / 2: the widest of the spheres between them, whose centres and radii
- * change evenly. Found by searching, so that no tangent is needed. */
+/* The radius at y of the convex hull of two spheres at +-height / 2: the widest of the spheres between them, whose
+ * centres and radii change evenly. Found by searching, so that no tangent is needed. */
 double hull_of_spheres_radius(double bottom, double top, double height, double y)
 {
   const auto squared = [&](double t) {
@@ -65,11 +68,15 @@ double hull_of_spheres_radius(double bottom, double top, double height, double y
   return std::sqrt(std::max(0.0, squared((low + high) / 2)));
 }
 
-TriangleMesh box_mesh(float x, float y, float z) { return triangle_mesh(box_corners(x, y, z), box_triangles(), "test"); }
+TriangleMesh box_mesh(float x, float y, float z)
+{
+  return triangle_mesh(box_corners(x, y, z), box_triangles(), "test");
+}
 
 Eigen::Matrix3d recomposed(const PrincipalAxes &axes)
 {
-  const Eigen::Matrix3d turn = Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2]).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2]).toRotationMatrix();
   return turn * Eigen::Vector3d(axes.moments[0], axes.moments[1], axes.moments[2]).asDiagonal() * turn.transpose();
 }
 
@@ -80,7 +87,9 @@ double angle_of(const PrincipalAxes &axes) { return 2 * std::acos(std::min(1.0, 
 TEST_CASE("mass: sphere, box, cylinder, cone and capsule have their closed forms", "[sanitizer]")
 {
   const double r = 0.7, h = 1.9;
-  check_same(sphere_mass(r), solid(4 * pi / 3 * r * r * r, 0, 0.4 * 4 * pi / 3 * std::pow(r, 5), 0.4 * 4 * pi / 3 * std::pow(r, 5)), 1e-15);
+  check_same(sphere_mass(r),
+             solid(4 * pi / 3 * r * r * r, 0, 0.4 * 4 * pi / 3 * std::pow(r, 5), 0.4 * 4 * pi / 3 * std::pow(r, 5)),
+             1e-15);
   check_same(box_mass({1, 2, 3}), {48, {}, {48 * 13 / 3.0, 48 * 10 / 3.0, 48 * 5 / 3.0, 0, 0, 0}}, 1e-15);
   const double disc = pi * r * r * h;
   check_same(cylinder_mass(r, r, h), solid(disc, 0, disc * (3 * r * r + h * h) / 12, disc * r * r / 2), 1e-14);
@@ -98,16 +107,20 @@ TEST_CASE("mass: a truncated cone is a cone less its tip")
   const double tip_height = 1.5, height = 2, radius = 1.2, small = radius * tip_height / (tip_height + height);
   MassProperties whole = placed(cylinder_mass(radius, 0, height + tip_height), {0, 0, 0, 1}, {0, tip_height / 2, 0});
   const MassProperties frustum = cylinder_mass(radius, small, height);
-  const MassProperties tip = placed(cylinder_mass(small, 0, tip_height), {0, 0, 0, 1}, {0, (height + tip_height) / 2, 0});
+  const MassProperties tip =
+      placed(cylinder_mass(small, 0, tip_height), {0, 0, 0, 1}, {0, (height + tip_height) / 2, 0});
   const MassProperties parts[] = {frustum, tip};
   check_same(compound_mass(parts), whole, 1e-14);
 }
 
-TEST_CASE("mass: tapered capsules agree with sums of discs of the hull of two spheres, ever better with more discs", "[sanitizer]")
+TEST_CASE("mass: tapered capsules agree with sums of discs of the hull of two spheres, ever better with more discs",
+          "[sanitizer]")
 {
-  for (const auto &[bottom, top, height] : {std::array{1.0, 0.4, 2.0}, {0.2, 0.9, 1.1}, {0.5, 0.0, 0.8}, {0.3, 0.3, 1.0}, {1.0, 0.05, 0.96}}) {
+  for (const auto &[bottom, top, height] :
+       {std::array{1.0, 0.4, 2.0}, {0.2, 0.9, 1.1}, {0.5, 0.0, 0.8}, {0.3, 0.3, 1.0}, {1.0, 0.05, 0.96}}) {
     INFO(bottom << " " << top << " " << height);
-    const double low = std::min(-height / 2 - bottom, height / 2 - top), high = std::max(height / 2 + top, -height / 2 + bottom);
+    const double low = std::min(-height / 2 - bottom, height / 2 - top),
+                 high = std::max(height / 2 + top, -height / 2 + bottom);
     const auto radius = [&](double y) { return hull_of_spheres_radius(bottom, top, height, y); };
     const MassProperties exact = capsule_mass(bottom, top, height);
     const double coarse = std::abs(summed_discs(radius, low, high, 2000).mass / exact.mass - 1);
@@ -165,17 +178,20 @@ TEST_CASE("mass: a turned and moved mesh has the turned tensor and the moved cen
     const Eigen::Quaterniond rotation = random_rotation(random);
     const std::vector<Vec3> corners = moved(box_corners(1, 2, 3), rotation, {4, -5, 6});
     const MassProperties mass = mesh_mass(triangle_mesh(corners, box_triangles(), "test"), "test");
-    check_same(mass, placed(box_mass({1, 2, 3}), array_of(rotation), {4, -5, 6}), 1e-6); /* corners are rounded to float */
+    check_same(mass, placed(box_mass({1, 2, 3}), array_of(rotation), {4, -5, 6}),
+               1e-6); /* corners are rounded to float */
   }
 }
 
 TEST_CASE("mass: halves of a box, put together, are the box; lumps follow the parallel axes")
 {
   const std::array<double, 4> none{0, 0, 0, 1};
-  const MassProperties halves[] = {placed(box_mass({1, 2, 1.5}), none, {7, 8, 8}), placed(box_mass({1, 2, 1.5}), none, {7, 8, 11})};
+  const MassProperties halves[] = {placed(box_mass({1, 2, 1.5}), none, {7, 8, 8}),
+                                   placed(box_mass({1, 2, 1.5}), none, {7, 8, 11})};
   check_same(compound_mass(halves), placed(box_mass({1, 2, 3}), none, {7, 8, 9.5}), 1e-14);
 
-  const MassProperties balls[] = {placed(with_mass(sphere_mass(0.5), 3), none, {1, 0, 0}), placed(with_mass(sphere_mass(0.5), 1), none, {0, 1, 0})};
+  const MassProperties balls[] = {placed(with_mass(sphere_mass(0.5), 3), none, {1, 0, 0}),
+                                  placed(with_mass(sphere_mass(0.5), 1), none, {0, 1, 0})};
   const MassProperties both = compound_mass(balls);
   const double own = 0.4 * 4 * 0.25, reduced = 3.0 / 4; /* reduced mass, at a distance of (1, -1, 0) */
   check_same(both, {4, {0.75, 0.25, 0}, {own + reduced, own + reduced, own + 2 * reduced, reduced, 0, 0}}, 1e-14);
@@ -214,7 +230,8 @@ TEST_CASE("principal axes: a small turn is found again; axes already principal s
 {
   const Eigen::Quaterniond small(Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 2).normalized()));
   const PrincipalAxes axes = principal_axes(placed(box_mass({1, 3, 2}), array_of(small), {}).inertia);
-  CHECK(Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2]).angularDistance(small) < 1e-12);
+  CHECK(Eigen::Quaterniond(axes.rotation[3], axes.rotation[0], axes.rotation[1], axes.rotation[2])
+            .angularDistance(small) < 1e-12);
   for (const Double3 &size : {Double3{1, 2, 3}, {3, 1, 2}, {2, 3, 1}, {1, 3, 2}}) {
     const PrincipalAxes own = principal_axes(box_mass(size).inertia);
     CHECK(own.rotation == std::array<double, 4>{0, 0, 0, 1});
@@ -227,13 +244,17 @@ TEST_CASE("principal axes: equal moments turn nothing that need not turn")
   Random random(5);
   for (int turn = 0; turn < 50; ++turn) {
     const Eigen::Quaterniond rotation = random_rotation(random);
-    CHECK(principal_axes(placed(box_mass({1, 1, 1}), array_of(rotation), {}).inertia).rotation == std::array<double, 4>{0, 0, 0, 1});
+    CHECK(principal_axes(placed(box_mass({1, 1, 1}), array_of(rotation), {}).inertia).rotation ==
+          std::array<double, 4>{0, 0, 0, 1});
     for (double height : {2.0, 0.2}) { /* a rod and a disc */
       const MassProperties round = placed(cylinder_mass(0.3, 0.3, height), array_of(rotation), {});
       const PrincipalAxes axes = principal_axes(round.inertia);
-      CHECK((recomposed(axes) - tensor_of(round.inertia)).cwiseAbs().maxCoeff() < 1e-14 * tensor_of(round.inertia).trace());
+      CHECK((recomposed(axes) - tensor_of(round.inertia)).cwiseAbs().maxCoeff() <
+            1e-14 * tensor_of(round.inertia).trace());
       const Eigen::Vector3d along = rotation * Eigen::Vector3d::UnitY();
-      CHECK(angle_of(axes) == Approx(std::acos(along.cwiseAbs().maxCoeff())).margin(1e-7)); /* only the axis is brought onto the nearest */
+      CHECK(
+          angle_of(axes) ==
+          Approx(std::acos(along.cwiseAbs().maxCoeff())).margin(1e-7)); /* only the axis is brought onto the nearest */
     }
   }
 }

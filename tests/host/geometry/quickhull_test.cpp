@@ -1,11 +1,11 @@
-/* quickhull_test.cpp - hulls decided in whole numbers: closed, exactly convex, and of the points given whatever their order. */
-#include "host/geometry/quickhull.h"
-
+/* quickhull_test.cpp - hulls decided in whole numbers: closed, exactly convex, and of the points given whatever their
+ * order. */
 #include <algorithm>
 #include <set>
 
-#include "host/geometry/face_merger.h"
 #include "host/base/random.h"
+#include "host/geometry/face_merger.h"
+#include "host/geometry/quickhull.h"
 #include "tests/catch.h"
 
 using namespace tandem;
@@ -28,7 +28,8 @@ __extension__ typedef __float128 Exact;
 Exact height(const std::vector<Vector> &points, const Polygon &t, const Vector &p)
 {
   const Vector &a = points[t[0]], u = points[t[1]] - a, v = points[t[2]] - a, w = p - a;
-  return (Exact(u.y) * v.z - Exact(u.z) * v.y) * w.x + (Exact(u.z) * v.x - Exact(u.x) * v.z) * w.y + (Exact(u.x) * v.y - Exact(u.y) * v.x) * w.z;
+  return (Exact(u.y) * v.z - Exact(u.z) * v.y) * w.x + (Exact(u.z) * v.x - Exact(u.x) * v.z) * w.y +
+         (Exact(u.x) * v.y - Exact(u.y) * v.x) * w.z;
 }
 
 /* The faces with those in one plane joined, by their corners: what no order of points may change. */

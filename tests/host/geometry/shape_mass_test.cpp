@@ -1,11 +1,13 @@
-/* shape_mass_test.cpp - bodies stand in their shape's centre of mass and principal axes, by sums over volume elements in the world. */
-#include "host/geometry/shape_mass.h"
-#include "host/base/random.h"
-#include "tests/catch.h"
-
-#include <Eigen/Dense>
+/* shape_mass_test.cpp - bodies stand in their shape's centre of mass and principal axes, by sums over volume elements
+ * in the world. */
 #include <cstring>
 #include <functional>
+
+#include <Eigen/Dense>
+
+#include "host/base/random.h"
+#include "host/geometry/shape_mass.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
@@ -20,10 +22,12 @@ Eigen::Quaterniond turn_of(const Quat &q) { return Eigen::Quaterniond(q[3], q[0]
 
 Vector in_world(const Body &body, const Vector &p)
 {
-  return vector_of(body.position) + turn_of(body.orientation) * (vector_of(body.shape_position) + turn_of(body.shape_orientation) * p);
+  return vector_of(body.position) +
+         turn_of(body.orientation) * (vector_of(body.shape_position) + turn_of(body.shape_orientation) * p);
 }
 
-/* Is p in the hull of two spheres? The nearest point of any sphere of the family between them, looked for by ternary search. */
+/* Is p in the hull of two spheres? The nearest point of any sphere of the family between them, looked for by ternary
+ * search. */
 bool in_capsule(const Vec3 &size, const Vector &p)
 {
   const auto depth = [&](double t) {
@@ -45,7 +49,8 @@ bool in_shape(const Shape &shape, const Vector &p)
   case ShapeType::sphere: return p.norm() <= a;
   case ShapeType::box: return std::abs(p.x()) <= a && std::abs(p.y()) <= b && std::abs(p.z()) <= c;
   case ShapeType::capsule: return in_capsule(shape.size, p);
-  case ShapeType::cylinder: return std::abs(p.y()) <= b && std::hypot(p.x(), p.z()) <= a + (c - a) * (p.y() / b + 1) / 2;
+  case ShapeType::cylinder:
+    return std::abs(p.y()) <= b && std::hypot(p.x(), p.z()) <= a + (c - a) * (p.y() / b + 1) / 2;
   case ShapeType::hull:
     return std::all_of(shape.hull->planes.begin(), shape.hull->planes.end(),
                        [&](const HullPlane &plane) { return vector_of(plane.normal).dot(p) <= plane.distance; });
@@ -63,7 +68,8 @@ Bounds bounds_of(const Shape &shape)
 {
   if (shape.type == ShapeType::hull) return tandem::bounds_of(shape.hull->vertices);
   const auto &[a, b, c] = shape.size;
-  const float radius = std::max(a, c), below = shape.type == ShapeType::capsule ? b + a : b, above = shape.type == ShapeType::capsule ? b + c : b;
+  const float radius = std::max(a, c), below = shape.type == ShapeType::capsule ? b + a : b,
+              above = shape.type == ShapeType::capsule ? b + c : b;
   if (shape.type == ShapeType::box || shape.type == ShapeType::sphere) return {{-a, -b, -c}, {a, b, c}};
   return {{-radius, -below, -radius}, {radius, above, radius}};
 }
@@ -95,7 +101,8 @@ Sum summed(const Body &body, const Shape &shape, int cells)
 std::vector<Vec3> cloud(Random &random, int count)
 {
   std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) points.push_back({float(random.uniform(-0.4, 1)), float(random.uniform(-0.9, 0.5)), float(random.uniform(0, 0.6))});
+  for (int i = 0; i < count; ++i)
+    points.push_back({float(random.uniform(-0.4, 1)), float(random.uniform(-0.9, 0.5)), float(random.uniform(0, 0.6))});
   return points;
 }
 
@@ -133,7 +140,8 @@ void place_anyhow(Random &random, Body &body)
 
 bool same_bits(const Body &a, const Body &b)
 {
-  return std::memcmp(&a.position, &b.position, sizeof a.position) == 0 && std::memcmp(&a.orientation, &b.orientation, sizeof a.orientation) == 0 &&
+  return std::memcmp(&a.position, &b.position, sizeof a.position) == 0 &&
+         std::memcmp(&a.orientation, &b.orientation, sizeof a.orientation) == 0 &&
          std::memcmp(&a.shape_position, &b.shape_position, sizeof a.shape_position) == 0 &&
          std::memcmp(&a.shape_orientation, &b.shape_orientation, sizeof a.shape_orientation) == 0;
 }
@@ -145,7 +153,8 @@ TEST_CASE("shape mass: the body's frame is the centre and the principal axes of 
   Random random(11);
   const float mass = 2.5f;
   for (const Shape &shape : shapes()) {
-    INFO("shape type " << int(shape.type) << ", size " << shape.size[0] << " " << shape.size[1] << " " << shape.size[2]);
+    INFO("shape type " << int(shape.type) << ", size " << shape.size[0] << " " << shape.size[1] << " "
+                       << shape.size[2]);
     Scene scene = with_shape(shape);
     Body &body = scene.bodies[0];
     body.mass = mass;
@@ -186,8 +195,8 @@ TEST_CASE("shape mass: a centred shape along its principal axes is left alone to
   Random random(13);
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k) corners.push_back({k & 1 ? 0.3f : -0.3f, k & 2 ? 0.7f : -0.7f, k & 4 ? 0.1f : -0.1f});
-  for (const Shape &shape : {sphere_shape(0.3f), box_shape(0.1f, 0.7f, 0.3f), capsule_shape(0.3f, 0.7f), cylinder_shape(0.1f, 0.9f),
-                             hull_shape(corners, "box"), half_space_shape()}) {
+  for (const Shape &shape : {sphere_shape(0.3f), box_shape(0.1f, 0.7f, 0.3f), capsule_shape(0.3f, 0.7f),
+                             cylinder_shape(0.1f, 0.9f), hull_shape(corners, "box"), half_space_shape()}) {
     const Scene scene = with_shape(shape);
     Body body;
     for (double &x : body.position) x = random.uniform(-3, 3);
@@ -203,11 +212,13 @@ TEST_CASE("shape mass: spheres and boxes have the moments they always had")
   Random random(14);
   for (int i = 0; i < 1000; ++i) {
     const float mass = float(random.uniform(0.01, 100));
-    const float a = float(random.uniform(0.01, 9)), b = float(random.uniform(0.01, 9)), c = float(random.uniform(0.01, 9));
+    const float a = float(random.uniform(0.01, 9)), b = float(random.uniform(0.01, 9)),
+                c = float(random.uniform(0.01, 9));
     const double m = mass, x = a, y = b, z = c;
     const float sphere = float(0.4 * m * x * x);
     CHECK(inertia_of(sphere_shape(a), mass) == Vec3{sphere, sphere, sphere});
-    CHECK(inertia_of(box_shape(a, b, c), mass) == Vec3{float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))});
+    CHECK(inertia_of(box_shape(a, b, c), mass) ==
+          Vec3{float(m / 3 * (y * y + z * z)), float(m / 3 * (x * x + z * z)), float(m / 3 * (x * x + y * y))});
   }
   CHECK(inertia_of(half_space_shape(), 1) == Vec3{0, 0, 0});
 }
@@ -226,7 +237,8 @@ TEST_CASE("shape mass: moments in closed form, of a cylinder, a cone and a capsu
   CHECK(scene.bodies[0].position == Point{0, -h / 2, 0}); /* a quarter up from the base */
   CHECK(scene.bodies[0].shape_position == Vec3{0, float(h / 2), 0});
   const double ends = 4.0 / 3 * r, middle = 2 * h, whole = ends + middle; /* volumes over pi r² */
-  const double across = m * (middle / whole * (r * r / 4 + h * h / 3) + ends / whole * (0.4 * r * r + h * h + 0.75 * r * h));
+  const double across =
+      m * (middle / whole * (r * r / 4 + h * h / 3) + ends / whole * (0.4 * r * r + h * h + 0.75 * r * h));
   CHECK(inertia_of(capsule_shape(0.5f, 1.25f), 3)[0] == Approx(across));
 }
 

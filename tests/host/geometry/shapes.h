@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
+#include "host/base/random.h"
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/geometry/vector.h"
-#include "host/base/random.h"
 
 namespace tandem::geometry_test {
 
@@ -25,20 +25,22 @@ inline std::vector<Vec3> box_corners(float x, float y, float z)
 /* Of box_corners, counter-clockwise seen from outside. */
 inline std::vector<Triangle> box_triangles()
 {
-  return {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4}, {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
 }
 
 inline std::vector<Vec3> icosahedron_points()
 {
   const float g = float(std::numbers::phi);
-  return {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-          {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  return {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+          {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
 }
 
 inline std::vector<Triangle> icosahedron_triangles()
 {
-  return {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-          {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  return {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+          {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+          {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
 }
 
 struct Soup {
@@ -99,7 +101,8 @@ inline Eigen::Quaterniond random_rotation(Random &random)
   return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).normalized();
 }
 
-inline std::vector<Vec3> moved(const std::vector<Vec3> &points, const Eigen::Quaterniond &rotation, const Vector &offset)
+inline std::vector<Vec3> moved(const std::vector<Vec3> &points, const Eigen::Quaterniond &rotation,
+                               const Vector &offset)
 {
   std::vector<Vec3> result;
   for (const Vec3 &p : points) {

@@ -1,9 +1,9 @@
 /* triangle_mesh_test.cpp - welding, adjacency, kinds of edges, and what is said of bad meshes. */
+#include <limits>
+
 #include "host/geometry/triangle_mesh.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"
-
-#include <limits>
 
 using namespace tandem;
 using namespace tandem::geometry_test;
@@ -18,7 +18,8 @@ void check_adjacency(const TriangleMesh &mesh)
   REQUIRE(mesh.triangle_edges.size() == mesh.triangles.size());
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (size_t corner = 0; corner < 3; ++corner) {
-      const uint32_t from = mesh.triangles[t][corner], to = mesh.triangles[t][(corner + 1) % 3], other = mesh.neighbours[t][corner];
+      const uint32_t from = mesh.triangles[t][corner], to = mesh.triangles[t][(corner + 1) % 3],
+                     other = mesh.neighbours[t][corner];
       const MeshEdge &edge = mesh.edges.at(mesh.triangle_edges[t][corner]);
       REQUIRE(edge.v0 == std::min(from, to));
       REQUIRE(edge.v1 == std::max(from, to));
@@ -28,7 +29,8 @@ void check_adjacency(const TriangleMesh &mesh)
       if (other == no_triangle) continue;
       bool named_back = false;
       for (size_t k = 0; k < 3; ++k)
-        named_back = named_back || (mesh.neighbours[other][k] == t && mesh.triangles[other][k] == to && mesh.triangles[other][(k + 1) % 3] == from);
+        named_back = named_back || (mesh.neighbours[other][k] == t && mesh.triangles[other][k] == to &&
+                                    mesh.triangles[other][(k + 1) % 3] == from);
       REQUIRE(named_back);
     }
 }
@@ -42,7 +44,8 @@ TriangleMesh checked_mesh(const std::vector<Vec3> &vertices, const std::vector<T
 
 size_t count(const TriangleMesh &mesh, EdgeKind kind)
 {
-  return size_t(std::count_if(mesh.edges.begin(), mesh.edges.end(), [kind](const MeshEdge &edge) { return edge.kind == kind; }));
+  return size_t(
+      std::count_if(mesh.edges.begin(), mesh.edges.end(), [kind](const MeshEdge &edge) { return edge.kind == kind; }));
 }
 
 std::string refusal(const std::vector<Vec3> &vertices, const std::vector<Triangle> &triangles)
@@ -52,11 +55,12 @@ std::string refusal(const std::vector<Vec3> &vertices, const std::vector<Triangl
 
 const std::vector<Vec3> square{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
 
-/* Two triangles over the edge from 0 to 1 along x, the far corner of the second at this angle above (negative: below) the plane of
- * the first, whose normal is +y. */
+/* Two triangles over the edge from 0 to 1 along x, the far corner of the second at this angle above (negative: below)
+ * the plane of the first, whose normal is +y. */
 TriangleMesh hinge(double angle)
 {
-  return checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 1}, {0.5f, float(std::sin(angle)), float(-std::cos(angle))}}, {{1, 0, 2}, {0, 1, 3}});
+  return checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 0, 1}, {0.5f, float(std::sin(angle)), float(-std::cos(angle))}},
+                      {{1, 0, 2}, {0, 1, 3}});
 }
 
 } // namespace
@@ -67,7 +71,8 @@ TEST_CASE("triangle mesh: a box has twelve convex right angles and six flat diag
   CHECK(mesh.edges.size() == 18);
   CHECK(count(mesh, EdgeKind::convex) == 12);
   CHECK(count(mesh, EdgeKind::flat) == 6);
-  for (const MeshEdge &edge : mesh.edges) CHECK(edge.cosine == Approx(edge.kind == EdgeKind::flat ? 1 : 0).margin(1e-15));
+  for (const MeshEdge &edge : mesh.edges)
+    CHECK(edge.cosine == Approx(edge.kind == EdgeKind::flat ? 1 : 0).margin(1e-15));
   CHECK_FALSE(mesh.flat);
   CHECK(volume_warning(mesh).empty());
   CHECK(cleaning_note(mesh).empty());
@@ -86,10 +91,13 @@ TEST_CASE("triangle mesh: the angle of an edge decides its kind and its cosine")
 {
   for (double angle : {-3.0, -2.0, -1.0, -0.01, -0.0005, 0.0, 0.0005, 0.01, 1.0, 2.0, 3.0}) {
     const TriangleMesh mesh = hinge(angle);
-    const auto shared = std::find_if(mesh.edges.begin(), mesh.edges.end(), [](const MeshEdge &edge) { return edge.kind != EdgeKind::boundary; });
+    const auto shared = std::find_if(mesh.edges.begin(), mesh.edges.end(),
+                                     [](const MeshEdge &edge) { return edge.kind != EdgeKind::boundary; });
     REQUIRE(shared != mesh.edges.end());
     INFO(angle);
-    CHECK(shared->kind == (std::abs(angle) < flat_edge_sine ? EdgeKind::flat : angle < 0 ? EdgeKind::convex : EdgeKind::concave));
+    CHECK(shared->kind == (std::abs(angle) < flat_edge_sine ? EdgeKind::flat
+                           : angle < 0                      ? EdgeKind::convex
+                                                            : EdgeKind::concave));
     CHECK(shared->cosine == Approx(std::cos(angle)).margin(1e-6));
   }
 }
@@ -153,7 +161,8 @@ TEST_CASE("triangle mesh: triangles without area are left out; those that closed
 TEST_CASE("triangle mesh: thin triangles stay as long as floats give them a normal")
 {
   CHECK(checked_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, 2e-6f, 0}}, {{0, 1, 2}}).triangles.size() == 1);
-  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}), ContainsSubstring("hall.glb: all 1 triangles of the mesh have no area"));
+  CHECK_THAT(refusal({{0, 0, 0}, {1, 0, 0}, {0.5f, 5e-7f, 0}}, {{0, 1, 2}}),
+             ContainsSubstring("hall.glb: all 1 triangles of the mesh have no area"));
   CHECK_THAT(refusal({{0, 0, 0}, {1e-12f, 0, 0}, {0, 1e-12f, 0}}, {{0, 1, 2}}),
              ContainsSubstring("have no area")); /* squared it is no float */
 }
@@ -255,7 +264,8 @@ TEST_CASE("triangle mesh: an icosphere is convex at every edge")
 TEST_CASE("triangle mesh: what is no mesh is refused by name")
 {
   CHECK_THAT(refusal(square, {}), ContainsSubstring("hall.glb: a mesh needs at least one triangle"));
-  CHECK_THAT(refusal(square, {{0, 1, 2}, {0, 4, 1}}), ContainsSubstring("hall.glb: triangle 1 names vertex 4, but there are 4"));
+  CHECK_THAT(refusal(square, {{0, 1, 2}, {0, 4, 1}}),
+             ContainsSubstring("hall.glb: triangle 1 names vertex 4, but there are 4"));
   CHECK_THAT(refusal({{0, 0, 0}, {1, std::numeric_limits<float>::quiet_NaN(), 0}, {0, 1, 0}}, {{0, 1, 2}}),
              ContainsSubstring("hall.glb: vertex 1 is [1, nan, 0]"));
   CHECK_THAT(refusal(square, {{0, 0, 1}, {2, 2, 2}}), ContainsSubstring("all 2 triangles"));

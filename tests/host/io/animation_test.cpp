@@ -1,13 +1,5 @@
 /* animation_test.cpp - the written file is valid glTF, by the rules of the specification and by an
  * independent reader, and holds the poses that were recorded. */
-#include "host/io/animation.h"
-#include "host/io/animation_geometry.h"
-#include "host/geometry/shape_mass.h"
-#include "host/base/random.h"
-#include "host/catalog/catalog.h"
-#include "tests/catch.h"
-
-#include <Eigen/Dense>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -15,10 +7,19 @@
 #include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
+
+#include <Eigen/Dense>
+#include <nlohmann/json.hpp>
 #include <tiny_gltf.h>
 #include <unistd.h>
+
+#include "host/base/random.h"
+#include "host/catalog/catalog.h"
+#include "host/geometry/shape_mass.h"
+#include "host/io/animation.h"
+#include "host/io/animation_geometry.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -265,7 +266,8 @@ double volume_of(const DisplayMesh &mesh)
   double volume = 0;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     Eigen::Vector3d corner[3];
-    for (size_t c = 0; c < 3; ++c) corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
+    for (size_t c = 0; c < 3; ++c)
+      corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
     volume += corner[0].dot(corner[1].cross(corner[2])) / 6;
   }
   return volume;
@@ -275,15 +277,18 @@ void check_faces_outwards(const DisplayMesh &mesh)
 {
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {
     Eigen::Vector3d corner[3];
-    for (size_t c = 0; c < 3; ++c) corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
+    for (size_t c = 0; c < 3; ++c)
+      corner[c] = Eigen::Vector3f(mesh.positions[mesh.indices[i + c]].data()).cast<double>();
     const Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
     CHECK(normal.norm() > 1e-4);
-    for (size_t c = 0; c < 3; ++c) CHECK(normal.dot(Eigen::Vector3f(mesh.normals[mesh.indices[i + c]].data()).cast<double>()) > 0);
+    for (size_t c = 0; c < 3; ++c)
+      CHECK(normal.dot(Eigen::Vector3f(mesh.normals[mesh.indices[i + c]].data()).cast<double>()) > 0);
   }
   for (const Vec3 &normal : mesh.normals) CHECK(Eigen::Vector3f(normal.data()).norm() == Approx(1));
 }
 
-/* Each edge between two places is run along once in each direction. Places that differ by roundings of a sine are one. */
+/* Each edge between two places is run along once in each direction. Places that differ by roundings of a sine are
+ * one. */
 void check_closed(const DisplayMesh &mesh)
 {
   auto place = [&](uint32_t vertex) {
@@ -306,8 +311,13 @@ const std::vector<Vec3> wedge_points{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {3, 2, 0},
 
 TEST_CASE("meshes are closed, face outwards and have the right volume")
 {
-  const Shape round[] = {capsule_shape(0.5f, 1), {ShapeType::capsule, {0.3f, 0.4f, 0.9f}}, {ShapeType::capsule, {0.9f, 0.4f, 0.3f}},
-                         cylinder_shape(0.5f, 1), {ShapeType::cylinder, {0.3f, 0.4f, 0.9f}}, cone_shape(0.6f, 0.5f), {ShapeType::cylinder, {0, 1, 0.5f}}};
+  const Shape round[] = {capsule_shape(0.5f, 1),
+                         {ShapeType::capsule, {0.3f, 0.4f, 0.9f}},
+                         {ShapeType::capsule, {0.9f, 0.4f, 0.3f}},
+                         cylinder_shape(0.5f, 1),
+                         {ShapeType::cylinder, {0.3f, 0.4f, 0.9f}},
+                         cone_shape(0.6f, 0.5f),
+                         {ShapeType::cylinder, {0, 1, 0.5f}}};
   for (const Shape &shape : round) {
     INFO("shape type " << int(shape.type) << " size " << shape.size[0] << " " << shape.size[1] << " " << shape.size[2]);
     const DisplayMesh mesh = display_mesh(shape);
@@ -323,7 +333,8 @@ TEST_CASE("meshes are closed, face outwards and have the right volume")
     check_closed(display_mesh(shape));
     CHECK(volume_of(display_mesh(shape)) == Approx(mass_properties_of(shape).mass));
   }
-  CHECK(display_mesh(wedge).positions.size() == 3 + 3 + 4 + 4 + 4); /* each face has corners, and a normal, of its own */
+  CHECK(display_mesh(wedge).positions.size() ==
+        3 + 3 + 4 + 4 + 4); /* each face has corners, and a normal, of its own */
   check_faces_outwards(display_mesh(sphere_shape(1)));
   check_closed(display_mesh(sphere_shape(1)));
   CHECK(volume_of(display_mesh(sphere_shape(1))) == Approx(4.0 / 3.0 * M_PI).epsilon(0.04));
@@ -346,7 +357,8 @@ TEST_CASE("a shape with a pose in its body is drawn there")
 {
   RemoveAtEnd remove;
   Scene scene;
-  scene.shapes = {cone_shape(0.5f, 1), hull_shape(wedge_points, "wedge"), capsule_shape(0.2f, 0.3f), cone_shape(0.5f, 1), cone_shape(0.5f, 2)};
+  scene.shapes = {cone_shape(0.5f, 1), hull_shape(wedge_points, "wedge"), capsule_shape(0.2f, 0.3f),
+                  cone_shape(0.5f, 1), cone_shape(0.5f, 2)};
   scene.materials.resize(2); /* coloured by material: bodies alike share a mesh */
   scene.bodies.resize(6);
   for (uint32_t i = 0; i < 5; ++i) scene.bodies[i].shape = i;
@@ -388,7 +400,8 @@ TEST_CASE("a hull with more corners than 16 bits count has wider indices")
   for (int i = 0; i < 14000; ++i) { /* three corners each of some 28,000 faces */
     double p[3], length = 0;
     for (double &x : p) x = random.uniform(-1, 1), length += x * x;
-    points.push_back({float(p[0] / std::sqrt(length)), float(p[1] / std::sqrt(length)), float(p[2] / std::sqrt(length))});
+    points.push_back(
+        {float(p[0] / std::sqrt(length)), float(p[1] / std::sqrt(length)), float(p[2] / std::sqrt(length))});
   }
   Scene scene;
   scene.shapes = {hull_shape(points, "ball"), box_shape(1, 1, 1)};
@@ -397,7 +410,9 @@ TEST_CASE("a hull with more corners than 16 bits count has wider indices")
   REQUIRE(display_mesh(scene.shapes[0]).positions.size() > 65535);
   record(scene, 2);
   const tinygltf::Model model = reread();
-  auto indices_of = [&](size_t node) { return model.accessors[size_t(model.meshes[size_t(model.nodes[node].mesh)].primitives[0].indices)]; };
+  auto indices_of = [&](size_t node) {
+    return model.accessors[size_t(model.meshes[size_t(model.nodes[node].mesh)].primitives[0].indices)];
+  };
   CHECK(indices_of(0).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
   CHECK(indices_of(1).componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
 }
@@ -483,7 +498,8 @@ TEST_CASE("an animation that is not finished leaves what stood there, and nothin
   RemoveAtEnd remove;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   const auto like_it = [&] {
-    return std::count_if(std::filesystem::directory_iterator(folder), {}, [](const auto &entry) { return entry.path().string().starts_with(path); });
+    return std::count_if(std::filesystem::directory_iterator(folder), {},
+                         [](const auto &entry) { return entry.path().string().starts_with(path); });
   };
   const Scene scene = load_scene("pyramid:rows=1");
   std::ofstream(path) << "kept";
@@ -509,7 +525,8 @@ TEST_CASE("mistakes are told at once")
   Scene scene = load_scene("pyramid:rows=1");
   CHECK_THROWS_WITH(AnimationWriter(scene, "no/such/folder/a.glb"),
                     ContainsSubstring("no/such/folder/a.glb: cannot write: No such file"));
-  CHECK_THROWS_WITH(AnimationWriter(scene, "movie.mp4"), ContainsSubstring("movie.mp4: an animation is written as .glb"));
+  CHECK_THROWS_WITH(AnimationWriter(scene, "movie.mp4"),
+                    ContainsSubstring("movie.mp4: an animation is written as .glb"));
   CHECK_THROWS_AS(AnimationWriter(scene, path, 0), InputError);
   {
     AnimationWriter writer(scene, path);

@@ -1,11 +1,10 @@
 /* obj_test.cpp - vertices and faces of OBJ files, and what is said of files that are none. */
-#include "host/io/obj.h"
-#include "tests/catch.h"
-#include "tests/host/geometry/shapes.h"
-
 #include <cmath>
 
 #include "host/geometry/mass_properties.h"
+#include "host/io/obj.h"
+#include "tests/catch.h"
+#include "tests/host/geometry/shapes.h"
 
 using namespace tandem;
 using namespace tandem::geometry_test;
@@ -69,7 +68,8 @@ TEST_CASE("obj: numbers are read to the nearest float, or its neighbour")
 TEST_CASE("obj: what is no shape is refused in one line with the file's name")
 {
   CHECK_THAT(refusal(""), ContainsSubstring("cube.obj: no vertices"));
-  CHECK_THAT(refusal("{\"not\": \"an OBJ file\"}\n"), ContainsSubstring("cube.obj: line 1: '{\"not\":' begins no line that is known"));
+  CHECK_THAT(refusal("{\"not\": \"an OBJ file\"}\n"),
+             ContainsSubstring("cube.obj: line 1: '{\"not\":' begins no line that is known"));
   for (const std::string face : {"f 1 2 4\n", "f 1 2 -9\n", "f 0 1 2\n"}) {
     const std::string said = refusal("v 0 0 0\nv 1 0 0\nv 0 1 0\n" + face);
     INFO(face << said);
@@ -83,25 +83,50 @@ TEST_CASE("obj: what is no shape is refused in one line with the file's name")
              ContainsSubstring("line 4: a face counts back 9223372036854775805 vertices"));
   for (const char *number : {"+-1", "-+1", "++1", "--1", "+", "+-inf", "+-1e-50"})
     CHECK_THAT(refusal("v 0 0 " + std::string(number) + "\n"), ContainsSubstring("is no finite number of 32 bits"));
-  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"), ContainsSubstring("a face counts back 7 vertices before the first"));
+  CHECK_THAT(refusal("v 0 0 0\nv 1 0 0\nf 1 2 -9\n"),
+             ContainsSubstring("a face counts back 7 vertices before the first"));
   CHECK_THAT(complaint([] { load_obj("/no/such/file.obj"); }), ContainsSubstring("/no/such/file.obj"));
 }
 
 TEST_CASE("obj: no line is taken for what it is not")
 {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n";
-  for (const char *vertex : {"v nan nan nan", "v inf 0 0", "v abc", "v", "v 1", "v 1 2", "v 1 2 x", "v 1,2,3", "v 1 2 3 4 5", "v 1 2 3 4 5 6 7 8", "v 1e39 0 0", "v 1e999 0 0",
-                             "v 0x1p2 0 0", "v 1 2 3 w", "v 1.5.2 0 0", "v --1 0 0", "v 1 2 3/4"}) {
+  for (const char *vertex : {"v nan nan nan", "v inf 0 0", "v abc", "v", "v 1", "v 1 2", "v 1 2 x", "v 1,2,3",
+                             "v 1 2 3 4 5", "v 1 2 3 4 5 6 7 8", "v 1e39 0 0", "v 1e999 0 0", "v 0x1p2 0 0",
+                             "v 1 2 3 w", "v 1.5.2 0 0", "v --1 0 0", "v 1 2 3/4"}) {
     INFO(vertex);
     CHECK_THAT(refusal(corners + vertex + "\nf 1 2 3\n"), ContainsSubstring("cube.obj: line 5: "));
   }
-  for (const char *face : {"f", "f 1", "f 1 2", "f 0 1 2", "f 1 2 0", "f a b c", "f 1 2 x", "f 1.5 2 3", "f 1/ 2/ 3/", "f 1/x 2 3", "f 1/0 2 3", "f /1 2 3", "f 1/1/1/1 2 3", "f 1//  2 3",
-                           "f 1 2 5", "f 1 2 3 999999", "f 1 2 3 4 5", "f 1 2 -9", "f -5 -1 -2", "f 1 2 3 -9999999999999999999", "f 1 2 99999999999999999999", "f 1 2 3 4 2147483648",
-                           "f 1 2 4294967297", "f 1 2 3 # 4\nf 1 2 3 5", "f 1 \\\n2 9"}) {
+  for (const char *face : {"f",
+                           "f 1",
+                           "f 1 2",
+                           "f 0 1 2",
+                           "f 1 2 0",
+                           "f a b c",
+                           "f 1 2 x",
+                           "f 1.5 2 3",
+                           "f 1/ 2/ 3/",
+                           "f 1/x 2 3",
+                           "f 1/0 2 3",
+                           "f /1 2 3",
+                           "f 1/1/1/1 2 3",
+                           "f 1//  2 3",
+                           "f 1 2 5",
+                           "f 1 2 3 999999",
+                           "f 1 2 3 4 5",
+                           "f 1 2 -9",
+                           "f -5 -1 -2",
+                           "f 1 2 3 -9999999999999999999",
+                           "f 1 2 99999999999999999999",
+                           "f 1 2 3 4 2147483648",
+                           "f 1 2 4294967297",
+                           "f 1 2 3 # 4\nf 1 2 3 5",
+                           "f 1 \\\n2 9"}) {
     INFO(face);
     CHECK_THAT(refusal(corners + face + "\n"), ContainsSubstring("cube.obj: line "));
   }
-  for (const char *line : {"face 1 2 3", "V 0 0 0", "F 1 2 3", "curv 0 1 1 2", "surf 0 1 0 1", "fo 1 2 3", "<html>", "solid cube"}) {
+  for (const char *line :
+       {"face 1 2 3", "V 0 0 0", "F 1 2 3", "curv 0 1 1 2", "surf 0 1 0 1", "fo 1 2 3", "<html>", "solid cube"}) {
     INFO(line);
     CHECK_THAT(refusal(corners + line + "\n"), ContainsSubstring("begins no line that is known"));
   }
@@ -158,7 +183,8 @@ TEST_CASE("obj: a polygon that crosses itself is refused, in any plane and with 
 TEST_CASE("obj: a polygon that cannot be cut, or not in reasonable time, is named by its line")
 {
   const std::string twisted = "v 0 1 1\nv 1 1 1\nv 1 2 1\nv 1 2 0\nv 2 0 0\n";
-  CHECK_THAT(refusal(twisted + "f 1 2 3\nf 1 2 3 4 5\nf 1 3 4\n"), ContainsSubstring("cube.obj: line 7: a polygon that cannot be cut into triangles"));
+  CHECK_THAT(refusal(twisted + "f 1 2 3\nf 1 2 3 4 5\nf 1 3 4\n"),
+             ContainsSubstring("cube.obj: line 7: a polygon that cannot be cut into triangles"));
   const auto circle = [](int n) {
     std::string text, face = "f";
     for (int k = 0; k < n; ++k) {

@@ -1,13 +1,14 @@
-/* fault_scenes.h - the worlds in which one place after the other is made to fail: tests/host/runtime/faults_test.cpp by its
- * hooks in buffers, builds, launches and moves of bytes, tests/heap/ by operator new. */
+/* fault_scenes.h - the worlds in which one place after the other is made to fail: tests/host/runtime/faults_test.cpp by
+ * its hooks in buffers, builds, launches and moves of bytes, tests/heap/ by operator new. */
 #pragma once
 
 #include <array>
 #include <string>
 #include <vector>
 
-#include "host/catalog/catalog.h"
 #include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
 #include "tests/catch.h"
 
 namespace tandem::fault_scenes {

@@ -1,7 +1,8 @@
-/* What may fail is made to fail, one place after the other, until a run gets through: a step happens whole or not at all.
+/* What may fail is made to fail, one place after the other, until a run gets through: a step happens whole or not at
+ * all.
  *
- * After SQLite's out-of-memory tests. A failed call must say what was wanted, leave the state as it was, and leave a world that goes on
- * with the bits of one that nothing ever happened to. */
+ * After SQLite's out-of-memory tests. A failed call must say what was wanted, leave the state as it was, and leave a
+ * world that goes on with the bits of one that nothing ever happened to. */
 #include <array>
 #include <atomic>
 #include <functional>
@@ -10,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "host/runtime/interface/faults.h"
 #include "host/base/out_of_memory.h"
+#include "host/runtime/interface/faults.h"
 #include "tests/host/runtime/fault_scenes.h"
 #include "tests/host/runtime/opencl/pocl.h"
 
@@ -20,7 +21,8 @@ using namespace tandem::fault_scenes;
 
 namespace {
 
-/* Which of the places fails that are asked, counted from 0; `once`: that one alone, else all from there on. only: places of one kind. */
+/* Which of the places fails that are asked, counted from 0; `once`: that one alone, else all from there on. only:
+ * places of one kind. */
 struct Plan {
   uint64_t nth = 0, seen = 0;
   bool once = true;
@@ -76,12 +78,15 @@ void check_message(const std::string &message)
   INFO(message);
   CHECK(message.size() > 30);
   CHECK(message.find('\n') == std::string::npos);
-  CHECK((message.find("bytes") != std::string::npos || message.find("launch") != std::string::npos || message.find("kernel") != std::string::npos ||
-         message.find("OpenCL device") != std::string::npos || message.find("out of memory") != std::string::npos));
+  CHECK((message.find("bytes") != std::string::npos || message.find("launch") != std::string::npos ||
+         message.find("kernel") != std::string::npos || message.find("OpenCL device") != std::string::npos ||
+         message.find("out of memory") != std::string::npos));
 }
 
-/* The step `at` fails at every place in turn, in one world: each failure leaves it as it was, and in the end it goes on. */
-void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const Placement &placement, int at, uint64_t stride, bool once)
+/* The step `at` fails at every place in turn, in one world: each failure leaves it as it was, and in the end it goes
+ * on. */
+void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const Placement &placement, int at,
+                             uint64_t stride, bool once)
 {
   const std::vector<uint64_t> undisturbed = hashes_of(scene, settings, placement, at + 3);
   uint64_t failures = 0;
@@ -109,7 +114,8 @@ void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const
 }
 
 /* What reads or changes a world between steps, with the hash of the state that it leaves. */
-void fail_everywhere_between_steps(const Scene &scene, const Settings &settings, const Placement &placement, const Placement &other, uint64_t stride)
+void fail_everywhere_between_steps(const Scene &scene, const Settings &settings, const Placement &placement,
+                                   const Placement &other, uint64_t stride)
 {
   const std::vector<uint64_t> undisturbed = hashes_of(scene, settings, placement, 4);
   const std::vector<std::pair<const char *, std::function<void(World &)>>> calls = {
@@ -121,7 +127,10 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
       {"statistics", [](World &world) { world.statistics(); }},
       {"place", [&](World &world) { world.place(other); }},
       {"set_body", [](World &world) { world.set_body(0, world.bodies()[0]); }},
-      {"events", [&](World &world) { if (settings.events) world.contact_events(); }},
+      {"events",
+       [&](World &world) {
+         if (settings.events) world.contact_events();
+       }},
   };
   uint64_t failures = 0;
   for (const auto &[name, call] : calls)
@@ -144,7 +153,8 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
   CHECK(failures > 0);
 }
 
-void fail_everywhere_in_creation(const Scene &scene, const Settings &settings, const Placement &placement, uint64_t stride)
+void fail_everywhere_in_creation(const Scene &scene, const Settings &settings, const Placement &placement,
+                                 uint64_t stride)
 {
   const uint64_t expected = hashes_of(scene, settings, placement, 2).back();
   uint64_t failures = 0;
@@ -162,7 +172,8 @@ void fail_everywhere_in_creation(const Scene &scene, const Settings &settings, c
 
 } // namespace
 
-TEST_CASE("a step that fails anywhere on the CPU leaves the state as it was, and the next ones their bits", "[sanitizer]")
+TEST_CASE("a step that fails anywhere on the CPU leaves the state as it was, and the next ones their bits",
+          "[sanitizer]")
 {
   for (const Case &c : cases())
     for (const char *on : {"serial", "tbb:threads=2"}) {
@@ -187,12 +198,14 @@ TEST_CASE("a step that fails while its buffers grow leaves the state as it was",
 TEST_CASE("what fails between steps on the CPU leaves the state as it was", "[sanitizer]")
 {
   for (const Case &c : cases())
-    fail_everywhere_between_steps(load_scene(c.scene), c.settings, Placement{"tbb:threads=2", {}, false}, Placement{"serial", {{"solve", "tbb:threads=3"}}, false}, 1);
+    fail_everywhere_between_steps(load_scene(c.scene), c.settings, Placement{"tbb:threads=2", {}, false},
+                                  Placement{"serial", {{"solve", "tbb:threads=3"}}, false}, 1);
 }
 
 TEST_CASE("a world whose creation fails anywhere on the CPU can be made the next time", "[sanitizer]")
 {
-  for (const Case &c : cases()) fail_everywhere_in_creation(load_scene(c.scene), c.settings, Placement{"serial", {}, false}, 1);
+  for (const Case &c : cases())
+    fail_everywhere_in_creation(load_scene(c.scene), c.settings, Placement{"serial", {}, false}, 1);
 }
 
 TEST_CASE("out of memory names the buffer, its bytes, the bodies and the pairs", "[sanitizer]")
@@ -200,11 +213,12 @@ TEST_CASE("out of memory names the buffer, its bytes, the bodies and the pairs",
   World world(crowd(52), {}, Placement{"serial", {}, false});
   const Outcome outcome = attempt(0, false, [&] { world.step(); });
   INFO(outcome.message);
-  for (const char *part : {"step 0: ", "out of memory: buffer ", " needs ", " bytes of the host's memory", "of 52 bodies", "room for 1284 pairs"})
+  for (const char *part : {"step 0: ", "out of memory: buffer ", " needs ", " bytes of the host's memory",
+                           "of 52 bodies", "room for 1284 pairs"})
     CHECK(outcome.message.find(part) != std::string::npos);
 }
 
-/* --- OpenCL: PoCL, which works in the host's memory, and the same with memory of its own, as a GPU has ------------------ */
+/* --- OpenCL: PoCL, which works in the host's memory, and the same with memory of its own, as a GPU has --- */
 
 namespace {
 
@@ -217,11 +231,12 @@ std::unique_ptr<World> world_with_own_memory(const Scene &scene, const Settings 
 
 std::unique_ptr<World> world_on_pocl(const Scene &scene, const Settings &settings, bool shares)
 {
-  return shares ? std::make_unique<World>(scene, settings, Placement{"cl:pocl", {}, false}) : world_with_own_memory(scene, settings);
+  return shares ? std::make_unique<World>(scene, settings, Placement{"cl:pocl", {}, false})
+                : world_with_own_memory(scene, settings);
 }
 
-/* One world, since programs take long to load: the first place of each kind fails, the second, the fourth and so on, until the step gets
- * through. */
+/* One world, since programs take long to load: the first place of each kind fails, the second, the fourth and so on,
+ * until the step gets through. */
 void fail_on_pocl(const Case &c, bool shares)
 {
   const Scene scene = load_scene(c.scene);
@@ -232,7 +247,8 @@ void fail_on_pocl(const Case &c, bool shares)
     for (int again = 0; again < 2; ++again, ++at)
       for (uint64_t nth = 0;; nth = 2 * nth + 1) {
         CAPTURE(c.scene, c.what, shares, at, nth, static_cast<int>(site));
-        const Outcome outcome = attempt(nth, true, [&] { world->step(); }, site);
+        const Outcome outcome = attempt(
+            nth, true, [&] { world->step(); }, site);
         if (!outcome.struck) break;
         check_message(outcome.message);
         CHECK(outcome.message.find("state is that before the step") != std::string::npos);
@@ -250,7 +266,8 @@ TEST_CASE("a step that fails on an OpenCL device leaves the state as it was, and
   struck_at = {};
   fail_on_pocl(cases()[0], true);
   fail_on_pocl(cases()[1], false);
-  for (const faults::Site site : {faults::Site::allocation, faults::Site::launch, faults::Site::transfer}) CHECK(struck_at[static_cast<size_t>(site)] > 0);
+  for (const faults::Site site : {faults::Site::allocation, faults::Site::launch, faults::Site::transfer})
+    CHECK(struck_at[static_cast<size_t>(site)] > 0);
 }
 
 TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
@@ -275,7 +292,8 @@ TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
   }
 }
 
-TEST_CASE("a world on an OpenCL device that fails from some place on is refused in one line and can be made the next time")
+TEST_CASE(
+    "a world on an OpenCL device that fails from some place on is refused in one line and can be made the next time")
 {
   parity::require_pocl();
   const Case c = cases()[0];
@@ -292,7 +310,8 @@ TEST_CASE("a world on an OpenCL device that fails from some place on is refused 
   }
   CHECK(failures > 3);
   CHECK(struck_at[static_cast<size_t>(faults::Site::build)] > 0);
-  CHECK(hashes_of(scene, c.settings, placement, 2).back() == hashes_of(scene, c.settings, Placement{"serial", {}, false}, 2).back());
+  CHECK(hashes_of(scene, c.settings, placement, 2).back() ==
+        hashes_of(scene, c.settings, Placement{"serial", {}, false}, 2).back());
 }
 
 TEST_CASE("a world on a device that fails for good can be destroyed")

@@ -1,11 +1,11 @@
-/* The tables of hulls that kernels read: each hull whole, closed and outward, one behind the other, and shared where shapes share it. */
-#include "tests/catch.h"
-
+/* The tables of hulls that kernels read: each hull whole, closed and outward, one behind the other, and shared where
+ * shapes share it. */
 #include <set>
 
 #include "host/geometry/convex_hull.h"
 #include "host/scene/hull_buffers.h"
 #include "shared/platform.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -32,9 +32,12 @@ struct Tables {
   explicit Tables(World &world)
   {
     Memory &memory = world.memory();
-    const auto words = [&](Buffer buffer) { return memory.read<uint32_t>(buffer, memory.bytes(buffer) / sizeof(uint32_t)); };
+    const auto words = [&](Buffer buffer) {
+      return memory.read<uint32_t>(buffer, memory.bytes(buffer) / sizeof(uint32_t));
+    };
     const auto rows = [&](Buffer buffer) { return memory.read<row>(buffer, memory.bytes(buffer) / sizeof(row)); };
-    headers = words(Buffer::hull_header), face_starts = words(Buffer::hull_face_start), corners = words(Buffer::hull_corner);
+    headers = words(Buffer::hull_header), face_starts = words(Buffer::hull_face_start),
+    corners = words(Buffer::hull_corner);
     edges = words(Buffer::hull_edge), vertices = rows(Buffer::hull_vertex), planes = rows(Buffer::hull_plane);
   }
   std::vector<uint32_t> headers, face_starts, corners, edges;

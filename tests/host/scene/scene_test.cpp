@@ -1,10 +1,11 @@
 /* scene_test.cpp - what cannot be simulated is named; moments of inertia agree with summed volume elements. */
-#include <tandem/scene.h>
-#include <tandem/world.h>
-#include "tests/catch.h"
-
 #include <functional>
 #include <limits>
+
+#include <tandem/scene.h>
+#include <tandem/world.h>
+
+#include "tests/catch.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -133,12 +134,11 @@ TEST_CASE("validation refuses what the solver could not bear")
 
 TEST_CASE("validation of capsules, cylinders, hulls and of shapes with a pose")
 {
-  auto shape = [](const Shape &given) {
-    return complaint([&](Scene &s) { s.shapes[0] = given; });
-  };
+  auto shape = [](const Shape &given) { return complaint([&](Scene &s) { s.shapes[0] = given; }); };
   CHECK(shape(capsule_shape(0.5f, 1)).empty());
   CHECK(shape({ShapeType::capsule, {0.5f, 1, 2.49f}}).empty());
-  CHECK_THAT(shape({ShapeType::capsule, {0.5f, 1, 2.5f}}), ContainsSubstring("holds the other; a sphere of radius 2.5 is the same"));
+  CHECK_THAT(shape({ShapeType::capsule, {0.5f, 1, 2.5f}}),
+             ContainsSubstring("holds the other; a sphere of radius 2.5 is the same"));
   CHECK_THAT(shape({ShapeType::capsule, {0, 1, 0.5f}}), ContainsSubstring("shape 0: radius_bottom is 0"));
   CHECK_THAT(shape({ShapeType::capsule, {0.5f, 1, -1}}), ContainsSubstring("shape 0: radius_top is -1"));
   CHECK_THAT(shape(capsule_shape(0.5f, 0)), ContainsSubstring("shape 0: half_height is 0"));
@@ -151,12 +151,14 @@ TEST_CASE("validation of capsules, cylinders, hulls and of shapes with a pose")
   CHECK_THAT(shape({ShapeType::hull, {0, 0, 0}}), ContainsSubstring("shape 0: a hull without points"));
 
   auto pose = [](const Vec3 &position, const Quat &orientation, size_t body) {
-    return complaint([&](Scene &s) { s.bodies[body].shape_position = position, s.bodies[body].shape_orientation = orientation; });
+    return complaint(
+        [&](Scene &s) { s.bodies[body].shape_position = position, s.bodies[body].shape_orientation = orientation; });
   };
   CHECK(pose({1, 2, 3}, {0, 0, 0, 1}, 0).empty());
   CHECK(pose({1, 2, 3}, {0.6f, 0, 0, 0.8f}, 1).empty()); /* all axes of a sphere are principal ones */
   CHECK_THAT(pose({0, nan_value, 0}, {0, 0, 0, 1}, 0), ContainsSubstring("shape_position is [0, nan, 0]"));
-  CHECK_THAT(pose({0, 0, 0}, {0, 0, 0, 2}, 0), ContainsSubstring("shape_orientation is [0, 0, 0, 2]; a quaternion of length 1"));
+  CHECK_THAT(pose({0, 0, 0}, {0, 0, 0, 2}, 0),
+             ContainsSubstring("shape_orientation is [0, 0, 0, 2]; a quaternion of length 1"));
   CHECK_THAT(pose({0, 1, 0}, {0, 0, 0, 1}, 2), ContainsSubstring("body 2 'floor': a half_space has no pose"));
   CHECK_THAT(pose({0, 0, 0}, {0.6f, 0, 0, 0.8f}, 2), ContainsSubstring("a half_space has no pose"));
 }
@@ -172,7 +174,8 @@ TEST_CASE("validation refuses moments from a shape that is turned in its body")
       s.bodies[0].inertia = inertia;
     });
   };
-  CHECK_THAT(turned(box_shape(1, 2, 3), slanted), ContainsSubstring("body 0: inertia from shape and mass is about the shape's principal axes"));
+  CHECK_THAT(turned(box_shape(1, 2, 3), slanted),
+             ContainsSubstring("body 0: inertia from shape and mass is about the shape's principal axes"));
   CHECK_FALSE(turned(box_shape(1, 2, 3), upended).empty()); /* principal axes, under other names */
   CHECK(turned(box_shape(1, 2, 3), slanted, {1, 1, 1}).empty());
   CHECK(turned(box_shape(1, 1, 1), slanted).empty());
@@ -196,8 +199,9 @@ TEST_CASE("inertia agrees with summed volume elements")
 
 TEST_CASE("numbers whose powers and sums are no floats are refused, field by field")
 {
-  const std::vector<Shape> largest{sphere_shape(1e9f),        box_shape(1e9f, 1, 1), box_shape(1, 1, 1e9f), capsule_shape(1e9f, 1),
-                                   capsule_shape(1, 1e9f), cylinder_shape(1e9f, 1), cylinder_shape(1, 1e9f), cone_shape(1e9f, 1)};
+  const std::vector<Shape> largest{sphere_shape(1e9f),      box_shape(1e9f, 1, 1),  box_shape(1, 1, 1e9f),
+                                   capsule_shape(1e9f, 1),  capsule_shape(1, 1e9f), cylinder_shape(1e9f, 1),
+                                   cylinder_shape(1, 1e9f), cone_shape(1e9f, 1)};
   const auto said = [](const Shape &shape) {
     return complaint([&](Scene &s) {
       s.shapes[0] = shape;
@@ -225,11 +229,17 @@ TEST_CASE("numbers whose powers and sums are no floats are refused, field by fie
   const std::vector<std::function<void(Scene &)>> spoilers{
       [](Scene &s) { s.bodies[0].position[1] = -2e18; },
       [](Scene &s) { s.bodies[0].position[2] = 1e300; },
-      [](Scene &s) { s.bodies[0].shape_position = {2e9f, 0, 0}; },
+      [](Scene &s) {
+        s.bodies[0].shape_position = {2e9f, 0, 0};
+      },
       [](Scene &s) { s.bodies[0].mass = 2e36f; },
       [](Scene &s) { s.bodies[0].mass = 5e-37f; },
-      [](Scene &s) { s.bodies[0].inertia = {1, 2e36f, 1}; },
-      [](Scene &s) { s.bodies[0].inertia = {1, 1, 5e-37f}; },
+      [](Scene &s) {
+        s.bodies[0].inertia = {1, 2e36f, 1};
+      },
+      [](Scene &s) {
+        s.bodies[0].inertia = {1, 1, 5e-37f};
+      },
       [](Scene &s) { s.materials[0].static_friction = 2e9f; },
       [](Scene &s) { s.materials[0].dynamic_friction = 2e9f; },
       [](Scene &s) { s.materials[0].rolling_friction = 1e30f; },
@@ -243,7 +253,8 @@ TEST_CASE("numbers whose powers and sums are no floats are refused, field by fie
 
 TEST_CASE("the largest shapes meet what is in them")
 {
-  for (const Shape &shape : {sphere_shape(1e9f), box_shape(1e9f, 1e9f, 1e9f), capsule_shape(1e9f, 1e9f), cylinder_shape(1e9f, 1e9f)}) {
+  for (const Shape &shape :
+       {sphere_shape(1e9f), box_shape(1e9f, 1e9f, 1e9f), capsule_shape(1e9f, 1e9f), cylinder_shape(1e9f, 1e9f)}) {
     Scene scene;
     scene.shapes = {shape, sphere_shape(1)};
     Body large, small;

@@ -1,7 +1,7 @@
-/* Boxes and balls around shapes, however they stand in their bodies: nothing of a shape is outside, and no more is taken than it needs. */
-#include "tests/catch.h"
-
+/* Boxes and balls around shapes, however they stand in their bodies: nothing of a shape is outside, and no more is
+ * taken than it needs. */
 #include "host/scene/shape_bounds.h"
+#include "tests/catch.h"
 #include "tests/host/scene/shape_points.h"
 
 using namespace tandem;

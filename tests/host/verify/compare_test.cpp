@@ -1,17 +1,16 @@
 /* compare_test.cpp - the comparison proves itself: errors of one ulp are planted and must be found. */
-#include "tests/catch.h"
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "host/catalog/catalog.h"
 #include "host/runtime/backend_list.h"
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
 #include "host/verify/compare.h"
-#include "host/catalog/catalog.h"
-#include "host/runtime/memory.h"
-#include "host/runtime/interface/backend.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
@@ -28,7 +27,10 @@ ComparisonRequest request_of(std::vector<std::string> backends, uint64_t steps)
 Scene small_scene() { return load_scene("box-grid:nx=3,ny=3,nz=3"); }
 
 /* Where a number lies: row `item` of the buffer, or row `plane` of the item, component within it. */
-size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component) { return (item * rows + row) * 4 + component; }
+size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component)
+{
+  return (item * rows + row) * 4 + component;
+}
 
 Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1)
 {
@@ -62,7 +64,8 @@ uint32_t pairs_there_is_room_for()
 
 TEST_CASE("compare: backends of the CPU are equal in every kernel", "[compare]")
 {
-  ComparisonRequest request = request_of({"serial", "serial:order=backward", "tbb:threads=2,lanes=1", "tbb:threads=2,lanes=4"}, 8);
+  ComparisonRequest request =
+      request_of({"serial", "serial:order=backward", "tbb:threads=2,lanes=1", "tbb:threads=2,lanes=4"}, 8);
   const Comparison comparison = compare_backends(small_scene(), request);
   if (comparison.first_difference && comparison.first_difference->kernel)
     INFO(row_of(*comparison.first_difference->kernel).name);
@@ -118,7 +121,8 @@ TEST_CASE("compare: one ulp in a velocity, and the constraint that wrote it", "[
   for (uint64_t k = 0; k <= step; ++k) world.step();
   /* Of the first constraint, which is of the first colour, whose launch is the first. */
   const uint32_t body = world.memory().read<uint32_t>(Buffer::constraint_b, 1, 0).at(0);
-  const Difference found = find_planted(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);
+  const Difference found =
+      find_planted(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);
   CHECK(found.place.field == "angular.x");
   CHECK(found.ulps == 1u);
   const size_t at = found.breakpoint.find("i == ");
@@ -281,7 +285,8 @@ TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "
 TEST_CASE("compare: bodies that stop being finite in the solver do so alike in scalars and in lanes", "[compare]")
 {
   Scene scene = load_scene("box-grid:nx=4,ny=4,nz=4");
-  for (size_t body = 1; body < scene.bodies.size(); body += 3) scene.bodies[body].linear_velocity = {3e37f, -3e38f, 1e38f};
+  for (size_t body = 1; body < scene.bodies.size(); body += 3)
+    scene.bodies[body].linear_velocity = {3e37f, -3e38f, 1e38f};
   for (const char *solver : {"soft-step", "jacobi"}) {
     ComparisonRequest request = request_of({"serial", "tbb:threads=2,lanes=4", "serial:order=backward"}, 2);
     request.settings = settings_for(solver);

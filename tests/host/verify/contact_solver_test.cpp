@@ -14,10 +14,11 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string scenes = TANDEM_SOURCE_DIR "/tests/scenes/";
-const char *const small_problems[] = {"contact-sticking.dat", "contact-sliding.dat", "box-on-corners.dat", "ball-in-groove.dat",
-                                      "column-and-strays.dat"};
+const char *const small_problems[] = {"contact-sticking.dat", "contact-sliding.dat", "box-on-corners.dat",
+                                      "ball-in-groove.dat", "column-and-strays.dat"};
 
-ContactSolution solved(const ContactProblem &problem, const std::string &solver, const std::string &on, double tolerance)
+ContactSolution solved(const ContactProblem &problem, const std::string &solver, const std::string &on,
+                       double tolerance)
 {
   const auto backend = make_backend(on);
   return solve_contact_problem(problem, {solver, tolerance, 100'000}, *backend);
@@ -34,20 +35,23 @@ TEST_CASE("contact problem: every solver finds the impulses of closed forms")
 {
   for (const std::string &solver : contact_solver_names()) {
     CAPTURE(solver);
-    const auto impulse = [&](const char *file) { return solved(read_contact_problem(scenes + file), solver, "reference", 1e-8).impulse; };
+    const auto impulse = [&](const char *file) {
+      return solved(read_contact_problem(scenes + file), solver, "reference", 1e-8).impulse;
+    };
     check_impulse(impulse("contact-sticking.dat")[0], {0.5, -0.15, 0.1});
     check_impulse(impulse("contact-sliding.dat")[0], {0.5, -0.15, 0.2});
     const auto column = impulse("column-and-strays.dat");
     CHECK(column[0][0] == Approx(1)); /* carries both */
     CHECK(column[1][0] == Approx(0.5));
-    check_impulse(column[2], {0, 0, 0}); /* opens */
+    check_impulse(column[2], {0, 0, 0});    /* opens */
     check_impulse(column[3], {0.25, 0, 0}); /* slides without friction */
     double weight = 0, push = 0, side = 0;
     for (const auto &corner : impulse("box-on-corners.dat")) weight += corner[0], side += corner[1], push += corner[2];
     CHECK(weight == Approx(4 * 0.1640625)); /* kg m/s: gravity of 1/60 s */
     CHECK(push == Approx(-4 * 0.0625));
     CHECK(side == Approx(0).margin(1e-6));
-    const auto groove = impulse("ball-in-groove.dat"); /* rolls: I / (I + m d^2) of its speed is left, d the lever of both points */
+    const auto groove =
+        impulse("ball-in-groove.dat"); /* rolls: I / (I + m d^2) of its speed is left, d the lever of both points */
     CHECK(groove[0][1] + groove[1][1] == Approx(-0.1 / (1 + 0.125 / 0.1)));
   }
 }
@@ -62,7 +66,8 @@ TEST_CASE("contact problem: solutions and residuals agree with the dense oracle"
       CAPTURE(file, solver);
       const auto backend = make_backend("reference");
       const ContactSolution early = solve_contact_problem(problem, {solver, 1e-12, 2}, *backend);
-      CHECK(early.residuals.natural == Approx(dense.natural_residual(vector_of(early.impulse))).epsilon(1e-5).margin(1e-7));
+      CHECK(early.residuals.natural ==
+            Approx(dense.natural_residual(vector_of(early.impulse))).epsilon(1e-5).margin(1e-7));
       const ContactSolution last = solved(problem, solver, "reference", 1e-7);
       REQUIRE(last.converged);
       CHECK(last.residuals.natural == last.history.back());
@@ -83,11 +88,14 @@ TEST_CASE("contact problem: float solvers come as near as rounding lets them")
     }
 }
 
-TEST_CASE("contact problem: the Fischer-Burmeister function of the cone is zero at complementary pairs and nowhere else")
+TEST_CASE(
+    "contact problem: the Fischer-Burmeister function of the cone is zero at complementary pairs and nowhere else")
 {
   const auto jordan_square = [](vec3 a) { return make_vec3(inner(a, a), 2 * a.x * a.y, 2 * a.x * a.z); };
   uint32_t state = 1;
-  const auto number = [&] { return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 8388608.0f - 1.0f; };
+  const auto number = [&] {
+    return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 8388608.0f - 1.0f;
+  };
   for (int k = 0; k < 1000; ++k) {
     const vec3 x = make_vec3(number(), number(), number()), y = make_vec3(number(), number(), number());
     const vec3 root = subtract(add(x, y), fischer_burmeister(x, y));
@@ -109,7 +117,8 @@ TEST_CASE("contact problem: levels keep the order of the plain pass")
   const ContactLevels levels = contact_levels(problem);
   CHECK(levels.order == std::vector<uint32_t>{0, 2, 3, 1});
   CHECK(levels.start == std::vector<uint32_t>{0, 3, 4});
-  CHECK(contact_levels(read_contact_problem(scenes + "box-on-corners.dat")).start == std::vector<uint32_t>{0, 1, 2, 3, 4});
+  CHECK(contact_levels(read_contact_problem(scenes + "box-on-corners.dat")).start ==
+        std::vector<uint32_t>{0, 1, 2, 3, 4});
 }
 
 TEST_CASE("contact problem: Siconos's problems take the published numbers of sweeps")
@@ -119,8 +128,10 @@ TEST_CASE("contact problem: Siconos's problems take the published numbers of swe
     const char *file;
     double pgs, nncg;
   };
-  for (const Figure &figure : {Figure{"KaplasTower-i1061-4.hdf5.dat", 120, 48}, {"BoxesStack1-i100000-32.hdf5.dat", 220, 70},
-                               {"OneObject-i100000-316.hdf5.dat", 60, 18}, {"Capsules-i100-889.dat", 2, 3}}) {
+  for (const Figure &figure : {Figure{"KaplasTower-i1061-4.hdf5.dat", 120, 48},
+                               {"BoxesStack1-i100000-32.hdf5.dat", 220, 70},
+                               {"OneObject-i100000-316.hdf5.dat", 60, 18},
+                               {"Capsules-i100-889.dat", 2, 3}}) {
     CAPTURE(figure.file);
     const ContactProblem problem = read_contact_problem((folder / figure.file).string());
     CHECK(solved(problem, "nsgs", "reference", 1e-3).sweeps == Approx(figure.pgs).epsilon(0.1));
@@ -128,6 +139,7 @@ TEST_CASE("contact problem: Siconos's problems take the published numbers of swe
   }
   for (const char *file : {"Rover1039.dat", "Rover4613.dat"}) {
     const ContactProblem problem = read_contact_problem((folder / file).string());
-    for (const std::string &solver : contact_solver_names()) CHECK(solved(problem, solver, "reference", 1e-3).converged);
+    for (const std::string &solver : contact_solver_names())
+      CHECK(solved(problem, solver, "reference", 1e-3).converged);
   }
 }

@@ -1,13 +1,12 @@
-/* metrics_test.cpp - what is measured is what docs/metrics.md says: numbers worked out by hand, and a residual that grows by what
- * is done to a velocity. */
-#include "tests/catch.h"
-
+/* metrics_test.cpp - what is measured is what docs/metrics.md says: numbers worked out by hand, and a residual that
+ * grows by what is done to a velocity. */
 #include <cmath>
 #include <memory>
 
-#include "host/verify/metrics.h"
 #include "host/runtime/memory.h"
+#include "host/verify/metrics.h"
 #include "shared/platform.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -28,7 +27,8 @@ std::unique_ptr<World> resting_ball()
   return world;
 }
 
-/* Gives the ball another velocity at the end of the step, behind the solver's back. Large bodies come first: the ground is index 0. */
+/* Gives the ball another velocity at the end of the step, behind the solver's back. Large bodies come first: the ground
+ * is index 0. */
 void set_solver_velocity(World &world, const Vec3 &linear)
 {
   const row velocity{linear[0], linear[1], linear[2], 1.0f};
@@ -114,7 +114,8 @@ TEST_CASE("metrics: a ball at rest solves its problem; a velocity that does not 
   const double approach = 0.015625;
   set_solver_velocity(world, {0, float(-approach), 0});
   CHECK(step_residuals(world).natural_map == Approx(approach / pressure).epsilon(1e-6));
-  CHECK(step_residuals(world).fischer_burmeister == Approx((std::hypot(pressure, approach) - pressure + approach) / pressure).epsilon(1e-6));
+  CHECK(step_residuals(world).fischer_burmeister ==
+        Approx((std::hypot(pressure, approach) - pressure + approach) / pressure).epsilon(1e-6));
 
   set_solver_velocity(world, {0.5f, 0, 0}); /* sliding without the friction of its cone */
   CHECK(step_residuals(world).natural_map == Approx(0.6).epsilon(1e-6));

@@ -1,11 +1,11 @@
-/* rounding_test.cpp - copies are exact, bounds are off by a few ulps, and far from the origin positions by what a float is coarse there. */
-#include "tests/catch.h"
-
+/* rounding_test.cpp - copies are exact, bounds are off by a few ulps, and far from the origin positions by what a float
+ * is coarse there. */
 #include <cmath>
 #include <string>
 
-#include "host/verify/rounding.h"
 #include "host/catalog/catalog.h"
+#include "host/verify/rounding.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
@@ -83,14 +83,19 @@ TEST_CASE("rounding: bounds are a few ulps off, and something is", "[rounding]")
   }
 }
 
-TEST_CASE("rounding: far from the origin bounds lose what floats are coarser there; positions, offsets and velocities do not", "[rounding]")
+TEST_CASE(
+    "rounding: far from the origin bounds lose what floats are coarser there; positions, offsets and velocities do not",
+    "[rounding]")
 {
   const RoundingTable near = table_of(0), far = table_of(20000);
   const auto absolute = [](const RoundingTable &table, Kernel kernel, Buffer buffer, const char *field) {
     return row_for(table, kernel, buffer, field).max_absolute;
   };
-  for (const RoundingTable *table : {&near, &far}) CHECK(absolute(*table, Kernel::commit_bodies, Buffer::body_position, "x") < 1e-9); /* half an ulp at 20 km is 1 mm */
-  CHECK(absolute(far, Kernel::compute_bounds, Buffer::bounds, "lower.x") > 30 * absolute(near, Kernel::compute_bounds, Buffer::bounds, "lower.x"));
+  for (const RoundingTable *table : {&near, &far})
+    CHECK(absolute(*table, Kernel::commit_bodies, Buffer::body_position, "x") <
+          1e-9); /* half an ulp at 20 km is 1 mm */
+  CHECK(absolute(far, Kernel::compute_bounds, Buffer::bounds, "lower.x") >
+        30 * absolute(near, Kernel::compute_bounds, Buffer::bounds, "lower.x"));
   const double near_speed = absolute(near, Kernel::integrate_velocities, Buffer::solver_velocity, "linear.y");
   CHECK(near_speed > 0);
   CHECK(absolute(far, Kernel::integrate_velocities, Buffer::solver_velocity, "linear.y") < 10 * near_speed);

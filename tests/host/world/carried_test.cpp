@@ -1,15 +1,15 @@
-/* What one step hands to the next: each number of it changes the hash of the state, and what changes the next step's bits is in that hash. */
-#include "host/world/carried.h"
-
+/* What one step hands to the next: each number of it changes the hash of the state, and what changes the next step's
+ * bits is in that hash. */
 #include <limits>
 #include <memory>
-
 #include <set>
 
+#include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
-#include "host/catalog/catalog.h"
-#include <tandem/world.h>
+#include "host/world/carried.h"
 #include "shared/platform.h"
 #include "tests/catch.h"
 
@@ -22,9 +22,12 @@ struct Case {
 };
 
 /* Together they carry over every buffer that there is. */
-const std::vector<Case> cases = {{"box-grid:nx=2,ny=2,nz=2", "soft-step", "grid"}, {"box-grid:nx=2,ny=2,nz=2", "xpbd", "trees"},
-                                 {"box-grid:nx=2,ny=2,nz=2", "avbd", "sap3"},      {"compounds:n=6", "pgs", "bvh"},
-                                 {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", "soft-step", "hybrid"}, {"spheres:n=12,height=0", "jacobi", "grid"}};
+const std::vector<Case> cases = {{"box-grid:nx=2,ny=2,nz=2", "soft-step", "grid"},
+                                 {"box-grid:nx=2,ny=2,nz=2", "xpbd", "trees"},
+                                 {"box-grid:nx=2,ny=2,nz=2", "avbd", "sap3"},
+                                 {"compounds:n=6", "pgs", "bvh"},
+                                 {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", "soft-step", "hybrid"},
+                                 {"spheres:n=12,height=0", "jacobi", "grid"}};
 
 /* After so many steps; with events, whose pairs are carried over too. */
 std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
@@ -38,13 +41,18 @@ std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
 }
 
 uint32_t bodies_of(World &world) { return static_cast<uint32_t>(world.scene().bodies.size()); }
-uint32_t pairs_of(World &world) { return world.memory().read<uint32_t>(Buffer::cached_start, 1, bodies_of(world)).front(); }
+uint32_t pairs_of(World &world)
+{
+  return world.memory().read<uint32_t>(Buffer::cached_start, 1, bodies_of(world)).front();
+}
 
 size_t words_of(World &world, Buffer buffer)
 {
   const BufferRow &row = row_of(buffer);
   const size_t bodies = bodies_of(world);
-  const size_t items = row.capacity == Capacity::BODIES ? bodies : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1 : pairs_of(world);
+  const size_t items = row.capacity == Capacity::BODIES            ? bodies
+                       : row.capacity == Capacity::BODIES_PLUS_ONE ? bodies + 1
+                                                                   : pairs_of(world);
   return items * row.per_item * size_of(row.element) / sizeof(uint32_t);
 }
 
@@ -81,8 +89,9 @@ TEST_CASE("every number that is carried over changes the hash of the state")
   CHECK(seen.size() == carried_buffers().size());
 }
 
-/* Of every other buffer that a step may write, one word after the other is changed: the next step must not notice. The scene's own buffers
- * are never written, and what a broadphase keeps is forgotten first, as it is where buffers grow: bits follow from neither. */
+/* Of every other buffer that a step may write, one word after the other is changed: the next step must not notice. The
+ * scene's own buffers are never written, and what a broadphase keeps is forgotten first, as it is where buffers grow:
+ * bits follow from neither. */
 TEST_CASE("nothing but what is carried over changes the bits of the next step")
 {
   for (const Case &c : cases) {

@@ -1,8 +1,8 @@
-/* Rays through everything, rays that are merely blocked, and boxes: against one world a body, and boxes in double precision. */
-#include "tests/catch.h"
-
+/* Rays through everything, rays that are merely blocked, and boxes: against one world a body, and boxes in double
+ * precision. */
 #include <limits>
 
+#include "tests/catch.h"
 #include "tests/host/scene/shape_points.h"
 
 using namespace tandem;
@@ -17,7 +17,8 @@ Scene crowd(int n, double size, Random &random)
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int i = 0; i < n; ++i) add_any(scene, random, {random.uniform(-size, size), random.uniform(0.5, size), random.uniform(-size, size)});
+  for (int i = 0; i < n; ++i)
+    add_any(scene, random, {random.uniform(-size, size), random.uniform(0.5, size), random.uniform(-size, size)});
   for (Body &body : scene.bodies) body.filter_group = 1u << random.below(2);
   return scene;
 }
@@ -27,7 +28,8 @@ std::vector<Ray> rays_across(int n, double size, Random &random)
   std::vector<Ray> rays(static_cast<size_t>(n));
   for (Ray &ray : rays) {
     ray.origin = {random.uniform(-size, size), random.uniform(1, 2 * size), random.uniform(-size, size)};
-    ray.direction = vec3_of(Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)));
+    ray.direction =
+        vec3_of(Vector(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)));
     ray.reach = random.below(4) == 0 ? std::numeric_limits<float>::infinity() : float(random.uniform(0, 3));
     ray.filter.mask = random.below(3) == 0 ? 1 : 3;
     if (random.below(20) == 0) ray.direction[random.below(3)] = 0;
@@ -48,7 +50,10 @@ std::vector<RayHit> hits_of_body_alone(const Scene &scene, uint32_t body, const 
   return hits;
 }
 
-bool same(const RayHit &a, const RayHit &b) { return a.body == b.body && a.fraction == b.fraction && a.point == b.point && a.normal == b.normal; }
+bool same(const RayHit &a, const RayHit &b)
+{
+  return a.body == b.body && a.fraction == b.fraction && a.point == b.point && a.normal == b.normal;
+}
 
 } // namespace
 
@@ -69,8 +74,11 @@ TEST_CASE("rays through everything hit what each body alone is hit by, nearest f
   const auto blocked = world.find_blocked_rays(rays);
   size_t wrong = 0, found = 0;
   for (size_t k = 0; k < rays.size(); ++k) {
-    std::sort(expected[k].begin(), expected[k].end(), [](const RayHit &a, const RayHit &b) { return std::pair(a.fraction, a.body) < std::pair(b.fraction, b.body); });
-    const bool all = through[k].size() == expected[k].size() && std::equal(through[k].begin(), through[k].end(), expected[k].begin(), same);
+    std::sort(expected[k].begin(), expected[k].end(), [](const RayHit &a, const RayHit &b) {
+      return std::pair(a.fraction, a.body) < std::pair(b.fraction, b.body);
+    });
+    const bool all = through[k].size() == expected[k].size() &&
+                     std::equal(through[k].begin(), through[k].end(), expected[k].begin(), same);
     const bool first = expected[k].empty() ? nearest[k].body == no_body : same(nearest[k], expected[k].front());
     wrong += !all || !first || blocked[k] == expected[k].empty();
     found += expected[k].size();
@@ -83,12 +91,15 @@ TEST_CASE("rays among five thousand balls hit the nearest of them all")
 {
   Random random(22);
   Scene scene = empty_scene({0, 0, 0});
-  for (int i = 0; i < 5000; ++i) add_body(scene, Motion::fixed, sphere_shape(0.25f), {random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-12, 12)});
+  for (int i = 0; i < 5000; ++i)
+    add_body(scene, Motion::fixed, sphere_shape(0.25f),
+             {random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-12, 12)});
   World world(scene);
   std::vector<Ray> rays(2000);
   for (Ray &ray : rays) {
     ray.origin = point_of(20 * direction(random));
-    ray.direction = vec3_of(Vector(random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-10, 10)) - vector_of(ray.origin));
+    ray.direction = vec3_of(Vector(random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-10, 10)) -
+                            vector_of(ray.origin));
     ray.reach = std::numeric_limits<float>::infinity();
   }
   const std::vector<RayHit> hits = world.cast_rays(rays);
@@ -115,7 +126,8 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
   Scene scene = empty_scene();
   add_ground(scene);
   for (int i = 0; i < 400; ++i) {
-    Body &body = add_body(scene, Motion::fixed, i % 2 ? sphere_shape(float(random.uniform(0.1, 0.6))) : box_shape(0.5f, 0.2f, 0.3f),
+    Body &body = add_body(scene, Motion::fixed,
+                          i % 2 ? sphere_shape(float(random.uniform(0.1, 0.6))) : box_shape(0.5f, 0.2f, 0.3f),
                           {random.uniform(-8, 8), random.uniform(1, 12), random.uniform(-8, 8)});
     body.orientation = random.orientation();
   }
@@ -123,7 +135,8 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
   for (QueryBox &box : boxes) {
     box.center = {random.uniform(-9, 9), random.uniform(0, 13), random.uniform(-9, 9)};
     box.half_extents = {float(random.uniform(0, 2)), float(random.uniform(0, 0.5)), float(random.below(2))};
-    if (random.below(2)) box.displacement = {float(random.uniform(-9, 9)), float(random.uniform(-9, 9)), random.below(2) ? 0.0f : 3.0f};
+    if (random.below(2))
+      box.displacement = {float(random.uniform(-9, 9)), float(random.uniform(-9, 9)), random.below(2) ? 0.0f : 3.0f};
   }
   World world(scene);
   const auto found = world.sweep_boxes(boxes);
@@ -134,10 +147,13 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
     for (uint32_t i = 1; i < scene.bodies.size(); ++i) {
       const Body &body = scene.bodies[i];
       const Shape &shape = scene.shapes[body.shape];
-      const Vector size = vector_of(shape.size), half = shape.type == ShapeType::sphere ? Vector(size.x(), size.x(), size.x()) : Vector(axes_of(body.orientation).cwiseAbs() * size);
+      const Vector size = vector_of(shape.size), half = shape.type == ShapeType::sphere
+                                                            ? Vector(size.x(), size.x(), size.x())
+                                                            : Vector(axes_of(body.orientation).cwiseAbs() * size);
       double enter = 0, leave = 1;
       for (int axis = 0; axis < 3; ++axis) {
-        const double reach = half[axis] + double(boxes[k].half_extents[size_t(axis)]), way = double(boxes[k].displacement[size_t(axis)]);
+        const double reach = half[axis] + double(boxes[k].half_extents[size_t(axis)]),
+                     way = double(boxes[k].displacement[size_t(axis)]);
         const double offset = body.position[size_t(axis)] - boxes[k].center[size_t(axis)];
         if (way == 0) {
           if (std::abs(offset) > reach) leave = -1;
@@ -154,9 +170,12 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
     std::sort(expected.begin(), expected.end());
     bool right = found[k].size() == expected.size();
     for (size_t j = 0; right && j < expected.size(); ++j) {
-      const auto same_body = std::find_if(expected.begin(), expected.end(), [&](const auto &e) { return e.second == found[k][j].body; });
+      const auto same_body =
+          std::find_if(expected.begin(), expected.end(), [&](const auto &e) { return e.second == found[k][j].body; });
       right = same_body != expected.end() && std::abs(same_body->first - double(found[k][j].fraction)) < 1e-5;
-      if (j > 0) right = right && std::pair(found[k][j - 1].fraction, found[k][j - 1].body) < std::pair(found[k][j].fraction, found[k][j].body);
+      if (j > 0)
+        right = right && std::pair(found[k][j - 1].fraction, found[k][j - 1].body) <
+                             std::pair(found[k][j].fraction, found[k][j].body);
     }
     wrong += !right;
     hits += expected.size();
@@ -180,10 +199,12 @@ TEST_CASE("queries between steps see the new places, under every broadphase, and
       CHECK(world.state_hash() == other.state_hash());
       Scene now = scene;
       const std::vector<PreciseBodyState> bodies = world.precise_bodies();
-      for (size_t i = 0; i < now.bodies.size(); ++i) now.bodies[i].position = bodies[i].position, now.bodies[i].orientation = world.bodies()[i].orientation;
+      for (size_t i = 0; i < now.bodies.size(); ++i)
+        now.bodies[i].position = bodies[i].position, now.bodies[i].orientation = world.bodies()[i].orientation;
       World still(now, settings);
       const auto found = world.cast_rays(rays), expected = still.cast_rays(rays);
-      for (size_t r = 0; r < rays.size(); ++r) CHECK((found[r].body == expected[r].body && std::abs(found[r].fraction - expected[r].fraction) < 1e-5));
+      for (size_t r = 0; r < rays.size(); ++r)
+        CHECK((found[r].body == expected[r].body && std::abs(found[r].fraction - expected[r].fraction) < 1e-5));
       CHECK(world.cast_rays_through(rays).size() == rays.size());
     }
   }

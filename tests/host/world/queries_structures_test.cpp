@@ -1,9 +1,9 @@
-/* Queries give the same bits whatever structure they walk: the hierarchy, the uniform grid, or every body one by one. */
-#include "tests/catch.h"
-
+/* Queries give the same bits whatever structure they walk: the hierarchy, the uniform grid, or every body one by
+ * one. */
 #include <cstring>
 #include <limits>
 
+#include "tests/catch.h"
 #include "tests/host/scene/shape_points.h"
 
 using namespace tandem;
@@ -32,10 +32,13 @@ struct Answers {
 
 bool same(const QueryHit &p, const QueryHit &q)
 {
-  return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0 && std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 &&
-         std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
+  return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0 &&
+         std::memcmp(&p.point, &q.point, sizeof(Point)) == 0 && std::memcmp(&p.normal, &q.normal, sizeof(Vec3)) == 0;
 }
-bool same(const BoxHit &p, const BoxHit &q) { return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0; }
+bool same(const BoxHit &p, const BoxHit &q)
+{
+  return p.body == q.body && std::memcmp(&p.fraction, &q.fraction, sizeof(float)) == 0;
+}
 bool same(bool p, bool q) { return p == q; }
 template <class Hit> bool same(const std::vector<Hit> &p, const std::vector<Hit> &q)
 {
@@ -47,7 +50,11 @@ Answers ask(const Scene &scene, const Questions &questions, const char *broadpha
   Settings settings;
   settings.broadphase = broadphase;
   World world(scene, settings, {backend, {}});
-  Answers a{world.cast_rays(questions.rays), world.find_blocked_rays(questions.rays), world.cast_rays_through(questions.rays), world.sweep_boxes(questions.boxes), {}};
+  Answers a{world.cast_rays(questions.rays),
+            world.find_blocked_rays(questions.rays),
+            world.cast_rays_through(questions.rays),
+            world.sweep_boxes(questions.boxes),
+            {}};
   for (const Shape &shape : {sphere_shape(0.2f), box_shape(0.3f, 0.1f, 0.6f)}) {
     const std::vector<SweepHit> hits = world.sweep(shape, questions.poses, questions.ways, {1, 3});
     a.sweeps.insert(a.sweeps.end(), hits.begin(), hits.end());
@@ -75,10 +82,12 @@ void require_equal_answers(const Scene &scene, const Questions &questions, size_
 
 Point anywhere(Random &random, const Point &middle, double size)
 {
-  return {middle[0] + random.uniform(-size, size), middle[1] + random.uniform(-size, size), middle[2] + random.uniform(-size, size)};
+  return {middle[0] + random.uniform(-size, size), middle[1] + random.uniform(-size, size),
+          middle[2] + random.uniform(-size, size)};
 }
 
-/* From near and far, from inside of a body, at a body or past all of them; along axes and diagonals; of no length where that is allowed. */
+/* From near and far, from inside of a body, at a body or past all of them; along axes and diagonals; of no length where
+ * that is allowed. */
 struct Way {
   Point from;
   Vec3 way;
@@ -89,7 +98,10 @@ Way any_way(const Scene &scene, Random &random, double size)
   const auto body = [&]() -> const Body & { return scene.bodies[random.below(uint32_t(scene.bodies.size()))]; };
   const Point about = body().position, to = random.below(3) ? body().position : anywhere(random, about, size);
   const uint32_t kind = random.below(8);
-  Way w{kind < 4 ? anywhere(random, about, size) : kind == 4 ? anywhere(random, about, 1000 * size) : body().position, {}};
+  Way w{kind < 4    ? anywhere(random, about, size)
+        : kind == 4 ? anywhere(random, about, 1000 * size)
+                    : body().position,
+        {}};
   for (size_t axis = 0; axis < 3; ++axis) w.way[axis] = float(random.uniform(0.2, 2) * (to[axis] - w.from[axis]));
   if (random.below(4) == 0) {
     const size_t axis = random.below(3);
@@ -107,7 +119,8 @@ Questions questions_about(const Scene &scene, Random &random, size_t count, doub
 {
   Questions q;
   while (q.rays.size() < count) {
-    const Way ray = any_way(scene, random, size), box = any_way(scene, random, size), sweep = any_way(scene, random, size);
+    const Way ray = any_way(scene, random, size), box = any_way(scene, random, size),
+              sweep = any_way(scene, random, size);
     if (std::hypot(double{ray.way[0]}, double{ray.way[1]}, double{ray.way[2]}) < 1e-10) continue;
     const float reaches[] = {0, 0.5f, 1, 1, 3, endless};
     const QueryFilter filter{random.below(4) ? 3u : 1u, random.below(4) ? 3u : 2u};
@@ -147,7 +160,8 @@ Scene crowd(int n, double size, Random &random)
     const Point at = anywhere(random, {0, 0, 0}, random.below(12) ? size : 50 * size);
     if (random.below(15) == 0) add_body(scene, Motion::fixed, hills(random), at).orientation = random.orientation();
     else if (random.below(15) == 0) add_body(scene, Motion::fixed, dumbbell(), at);
-    else if (random.below(12) == 0) add_body(scene, Motion::fixed, random.below(2) ? box_shape(9, 0.2f, 14) : sphere_shape(8), at);
+    else if (random.below(12) == 0)
+      add_body(scene, Motion::fixed, random.below(2) ? box_shape(9, 0.2f, 14) : sphere_shape(8), at);
     else add_any(scene, random, at);
   }
   for (Body &body : scene.bodies) body.filter_group = 1u << random.below(2);

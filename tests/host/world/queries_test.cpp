@@ -1,14 +1,15 @@
-/* Rays and sweeps: closed forms for each shape from outside, inside, grazing and parallel; random rays against an oracle in double
- * that shares nothing with the kernels; ties, filters, what is refused. */
-#include "tests/catch.h"
-
-#include <Eigen/Geometry>
+/* Rays and sweeps: closed forms for each shape from outside, inside, grazing and parallel; random rays against an
+ * oracle in double that shares nothing with the kernels; ties, filters, what is refused. */
 #include <cmath>
 #include <limits>
 
-#include "host/geometry/convex_hull.h"
-#include "host/base/random.h"
+#include <Eigen/Geometry>
+
 #include <tandem/world.h>
+
+#include "host/base/random.h"
+#include "host/geometry/convex_hull.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -66,7 +67,7 @@ Shape octahedron()
   return hull_shape(points, "octahedron");
 }
 
-/* --- the oracle: how far a point lies outside of a shape, in double; a ray is walked along by it ------------------------------ */
+/* --- the oracle: how far a point lies outside of a shape, in double; a ray is walked along by it --- */
 
 struct Solid {
   const Scene *scene;
@@ -95,12 +96,14 @@ struct Solid {
     case ShapeType::hull: {
       double most = -1e300;
       for (const HullPlane &plane : shape().hull->planes)
-        most = std::max(most, plane.normal[0] * p.x() + plane.normal[1] * p.y() + plane.normal[2] * p.z() - plane.distance);
+        most = std::max(most,
+                        plane.normal[0] * p.x() + plane.normal[1] * p.y() + plane.normal[2] * p.z() - plane.distance);
       return most;
     }
     case ShapeType::cylinder: {
       const Eigen::Vector2d out = Eigen::Vector2d(2 * e.y(), e.x() - e.z()).normalized();
-      return std::max(std::abs(p.y()) - e.y(), out.dot(Eigen::Vector2d(std::hypot(p.x(), p.z()) - e.x(), p.y() + e.y())));
+      return std::max(std::abs(p.y()) - e.y(),
+                      out.dot(Eigen::Vector2d(std::hypot(p.x(), p.z()) - e.x(), p.y() + e.y())));
     }
     case ShapeType::capsule: {
       const double sine = (e.x() - e.z()) / (2 * e.y()), cosine = std::sqrt(1 - sine * sine);
@@ -115,7 +118,8 @@ struct Solid {
   }
 };
 
-/* The height along a line is convex: its least value by ternary search where the line is near, then the first crossing by bisection. */
+/* The height along a line is convex: its least value by ternary search where the line is near, then the first crossing
+ * by bisection. */
 double first_crossing(const Solid &solid, const Vector &origin, const Vector &unit, double length, double *least)
 {
   constexpr double radius = 1.8; /* of every shape here about its origin, and more */
@@ -155,9 +159,11 @@ Shape stone(Random &random)
 Scene scattered(uint64_t seed, double size)
 {
   Random random(seed);
-  Scene scene = scene_of({sphere_shape(0.7f), box_shape(0.9f, 0.5f, 0.7f), capsule_shape(0.4f, 0.6f), Shape{ShapeType::capsule, {0.6f, 0.5f, 0.2f}},
-                          Shape{ShapeType::capsule, {0.1f, 0.7f, 0.5f}}, cylinder_shape(0.5f, 0.8f), cylinder_shape(1.0f, 0.05f), cone_shape(0.7f, 0.6f),
-                          Shape{ShapeType::cylinder, {0.2f, 0.5f, 0.8f}}, stone(random), octahedron(), sphere_shape(0.2f)});
+  Scene scene =
+      scene_of({sphere_shape(0.7f), box_shape(0.9f, 0.5f, 0.7f), capsule_shape(0.4f, 0.6f),
+                Shape{ShapeType::capsule, {0.6f, 0.5f, 0.2f}}, Shape{ShapeType::capsule, {0.1f, 0.7f, 0.5f}},
+                cylinder_shape(0.5f, 0.8f), cylinder_shape(1.0f, 0.05f), cone_shape(0.7f, 0.6f),
+                Shape{ShapeType::cylinder, {0.2f, 0.5f, 0.8f}}, stone(random), octahedron(), sphere_shape(0.2f)});
   for (Body &body : scene.bodies) {
     body.position = {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
     body.orientation = random.orientation();
@@ -210,7 +216,11 @@ TEST_CASE("rays meet each shape where its closed form says")
       {capsule_shape(1, 2), {1.001, 9, 0}, {0, -1, 0}, -1, {}},
       {taper, {0, 3, 0}, {0, -1, 0}, 1.5, {0, 1, 0}},
       {taper, {0, -3, 0}, {0, 1, 0}, 1, {0, -1, 0}},
-      {taper, {-5, 0.25, 0}, {1, 0, 0}, 5 - (1 - 1.25 * 0.25) / std::sqrt(1 - 0.0625), {-std::sqrt(1 - 0.0625), 0.25, 0}},
+      {taper,
+       {-5, 0.25, 0},
+       {1, 0, 0},
+       5 - (1 - 1.25 * 0.25) / std::sqrt(1 - 0.0625),
+       {-std::sqrt(1 - 0.0625), 0.25, 0}},
       {cylinder_shape(1, 2), {-3, 1, 0}, {1, 0, 0}, 2, {-1, 0, 0}},
       {cylinder_shape(1, 2), {0.5, 5, 0}, {0, -1, 0}, 3, {0, 1, 0}},
       {cylinder_shape(1, 2), {1.001, 5, 0}, {0, -1, 0}, -1, {}},
@@ -220,7 +230,11 @@ TEST_CASE("rays meet each shape where its closed form says")
       {cone_shape(1, 1), {0, 3, 0}, {0, -1, 0}, 2, {0, 0, 0}}, /* the tip has no normal of its own */
       {cone_shape(1, 1), {0.5, -3, 0}, {0, 1, 0}, 2, {0, -1, 0}},
       {cone_shape(1, 1), {-3, 1.001, 0}, {1, 0, 0}, -1, {}},
-      {Shape{ShapeType::cylinder, {2, 1, 1}}, {1.5, 3, 0}, {0, -1, 0}, 3, {half * std::sqrt(2) * 2 / std::sqrt(5.0), 1 / std::sqrt(5.0), 0}},
+      {Shape{ShapeType::cylinder, {2, 1, 1}},
+       {1.5, 3, 0},
+       {0, -1, 0},
+       3,
+       {half * std::sqrt(2) * 2 / std::sqrt(5.0), 1 / std::sqrt(5.0), 0}},
       {octahedron(), {-3, 0.2, 0.2}, {1, 0, 0}, 3 - 0.6, {-third, third, third}},
       {octahedron(), {-3, 0.6, 0.6}, {1, 0, 0}, -1, {}},
       {octahedron(), {0.1, 0, 0}, {0, 0, 3}, 0, {0, 0, -1}},
@@ -228,7 +242,8 @@ TEST_CASE("rays meet each shape where its closed form says")
   for (const Expected &expected : cases) {
     World world(scene_of({expected.shape}), {}, {"serial", {}});
     const RayHit hit = cast(world, ray_from(expected.origin, expected.direction));
-    CAPTURE(int(expected.shape.type), expected.origin.transpose(), expected.direction.transpose(), expected.fraction, hit.fraction);
+    CAPTURE(int(expected.shape.type), expected.origin.transpose(), expected.direction.transpose(), expected.fraction,
+            hit.fraction);
     REQUIRE((hit.body == 0) == (expected.fraction >= 0));
     if (expected.fraction < 0) continue;
     CHECK(hit.fraction == Approx(expected.fraction).margin(2e-6));
@@ -249,7 +264,8 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
   for (int k = 0; k < 100000; ++k) {
     const double away = k % 4 == 0 ? 1000 : 9;
     Ray ray = ray_from(away * direction(random), {1, 0, 0});
-    ray.direction = vec3_of(Vector(5 * direction(random) * random.uniform(0, 1) - vector(ray.origin)) * random.uniform(0.1, 3));
+    ray.direction =
+        vec3_of(Vector(5 * direction(random) * random.uniform(0, 1) - vector(ray.origin)) * random.uniform(0.1, 3));
     ray.reach = float((away + 50) / vector(ray.direction).norm());
     rays.push_back(ray);
   }
@@ -281,7 +297,8 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
     ++found;
     const double slope = nearest > 0 ? std::abs(unit.dot(vector(hit.normal))) : 1;
     largest = std::max(largest, std::abs(double{hit.fraction} * length - nearest) * slope / (origin.norm() + 10));
-    if (nearest > 0) tilted = std::max(tilted, solids[body].height(vector(hit.point) + 1e-3 * vector(hit.normal)) < 0 ? 1.0 : 0.0);
+    if (nearest > 0)
+      tilted = std::max(tilted, solids[body].height(vector(hit.point) + 1e-3 * vector(hit.normal)) < 0 ? 1.0 : 0.0);
   }
   CAPTURE(found, wrong, grazing, largest, checked);
   CHECK(wrong == 0);
@@ -360,7 +377,8 @@ TEST_CASE("rays that mean nothing are refused, by their number")
   const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
   Ray bad = good;
   bad.direction = {0, 0, 0};
-  CHECK_THAT(refusal(world, {good, good, bad}), ContainsSubstring("ray 2") && ContainsSubstring("direction is [0, 0, 0]"));
+  CHECK_THAT(refusal(world, {good, good, bad}),
+             ContainsSubstring("ray 2") && ContainsSubstring("direction is [0, 0, 0]"));
   bad.direction = {1, nan, 0};
   CHECK_THAT(refusal(world, {good, bad}), ContainsSubstring("ray 1") && ContainsSubstring("direction"));
   bad = good;
@@ -375,10 +393,14 @@ TEST_CASE("rays that mean nothing are refused, by their number")
 
   const Pose pose;
   const Vec3 way{1, 0, 0}, endless{infinite, 0, 0};
-  CHECK_THROWS_WITH(world.sweep(half_space_shape(), std::span(&pose, 1), std::span(&way, 1)), ContainsSubstring("half_space"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(-1), std::span(&pose, 1), std::span(&way, 1)), ContainsSubstring("radius"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), {}), ContainsSubstring("1 poses and 0 displacements"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), std::span(&endless, 1)), ContainsSubstring("sweep 0"));
+  CHECK_THROWS_WITH(world.sweep(half_space_shape(), std::span(&pose, 1), std::span(&way, 1)),
+                    ContainsSubstring("half_space"));
+  CHECK_THROWS_WITH(world.sweep(sphere_shape(-1), std::span(&pose, 1), std::span(&way, 1)),
+                    ContainsSubstring("radius"));
+  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), {}),
+                    ContainsSubstring("1 poses and 0 displacements"));
+  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), std::span(&endless, 1)),
+                    ContainsSubstring("sweep 0"));
 }
 
 TEST_CASE("sweeps stop where shapes touch: closed forms")
@@ -406,18 +428,21 @@ TEST_CASE("sweeps stop where shapes touch: closed forms")
     const Pose pose{point_of(sweep.from), {0, 0, 0, 1}};
     const Vec3 way = vec3_of(sweep.way);
     const SweepHit hit = world.sweep(sweep.moving, std::span(&pose, 1), std::span(&way, 1)).front();
-    CAPTURE(int(sweep.moving.type), int(sweep.standing.type), sweep.from.transpose(), sweep.fraction, hit.fraction, hit.body);
+    CAPTURE(int(sweep.moving.type), int(sweep.standing.type), sweep.from.transpose(), sweep.fraction, hit.fraction,
+            hit.body);
     REQUIRE((hit.body == 0) == (sweep.fraction >= 0));
     if (sweep.fraction < 0) continue;
     CHECK(hit.fraction <= sweep.fraction + 1e-6);
     CHECK(hit.fraction == Approx(sweep.fraction).margin(2e-5));
-    CHECK((vector(hit.point) - sweep.point).norm() < 2e-3); /* of a corner on a sphere: the root of the touching distance */
+    CHECK((vector(hit.point) - sweep.point).norm() <
+          2e-3); /* of a corner on a sphere: the root of the touching distance */
     CHECK((vector(hit.normal) - sweep.normal).norm() < 1e-3);
   }
 }
 
-/* A sphere that is swept is a ray against what is a radius larger: for every shape the oracle's height, less the radius, where it is a
- * distance. Here for spheres, capsules and half-spaces, whose heights are distances everywhere. */
+/* A sphere that is swept is a ray against what is a radius larger: for every shape the oracle's height, less the
+ * radius, where it is a distance. Here for spheres, capsules and half-spaces, whose heights are distances
+ * everywhere. */
 TEST_CASE("a swept sphere stops where the distance in double is its radius")
 {
   Scene scene = scattered(8, 4);
@@ -444,7 +469,8 @@ TEST_CASE("a swept sphere stops where the distance in double is its radius")
   for (size_t k = 0; k < hits.size(); ++k) {
     const auto clearance = [&](double fraction) {
       double least = 1e300;
-      for (const Solid &solid : solids) least = std::min(least, solid.height(vector(poses[k].position) + fraction * vector(ways[k])) - radius);
+      for (const Solid &solid : solids)
+        least = std::min(least, solid.height(vector(poses[k].position) + fraction * vector(ways[k])) - radius);
       return least;
     };
     if (clearance(0) < 0) {
@@ -453,7 +479,8 @@ TEST_CASE("a swept sphere stops where the distance in double is its radius")
       continue;
     }
     const double end = hits[k].body == no_body ? 1 : double{hits[k].fraction};
-    for (int sample = 0; sample <= 200; ++sample) wrong += clearance(end * sample / 200) < -1e-5; /* never through anything */
+    for (int sample = 0; sample <= 200; ++sample)
+      wrong += clearance(end * sample / 200) < -1e-5; /* never through anything */
     if (hits[k].body == no_body) {
       ++missed;
       continue;

@@ -1,8 +1,8 @@
-/* Rays and sweeps against meshes and compounds: every triangle and child one by one in double precision is the oracle. */
-#include "tests/catch.h"
-
+/* Rays and sweeps against meshes and compounds: every triangle and child one by one in double precision is the
+ * oracle. */
 #include "host/geometry/triangle_mesh.h"
 #include "host/world/queries.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -32,9 +32,13 @@ Scene meadow()
   Random random(12);
   Scene scene = empty_scene();
   add_body(scene, Motion::fixed, hills(random), {1, -2, 0.5}).orientation = random.orientation();
-  add_body(scene, Motion::fixed, compound_shape({child_of(hills(random), random), child_of(sphere_shape(0.4f), random)}), {0, 2, 0}).orientation = random.orientation();
+  add_body(scene, Motion::fixed,
+           compound_shape({child_of(hills(random), random), child_of(sphere_shape(0.4f), random)}), {0, 2, 0})
+      .orientation = random.orientation();
   for (int k = 0; k < 8; ++k)
-    add_body(scene, Motion::fixed, compound_shape({child_of(sphere_shape(0.3f), random), child_of(box_shape(0.3f, 0.1f, 0.4f), random), child_of(box_shape(0.1f, 0.2f, 0.1f), random)}),
+    add_body(scene, Motion::fixed,
+             compound_shape({child_of(sphere_shape(0.3f), random), child_of(box_shape(0.3f, 0.1f, 0.4f), random),
+                             child_of(box_shape(0.1f, 0.2f, 0.1f), random)}),
              {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)})
         .orientation = random.orientation();
   return scene;
@@ -47,7 +51,8 @@ double hit_triangle(const Vector &o, const Vector &u, const Vector &a, const Vec
   const Vector normal = (b - a).cross(c - a);
   const double rise = normal.dot(u), s = normal.dot(a - o) / rise;
   const Vector p = o + s * u;
-  const bool inside = normal.dot((b - a).cross(p - a)) >= 0 && normal.dot((c - b).cross(p - b)) >= 0 && normal.dot((a - c).cross(p - c)) >= 0;
+  const bool inside = normal.dot((b - a).cross(p - a)) >= 0 && normal.dot((c - b).cross(p - b)) >= 0 &&
+                      normal.dot((a - c).cross(p - c)) >= 0;
   return rise != 0 && s >= 0 && inside ? s : never;
 }
 /* Of a ray from outside. */
@@ -75,7 +80,8 @@ double hit_shape(const Vector &o, const Vector &u, const Shape &shape)
   double first = never;
   if (shape.mesh)
     for (const auto &[i, j, k] : shape.mesh->triangles)
-      first = std::min(first, hit_triangle(o, u, vector_of(shape.mesh->vertices[i]), vector_of(shape.mesh->vertices[j]), vector_of(shape.mesh->vertices[k])));
+      first = std::min(first, hit_triangle(o, u, vector_of(shape.mesh->vertices[i]), vector_of(shape.mesh->vertices[j]),
+                                           vector_of(shape.mesh->vertices[k])));
   else
     for (const Child &child : shape.compound->children) {
       const Matrix back = axes_of(child.orientation).transpose();
@@ -108,12 +114,14 @@ TEST_CASE("rays against meshes and compounds hit what is nearest of all their pa
     uint32_t body = no_body;
     for (uint32_t b = 0; b < scene.bodies.size(); ++b) {
       const Matrix back = axes_of(scene.bodies[b].orientation).transpose();
-      const double s = hit_shape(back * (o - vector_of(scene.bodies[b].position)), back * u, scene.shapes[scene.bodies[b].shape]);
+      const double s =
+          hit_shape(back * (o - vector_of(scene.bodies[b].position)), back * u, scene.shapes[scene.bodies[b].shape]);
       if (s < nearest) nearest = s, body = b;
     }
     const bool hit = nearest <= way.norm();
     found += hit;
-    const bool same = hit == (hits[k].body != no_body) && (!hit || (hits[k].body == body && std::abs(hits[k].fraction * way.norm() - nearest) < 1e-4));
+    const bool same = hit == (hits[k].body != no_body) &&
+                      (!hit || (hits[k].body == body && std::abs(hits[k].fraction * way.norm() - nearest) < 1e-4));
     apart += !same;
   }
   CHECK(found > 1000);
@@ -133,11 +141,13 @@ TEST_CASE("sweeps come down on meshes and children as far as closed forms say")
   other.shape = sphere_shape(0.1f);
   add_body(scene, Motion::fixed, compound_shape({child, other}), {10, 0, 0});
   World world(scene);
-  const std::vector<Pose> poses{{{0.3, 5, 0.2}, {0, 0, 0, 1}}, {{10.2, 6, 0.1}, {0, 0, 0, 1}}, {{30, 6, 0}, {0, 0, 0, 1}}};
+  const std::vector<Pose> poses{
+      {{0.3, 5, 0.2}, {0, 0, 0, 1}}, {{10.2, 6, 0.1}, {0, 0, 0, 1}}, {{30, 6, 0}, {0, 0, 0, 1}}};
   const std::vector<Vec3> ways(3, Vec3{0, -10, 0});
   const std::vector<SweepHit> hits = world.sweep(sphere_shape(0.2f), poses, ways);
   REQUIRE((hits[0].body != no_body && hits[1].body != no_body && hits[2].body == no_body));
-  const double slope_height = 0.5 * 0.3 + 1, over_slope = 0.2 * std::hypot(1, 0.5); /* of the centre that touches, above the surface below it */
+  const double slope_height = 0.5 * 0.3 + 1,
+               over_slope = 0.2 * std::hypot(1, 0.5); /* of the centre that touches, above the surface below it */
   CHECK(hits[0].body == 0);
   CHECK(10 * hits[0].fraction == Approx(5 - slope_height - over_slope).margin(1e-4));
   CHECK(vector_of(hits[0].normal).dot(Vector(-0.5, 1, 0).normalized()) == Approx(1).margin(1e-4));
@@ -149,8 +159,10 @@ TEST_CASE("a fast body with continuous collision does not pass a sheet that is a
 {
   const float speed = GENERATE(50.0f, 1000.0f, 10000.0f);
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::fixed, height_field_shape(std::vector<float>(21 * 21, 0.0f), 21, 100, 100, "sheet"), {0, 0, 0}); /* spin sends them far aside */
-  const Shape shapes[] = {sphere_shape(0.1f), box_shape(0.1f, 0.05f, 0.1f), capsule_shape(0.05f, 0.1f), hull_of_box(0.1f, 0.1f, 0.05f)};
+  add_body(scene, Motion::fixed, height_field_shape(std::vector<float>(21 * 21, 0.0f), 21, 100, 100, "sheet"),
+           {0, 0, 0}); /* spin sends them far aside */
+  const Shape shapes[] = {sphere_shape(0.1f), box_shape(0.1f, 0.05f, 0.1f), capsule_shape(0.05f, 0.1f),
+                          hull_of_box(0.1f, 0.1f, 0.05f)};
   for (int k = 0; k < 4; ++k) {
     Body &body = add_solid(scene, shapes[k], {k - 1.5, 3, 0.1 * k}, turn_about({1, 1, 0}, 0.3 * k));
     body.linear_velocity = {0.5f, -speed, 0};

@@ -1,11 +1,10 @@
 /* Lists of the constraints of each body against lists made by hand, for random graphs with and without hubs. */
-#include "host/runtime/make_backend.h"
-#include "tests/catch.h"
-
-#include "host/pipeline/layout.h"
-#include "host/pipeline/incidence.h"
 #include "host/base/random.h"
+#include "host/pipeline/incidence.h"
+#include "host/pipeline/layout.h"
+#include "host/runtime/make_backend.h"
 #include "shared/records.h"
+#include "tests/catch.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;
@@ -24,7 +23,8 @@ Graph random_graph(uint32_t bodies, uint32_t constraints, bool hub, uint64_t see
   Graph graph;
   graph.bodies = bodies;
   graph.tail = constraints / 3;
-  for (uint32_t i = 0; i < bodies; ++i) graph.traits.push_back((i % 7 == 0 ? uint32_t(MOTION_FIXED) : uint32_t(MOTION_DYNAMIC)) << 3);
+  for (uint32_t i = 0; i < bodies; ++i)
+    graph.traits.push_back((i % 7 == 0 ? uint32_t(MOTION_FIXED) : uint32_t(MOTION_DYNAMIC)) << 3);
   for (uint32_t i = 0; i < constraints; ++i) {
     const uint32_t a = 2 + random.below(bodies - 2);
     graph.a.push_back(a);
@@ -80,9 +80,16 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
   backend->prepare(0, kernels);
-  const Sizes sizes{.bodies = graph.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = plan.capacity_pairs, .cells = 1024, .features = 0};
-  for (Buffer buffer : {Buffer::incidence, Buffer::incidence_other, Buffer::incidence_body, Buffer::incidence_body_other, Buffer::incidence_start,
-                        Buffer::sort_histogram, Buffer::scan_sums})
+  const Sizes sizes{.bodies = graph.bodies,
+                    .materials = 1,
+                    .hulls = {},
+                    .trees = {},
+                    .pairs = plan.capacity_pairs,
+                    .cells = 1024,
+                    .features = 0};
+  for (Buffer buffer :
+       {Buffer::incidence, Buffer::incidence_other, Buffer::incidence_body, Buffer::incidence_body_other,
+        Buffer::incidence_start, Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));
   set(memory, Buffer::counts, {plan.known.begin(), plan.known.end()});
   set(memory, Buffer::constraint_a, graph.a);
@@ -102,8 +109,9 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
 
 TEST_CASE("every moving body lists its constraints in order", "[sanitizer]")
 {
-  const Graph graph = GENERATE(random_graph(5, 0, false, 1), random_graph(10, 1, false, 2), random_graph(200, 700, false, 3),
-                               random_graph(3000, 9000, true, 4), random_graph(70000, 9000, false, 5));
+  const Graph graph =
+      GENERATE(random_graph(5, 0, false, 1), random_graph(10, 1, false, 2), random_graph(200, 700, false, 3),
+               random_graph(3000, 9000, true, 4), random_graph(70000, 9000, false, 5));
   const uint32_t first_color = GENERATE(0u, COLOR_TAIL);
   const Lists expected = by_hand(graph, first_color == 0 ? 0 : graph.tail);
   CAPTURE(graph.bodies, graph.a.size(), first_color);

@@ -1,11 +1,9 @@
-/* Bounds of bodies with shapes of every kind, anywhere in their bodies: all that a body is at the start of a step lies inside by the
- * margin, and all that it is at the end lies inside. */
-#include "tests/catch.h"
-
-#include "shared/platform.h"
-#include "tests/host/scene/shape_points.h"
-
+/* Bounds of bodies with shapes of every kind, anywhere in their bodies: all that a body is at the start of a step lies
+ * inside by the margin, and all that it is at the end lies inside. */
 #include "host/runtime/memory.h"
+#include "shared/platform.h"
+#include "tests/catch.h"
+#include "tests/host/scene/shape_points.h"
 
 using namespace tandem;
 using namespace tandem::shape_points;
@@ -45,7 +43,8 @@ TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning"
   Scene scene = physics_tests::empty_scene();
   constexpr int side = 8;
   for (int i = 0; i < side * side * side; ++i) {
-    Body &body = add_any(scene, random, {12.0 * (i % side) - 40, 12.0 * (i / side % side) - 40, 12.0 * (i / side / side) - 40});
+    Body &body =
+        add_any(scene, random, {12.0 * (i % side) - 40, 12.0 * (i / side % side) - 40, 12.0 * (i / side / side) - 40});
     body.linear_velocity = physics_tests::vec3_of(speed * direction(random));
     body.angular_velocity = physics_tests::vec3_of(spin * direction(random));
   }
@@ -95,8 +94,10 @@ TEST_CASE("tight bounds are the least that hold a shape, and lie within the fast
     CHECK((bounds.low - around.low).minCoeff() > -1e-4);
     CHECK((around.high - bounds.high).minCoeff() > -1e-4);
     const ShapeType type = scene.shapes[scene.bodies[i].shape].type;
-    const bool drawn = type == ShapeType::sphere || type == ShapeType::capsule; /* of which the farthest points are not among those */
-    if (!drawn) loosest = std::max({loosest, (low - bounds.low).maxCoeff() - margin, (bounds.high - high).maxCoeff() - margin});
+    const bool drawn =
+        type == ShapeType::sphere || type == ShapeType::capsule; /* of which the farthest points are not among those */
+    if (!drawn)
+      loosest = std::max({loosest, (low - bounds.low).maxCoeff() - margin, (bounds.high - high).maxCoeff() - margin});
     volume += (bounds.high - bounds.low).prod();
     fast_volume += (around.high - around.low).prod();
   }

@@ -1,16 +1,15 @@
-/* Broadphases that keep something from step to step find the oracle's pairs in every one of 200: boxes that drift, race, jump across the
- * world, stand and start again, grow and shrink, leave the numbers; also where a step is run again, and where queries between two steps
- * took the hierarchy for themselves. */
-#include "host/runtime/make_backend.h"
-#include "tests/shared/broadphase/soup.h"
-
+/* Broadphases that keep something from step to step find the oracle's pairs in every one of 200: boxes that drift,
+ * race, jump across the world, stand and start again, grow and shrink, leave the numbers; also where a step is run
+ * again, and where queries between two steps took the hierarchy for themselves. */
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "host/runtime/make_backend.h"
 #include "host/runtime/opencl/device_backend.h"
 #include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
+#include "tests/shared/broadphase/soup.h"
 
 using namespace tandem;
 
@@ -19,14 +18,17 @@ namespace {
 /* A soup that moves. Places are whole multiples of `grain` where it is not 0, so that many ends fall together. */
 class MovingSoup {
 public:
-  MovingSoup(uint32_t n, double speed, double grain, uint64_t seed) : random_(seed), speed_(speed), grain_(grain), side_(std::cbrt(2.0 * n))
+  MovingSoup(uint32_t n, double speed, double grain, uint64_t seed)
+      : random_(seed), speed_(speed), grain_(grain), side_(std::cbrt(2.0 * n))
   {
     soup.add_half_space();
     for (uint32_t i = 0; i < n; ++i) {
       center_.push_back({random_.uniform(0, side_), random_.uniform(0, side_), random_.uniform(0, side_)});
-      half_.push_back({i % 50 == 0 ? 0.0 : random_.uniform(0.3, 0.5), i % 40 == 0 ? 4.0 : 0.4, random_.uniform(0.3, 0.5)});
+      half_.push_back(
+          {i % 50 == 0 ? 0.0 : random_.uniform(0.3, 0.5), i % 40 == 0 ? 4.0 : 0.4, random_.uniform(0.3, 0.5)});
       way_.push_back({0, 0, 0});
-      soup.add({0, 0, 0}, {0, 0, 0}, random_.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, 1u << random_.below(3), random_.below(8) == 0 ? 2u : 0xffffffffu);
+      soup.add({0, 0, 0}, {0, 0, 0}, random_.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, 1u << random_.below(3),
+               random_.below(8) == 0 ? 2u : 0xffffffffu);
     }
     soup.large = 1 + std::min(n, 3u);
     place();
@@ -39,7 +41,8 @@ public:
       if (random_.below(10) == 0) way_[i] = random_.below(2) ? std::array<double, 3>{0, 0, 0} : any_way();
       const bool everyone_rests = step % 100 > 50;
       for (size_t axis = 0; axis < 3; ++axis) center_[i][axis] += everyone_rests && i % 16 != 0 ? 0 : way_[i][axis];
-      if (random_.below(400) == 0) center_[i] = {random_.uniform(-side_, 2 * side_), random_.uniform(0, side_), random_.uniform(0, side_)};
+      if (random_.below(400) == 0)
+        center_[i] = {random_.uniform(-side_, 2 * side_), random_.uniform(0, side_), random_.uniform(0, side_)};
       if (random_.below(400) == 0) half_[i][1] = random_.uniform(0, 3);
     }
     lost_ = step % 20 < 5 ? step / 20 % uint32_t(center_.size()) : uint32_t(center_.size());
@@ -49,14 +52,18 @@ public:
   std::vector<row> velocities() const
   {
     std::vector<row> rows(2 * soup.size(), row{0, 0, 0, 0});
-    for (size_t i = 0; i < way_.size(); ++i) rows[2 * (i + 1)] = {float(way_[i][0]), float(way_[i][1]), float(way_[i][2]), 1};
+    for (size_t i = 0; i < way_.size(); ++i)
+      rows[2 * (i + 1)] = {float(way_[i][0]), float(way_[i][1]), float(way_[i][2]), 1};
     return rows;
   }
 
   Soup soup;
 
 private:
-  std::array<double, 3> any_way() { return {random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_)}; }
+  std::array<double, 3> any_way()
+  {
+    return {random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_)};
+  }
   double on_grain(double x) const { return grain_ > 0 ? grain_ * std::floor(x / grain_) : x; }
 
   void place()
@@ -81,9 +88,12 @@ BodyPairs pairs_of(const Soup &soup)
 {
   Soup finite = soup;
   for (uint32_t i = 0; i < soup.size(); ++i)
-    if (std::isnan(soup.bounds[2 * i].y)) finite.bounds[2 * i] = finite.bounds[2 * i + 1] = {1e29f + 1e25f * float(i), 1e29f, 1e29f, 0};
+    if (std::isnan(soup.bounds[2 * i].y))
+      finite.bounds[2 * i] = finite.bounds[2 * i + 1] = {1e29f + 1e25f * float(i), 1e29f, 1e29f, 0};
   BodyPairs pairs = expected_pairs(finite);
-  std::erase_if(pairs, [&](const auto &pair) { return std::isnan(soup.bounds[2 * pair.first].y) || std::isnan(soup.bounds[2 * pair.second].y); });
+  std::erase_if(pairs, [&](const auto &pair) {
+    return std::isnan(soup.bounds[2 * pair.first].y) || std::isnan(soup.bounds[2 * pair.second].y);
+  });
   return pairs;
 }
 
@@ -101,7 +111,9 @@ void check_motion(SoupRunner &runner, const char *broadphase, uint32_t n, double
     BodyPairs found = runner.find(broadphase_named(broadphase));
     if (step % 5 == 2) found = runner.find(broadphase_named(broadphase));
     REQUIRE(found == pairs_of(moving.soup));
-    came += static_cast<size_t>(std::count_if(found.begin(), found.end(), [&](const auto &pair) { return !std::binary_search(before.begin(), before.end(), pair); }));
+    came += static_cast<size_t>(std::count_if(found.begin(), found.end(), [&](const auto &pair) {
+      return !std::binary_search(before.begin(), before.end(), pair);
+    }));
     before = found;
     moving.move(step);
   }

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "host/base/random.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
-#include "host/scene/parameters.h"
-#include "host/base/random.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/scene/parameters.h"
 #include "shared/body_codes.h"
 #include "shared/features.h"
 #include "shared/platform.h"
@@ -26,7 +26,8 @@ struct Soup {
   float hybrid_cell = 1;
 
   uint32_t size() const { return static_cast<uint32_t>(traits.size()); }
-  void add(const Vec3 &low, const Vec3 &high, uint32_t motion = MOTION_DYNAMIC, uint32_t group = 1, uint32_t mask = 0xffffffffu)
+  void add(const Vec3 &low, const Vec3 &high, uint32_t motion = MOTION_DYNAMIC, uint32_t group = 1,
+           uint32_t mask = 0xffffffffu)
   {
     bounds.push_back({low[0], low[1], low[2], 0});
     bounds.push_back({high[0], high[1], high[2], 0});
@@ -58,7 +59,8 @@ inline BodyPairs expected_pairs(const Soup &soup)
     for (size_t q = p + 1; q < order.size() && low(order[q]).x <= high(order[p]).x; ++q) {
       const uint32_t i = order[p], j = order[q];
       const bool apart = low(i).y > high(j).y || low(j).y > high(i).y || low(i).z > high(j).z || low(j).z > high(i).z;
-      if (!apart && (moves(i) || moves(j)) && accepts(i, j) && accepts(j, i)) pairs.emplace_back(std::max(i, j), std::min(i, j));
+      if (!apart && (moves(i) || moves(j)) && accepts(i, j) && accepts(j, i))
+        pairs.emplace_back(std::max(i, j), std::min(i, j));
     }
   std::sort(pairs.begin(), pairs.end());
   return pairs;
@@ -71,7 +73,8 @@ public:
   {
     std::vector<Kernel> kernels;
     for (size_t k = 0; k < kernel_count; ++k)
-      if (const Stage stage = row_of(kernel_at(k)).stage; stage == Stage::parallel || stage == Stage::broadphase) kernels.push_back(kernel_at(k));
+      if (const Stage stage = row_of(kernel_at(k)).stage; stage == Stage::parallel || stage == Stage::broadphase)
+        kernels.push_back(kernel_at(k));
     backend_->prepare(FEATURE_FILTER, kernels);
   }
   ~SoupRunner() { backend_->finish(); }
@@ -98,7 +101,8 @@ public:
     memory_.upload(Buffer::body_filter, soup.filters.data(), soup.filters.size() * sizeof(uint32_t));
   }
 
-  /* The same bodies elsewhere, a step later: what a broadphase keeps stays. velocities: 2 rows a body, m a step; none: at rest. */
+  /* The same bodies elsewhere, a step later: what a broadphase keeps stays. velocities: 2 rows a body, m a step; none:
+   * at rest. */
   void move_to(const Soup &soup, const std::vector<row> &velocities = {})
   {
     memory_.upload(Buffer::bounds, soup.bounds.data(), soup.bounds.size() * sizeof(row));
@@ -130,7 +134,13 @@ private:
   void reserve(uint32_t pairs)
   {
     plan_.capacity_pairs = counts_[CAPACITY_PAIRS] = pairs;
-    const Sizes sizes{.bodies = plan_.bodies, .materials = 1, .hulls = {}, .trees = {}, .pairs = pairs, .cells = plan_.capacity_cells, .features = FEATURE_FILTER};
+    const Sizes sizes{.bodies = plan_.bodies,
+                      .materials = 1,
+                      .hulls = {},
+                      .trees = {},
+                      .pairs = pairs,
+                      .cells = plan_.capacity_cells,
+                      .features = FEATURE_FILTER};
     for (size_t b = 0; b < buffer_count; ++b) {
       const bool wanted = buffer_at(b) <= Buffer::pair_key_other;
       if (wanted) memory_.resize(buffer_at(b), bytes_of(buffer_at(b), sizes));
@@ -160,7 +170,8 @@ private:
 
   void check_starts(uint32_t count)
   {
-    const auto starts = memory_.read<uint32_t>(Buffer::pair_start, plan_.bodies + 1), owners = memory_.read<uint32_t>(Buffer::pair_a, count);
+    const auto starts = memory_.read<uint32_t>(Buffer::pair_start, plan_.bodies + 1),
+               owners = memory_.read<uint32_t>(Buffer::pair_a, count);
     bool right = starts.back() == count;
     for (uint32_t body = 0; body < plan_.bodies; ++body)
       for (uint32_t k = starts[body]; k < starts[body + 1] && k < count; ++k) right = right && owners[k] == body;

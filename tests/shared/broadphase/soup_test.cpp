@@ -1,13 +1,13 @@
-/* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over six decades, in one
- * place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for pairs. */
-#include "host/runtime/make_backend.h"
-#include "tests/shared/broadphase/soup.h"
-
+/* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over
+ * six decades, in one place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for
+ * pairs. */
 #include <cmath>
 
-#include "tests/host/runtime/opencl/opencl_device.h"
+#include "host/runtime/make_backend.h"
 #include "host/runtime/opencl/device_backend.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
+#include "tests/shared/broadphase/soup.h"
 
 using namespace tandem;
 
@@ -22,9 +22,10 @@ Vec3 uniform3(Random &random, double low, double high)
 
 void add_around(Soup &soup, const Vec3 &center, const Vec3 &half, Random &random)
 {
-  const uint32_t motion = random.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, mask = random.below(8) == 0 ? 2u : 0xffffffffu;
-  soup.add({center[0] - half[0], center[1] - half[1], center[2] - half[2]}, {center[0] + half[0], center[1] + half[1], center[2] + half[2]}, motion,
-           1u << random.below(3), mask);
+  const uint32_t motion = random.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC,
+                 mask = random.below(8) == 0 ? 2u : 0xffffffffu;
+  soup.add({center[0] - half[0], center[1] - half[1], center[2] - half[2]},
+           {center[0] + half[0], center[1] + half[1], center[2] + half[2]}, motion, 1u << random.below(3), mask);
 }
 
 /* About four neighbours each. */
@@ -53,7 +54,8 @@ Soup of_all_sizes(uint32_t n, Random &random)
   for (uint32_t i = 0; i < n; ++i) sizes.push_back(any_size(random));
   std::sort(sizes.begin(), sizes.begin() + n / 4, std::greater<>());
   const double side = 4 * std::cbrt(double(n));
-  for (const double size : sizes) add_around(soup, uniform3(random, -side, side), uniform3(random, 0.3 * size, size), random);
+  for (const double size : sizes)
+    add_around(soup, uniform3(random, -side, side), uniform3(random, 0.3 * size, size), random);
   soup.large = std::min(n, 20u);
   soup.hybrid_cell = 0.05f;
   return soup;
@@ -89,13 +91,15 @@ Soup without_thickness(uint32_t n, Random &random)
   return soup;
 }
 
-/* A thousand kilometres away, and a few at home; along a diagonal, so that no axis tells them apart as well as it does. */
+/* A thousand kilometres away, and a few at home; along a diagonal, so that no axis tells them apart as well as it
+ * does. */
 Soup far_away(uint32_t n, Random &random)
 {
   Soup soup;
   for (uint32_t i = 0; i < n; ++i) {
     const float along = float(1e6 - random.uniform(0, double(n)));
-    add_around(soup, i % 50 == 0 ? uniform3(random, -1, 1) : Vec3{along, -along, along}, uniform3(random, 0, 3), random);
+    add_around(soup, i % 50 == 0 ? uniform3(random, -1, 1) : Vec3{along, -along, along}, uniform3(random, 0, 3),
+               random);
   }
   return soup;
 }
@@ -116,10 +120,13 @@ Soup of_fast_bodies(uint32_t n, Random &random)
 struct Kind {
   const char *name;
   MakeSoup make;
-  bool suits_all; /* false: some large or far body makes the grid's cells or the sweep's intervals hold most of the others */
+  bool suits_all; /* false: some large or far body makes the grid's cells or the sweep's intervals hold most of the
+                     others */
 };
-constexpr Kind kinds[] = {{"one size", of_one_size, true},   {"all sizes", of_all_sizes, false}, {"one place", in_one_place, true}, {"a row", in_a_row, true},
-                          {"flat", without_thickness, true}, {"far away", far_away, false},      {"fast", of_fast_bodies, false}};
+constexpr Kind kinds[] = {{"one size", of_one_size, true},   {"all sizes", of_all_sizes, false},
+                          {"one place", in_one_place, true}, {"a row", in_a_row, true},
+                          {"flat", without_thickness, true}, {"far away", far_away, false},
+                          {"fast", of_fast_bodies, false}};
 
 /* brute-force looks at every two: so many that more of them would prove nothing more. */
 constexpr uint32_t most_by_brute_force = 10000;
@@ -127,14 +134,17 @@ constexpr uint32_t most_by_brute_force = 10000;
 /* Those that take n log n whatever the soup. */
 bool never_crowds(const Broadphase &broadphase)
 {
-  return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping || broadphase.launch == find_pairs_in_trees;
+  return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping ||
+         broadphase.launch == find_pairs_in_trees;
 }
 
 void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected, bool suits_all = true)
 {
   runner.take(soup);
   for (const Broadphase &broadphase : broadphases()) {
-    if (soup.size() > most_by_brute_force && (broadphase.launch == find_pairs_by_brute_force || !(suits_all || never_crowds(broadphase)))) continue;
+    if (soup.size() > most_by_brute_force &&
+        (broadphase.launch == find_pairs_by_brute_force || !(suits_all || never_crowds(broadphase))))
+      continue;
     CAPTURE(broadphase.name, runner.name());
     const BodyPairs found = runner.find(broadphase);
     CHECK(found.size() == expected.size());
@@ -147,7 +157,8 @@ void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected, 
 TEST_CASE("broadphases find the pairs of the oracle in any soup")
 {
   std::vector<std::unique_ptr<SoupRunner>> runners;
-  for (const char *name : {"serial", "serial:order=backward", "tbb:threads=7"}) runners.push_back(std::make_unique<SoupRunner>(make_backend(name)));
+  for (const char *name : {"serial", "serial:order=backward", "tbb:threads=7"})
+    runners.push_back(std::make_unique<SoupRunner>(make_backend(name)));
   Random random(77);
   for (const Kind &kind : kinds)
     for (const uint32_t n : {0u, 1u, 2u, 3u, 127u, 128u, 129u, 1000u, 1024u, 1025u, 4000u}) {

@@ -1,11 +1,11 @@
-/* Lists of pairs with runs of one (a, b), as bodies of several parts make them: each run is one contact. Against a map. */
-#include "tests/catch.h"
-
+/* Lists of pairs with runs of one (a, b), as bodies of several parts make them: each run is one contact. Against a
+ * map. */
 #include <map>
 #include <vector>
 
 #include "host/base/random.h"
 #include "shared/events/list.h"
+#include "tests/catch.h"
 
 using tandem::Random;
 
@@ -35,7 +35,8 @@ Entries random_entries(Random &random, uint bodies)
     for (uint b = 0; b < a; ++b)
       for (uint part = random.below(3) ? 0 : 1 + random.below(3); part > 0; --part) {
         const bool touches = random.below(2);
-        entries.add(b, touches, touches && random.below(2) ? float(1 + random.below(9)) : 0.0f, float(1 + random.below(5)));
+        entries.add(b, touches, touches && random.below(2) ? float(1 + random.below(9)) : 0.0f,
+                    float(1 + random.below(5)));
       }
     entries.start.push_back(uint(entries.b.size()));
   }
@@ -72,23 +73,26 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
       }
     }
     const size_t pairs = now.b.size();
-    std::vector<row> points(4 * pairs), positions(2 * bodies), velocities(2 * bodies), contacts(3 * (pairs + before.b.size()));
+    std::vector<row> points(4 * pairs), positions(2 * bodies), velocities(2 * bodies),
+        contacts(3 * (pairs + before.b.size()));
     std::copy(now.point.begin(), now.point.end(), points.begin());
     for (uint a = 0; a < bodies; ++a) positions[2 * a] = {100.0f * float(a), 0, 0, 0};
     std::vector<uint> counts(COUNT_TOTAL), starts(bodies), codes(4 * (pairs + before.b.size()));
     counts[CAPACITY_PAIRS] = uint(pairs);
     uint total = 0;
     for (uint a = 0; a < bodies; ++a) {
-      count_events_item(now.start.data(), now.b.data(), now.touching.data(), before.start.data(), before.b.data(), before.touching.data(), starts.data(), a);
+      count_events_item(now.start.data(), now.b.data(), now.touching.data(), before.start.data(), before.b.data(),
+                        before.touching.data(), starts.data(), a);
       const uint found = starts[a];
       starts[a] = total;
       total += found;
     }
     REQUIRE(total == expected.size());
     for (uint a = bodies; a-- > 0;)
-      write_events_item(now.start.data(), now.b.data(), now.color.data(), now.touching.data(), now.impulse.data(), now.normal.data(), points.data(),
-                        now.points.data(), before.start.data(), before.b.data(), before.touching.data(), positions.data(),
-                        velocities.data(), starts.data(), counts.data(), codes.data(), contacts.data(), a);
+      write_events_item(now.start.data(), now.b.data(), now.color.data(), now.touching.data(), now.impulse.data(),
+                        now.normal.data(), points.data(), now.points.data(), before.start.data(), before.b.data(),
+                        before.touching.data(), positions.data(), velocities.data(), starts.data(), counts.data(),
+                        codes.data(), contacts.data(), a);
     uint at = 0;
     for (const auto &[pair, e] : expected) {
       const uint *code = &codes[4 * at];
@@ -99,7 +103,8 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
       REQUIRE(code[3] == e.points);
       REQUIRE(contact[0].w == e.impulse);
       REQUIRE(contact[2].y == e.hardest); /* the normal of the part that pressed hardest */
-      if (e.touches) REQUIRE((contact[0].x - 100.0f * float(pair.first) >= 1 && contact[0].x - 100.0f * float(pair.first) <= 5));
+      if (e.touches)
+        REQUIRE((contact[0].x - 100.0f * float(pair.first) >= 1 && contact[0].x - 100.0f * float(pair.first) <= 5));
       ++seen[kind];
     }
   }

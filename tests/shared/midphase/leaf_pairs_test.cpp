@@ -1,6 +1,4 @@
 /* The list of leaf pairs against every leaf of one body with every leaf of the other, placed in double precision. */
-#include "tests/catch.h"
-
 #include <set>
 
 #include "host/geometry/convex_hull.h"
@@ -8,6 +6,7 @@
 #include "host/geometry/triangle_mesh.h"
 #include "host/runtime/memory.h"
 #include "shared/platform.h"
+#include "tests/catch.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -30,11 +29,13 @@ std::vector<Vector> points_within(const Shape &shape)
   if (shape.hull)
     for (const Vec3 &v : shape.hull->vertices) points.push_back(vector_of(v));
   else if (shape.type == ShapeType::box)
-    for (int k = 0; k < 8; ++k) points.push_back(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).cwiseProduct(size));
+    for (int k = 0; k < 8; ++k)
+      points.push_back(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).cwiseProduct(size));
   else
     for (double end : {-1.0, 1.0}) /* sphere or capsule */
       for (int k = 0; k < 6; ++k)
-        points.push_back(Vector(0, shape.type == ShapeType::capsule ? end * size.y() : 0, 0) + (k & 1 ? 1 : -1) * size.x() * Vector::Unit(k / 2));
+        points.push_back(Vector(0, shape.type == ShapeType::capsule ? end * size.y() : 0, 0) +
+                         (k & 1 ? 1 : -1) * size.x() * Vector::Unit(k / 2));
   return points;
 }
 
@@ -49,7 +50,8 @@ void add_leaves(std::vector<OracleLeaf> &leaves, uint32_t child, const Shape &sh
   if (!shape.mesh) return add(INDEX_NONE, points_within(shape));
   for (uint32_t t = 0; t < shape.mesh->triangles.size(); ++t) {
     const auto &[i, j, k] = shape.mesh->triangles[t];
-    add(t, {vector_of(shape.mesh->vertices[i]), vector_of(shape.mesh->vertices[j]), vector_of(shape.mesh->vertices[k])});
+    add(t,
+        {vector_of(shape.mesh->vertices[i]), vector_of(shape.mesh->vertices[j]), vector_of(shape.mesh->vertices[k])});
   }
 }
 
@@ -57,21 +59,25 @@ std::vector<OracleLeaf> leaves_of(const Scene &scene, const Body &body)
 {
   std::vector<OracleLeaf> leaves;
   const Shape &shape = scene.shapes[body.shape];
-  const Rotation turn{body.shape_orientation[0], body.shape_orientation[1], body.shape_orientation[2], body.shape_orientation[3]};
+  const Rotation turn{body.shape_orientation[0], body.shape_orientation[1], body.shape_orientation[2],
+                      body.shape_orientation[3]};
   const ShapePlace own{{body.shape_position[0], body.shape_position[1], body.shape_position[2]}, turn};
   if (!shape.compound) add_leaves(leaves, INDEX_NONE, shape, own);
   else
-    for (uint32_t k = 0; k < shape.compound->children.size(); ++k) add_leaves(leaves, k, shape.compound->children[k].shape, place_of_child(body, shape.compound->children[k]));
+    for (uint32_t k = 0; k < shape.compound->children.size(); ++k)
+      add_leaves(leaves, k, shape.compound->children[k].shape, place_of_child(body, shape.compound->children[k]));
   return leaves;
 }
 
-/* An upper bound of the distance of two hulls of points: Frank and Wolfe's descent on their Minkowski difference, 1956. */
+/* An upper bound of the distance of two hulls of points: Frank and Wolfe's descent on their Minkowski difference,
+ * 1956. */
 double distance_at_most(const std::vector<Vector> &a, const std::vector<Vector> &b, double enough)
 {
   Vector x = a[0] - b[0];
   for (int round = 0; round < 300 && x.norm() > enough; ++round) {
     const auto nearer = [&](const Vector &p, const Vector &q) { return p.dot(x) < q.dot(x); };
-    const Vector step = *std::min_element(a.begin(), a.end(), nearer) - *std::max_element(b.begin(), b.end(), nearer) - x;
+    const Vector step =
+        *std::min_element(a.begin(), a.end(), nearer) - *std::max_element(b.begin(), b.end(), nearer) - x;
     if (step.dot(x) > -1e-12) break;
     x += std::min(1.0, -step.dot(x) / step.squaredNorm()) * step;
   }
@@ -90,7 +96,9 @@ Shape knot(Random &random)
   std::vector<Child> children;
   for (int k = 0; k < 5; ++k) {
     Child child;
-    child.shape = k % 3 == 0 ? sphere_shape(0.2f) : k % 3 == 1 ? box_shape(0.2f, 0.1f, 0.3f) : capsule_shape(0.1f, 0.2f);
+    child.shape = k % 3 == 0   ? sphere_shape(0.2f)
+                  : k % 3 == 1 ? box_shape(0.2f, 0.1f, 0.3f)
+                               : capsule_shape(0.1f, 0.2f);
     child.position = vec3_of(Vector(random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)));
     child.orientation = random.orientation();
     children.push_back(child);
@@ -122,7 +130,8 @@ Scene heap(uint64_t seed)
   rock.orientation = random.orientation();
   for (int k = 0; k < 12; ++k) {
     const Shape shape = k % 3 ? knot(random) : hull_of_box(0.3f, 0.2f, 0.1f);
-    Body &body = add_solid(scene, shape, {random.uniform(-2, 2), random.uniform(-1, 1), random.uniform(-2, 2)}, random.orientation());
+    Body &body = add_solid(scene, shape, {random.uniform(-2, 2), random.uniform(-1, 1), random.uniform(-2, 2)},
+                           random.orientation());
     body.linear_velocity = vec3_of(Vector(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)));
   }
   return scene;
@@ -154,7 +163,8 @@ TEST_CASE("no two leaves that meet are missed, none stand twice, and few that ar
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     const uint32_t pairs = counts[COUNT_PAIRS];
     const auto a = memory.read<uint32_t>(Buffer::pair_a, pairs), b = memory.read<uint32_t>(Buffer::pair_b, pairs);
-    const auto leaf = memory.read<uint32_t>(Buffer::pair_leaf, 4 * size_t{pairs}), trees = memory.read<uint32_t>(Buffer::body_tree, 2 * scene.bodies.size());
+    const auto leaf = memory.read<uint32_t>(Buffer::pair_leaf, 4 * size_t{pairs}),
+               trees = memory.read<uint32_t>(Buffer::body_tree, 2 * scene.bodies.size());
     /* The second mesh of the scene starts behind the first: a triangle's number within its own mesh. */
     const uint32_t first_mesh = uint32_t(scene.shapes[0].mesh->triangles.size());
     std::set<LeafPair> listed;
@@ -223,7 +233,8 @@ TEST_CASE("leaf pairs: no two points of a joined manifold are one, and the deepe
   Memory &memory = world.memory();
   const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
   const uint32_t pairs = counts[COUNT_PAIRS], stride = counts[CAPACITY_PAIRS];
-  const auto a = memory.read<uint32_t>(Buffer::pair_a, pairs), b = memory.read<uint32_t>(Buffer::pair_b, pairs), n = memory.read<uint32_t>(Buffer::manifold_count, pairs);
+  const auto a = memory.read<uint32_t>(Buffer::pair_a, pairs), b = memory.read<uint32_t>(Buffer::pair_b, pairs),
+             n = memory.read<uint32_t>(Buffer::manifold_count, pairs);
   const auto points = memory.read<row>(Buffer::manifold_points, 4 * size_t{stride});
   std::vector<int> manifolds(scene.bodies.size());
   for (uint32_t i = 0; i < pairs; ++i) {
@@ -238,11 +249,13 @@ TEST_CASE("leaf pairs: no two points of a joined manifold are one, and the deepe
     for (uint32_t k = 0; k < n[i]; ++k) {
       deepest = std::min(deepest, double(points[k * stride + i].w));
       for (uint32_t j = 0; j < k; ++j)
-        CHECK(std::hypot(points[k * stride + i].x - points[j * stride + i].x, points[k * stride + i].z - points[j * stride + i].z) > 0.05);
+        CHECK(std::hypot(points[k * stride + i].x - points[j * stride + i].x,
+                         points[k * stride + i].z - points[j * stride + i].z) > 0.05);
     }
     CAPTURE(body, lowest, deepest);
     CHECK(n[i] == 4);
-    CHECK(deepest == Approx(lowest).margin(1e-4)); /* what leads by less than a ten-thousandth of the size need not win */
+    CHECK(deepest ==
+          Approx(lowest).margin(1e-4)); /* what leads by less than a ten-thousandth of the size need not win */
   }
   for (size_t body = 1; body < scene.bodies.size(); ++body) CHECK(manifolds[body] == 1);
 }

@@ -1,11 +1,10 @@
-/* The list of leaf pairs, by each way of walking the trees, against a look at every leaf of every tree: the same entries in the same
- * order. Two trees of one pair, which descend in tandem either way, are compared between the two ways alone. */
-#include "tests/catch.h"
-
-#include "shared/midphase/subtree_pairs.h"
-#include "tests/physics/solids.h"
-
+/* The list of leaf pairs, by each way of walking the trees, against a look at every leaf of every tree: the same
+ * entries in the same order. Two trees of one pair, which descend in tandem either way, are compared between the two
+ * ways alone. */
 #include "host/runtime/memory.h"
+#include "shared/midphase/subtree_pairs.h"
+#include "tests/catch.h"
+#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -22,19 +21,30 @@ struct Buffers {
 
   explicit Buffers(Memory &memory) : parameters(memory.read<Parameters>(Buffer::parameters, 1)[0])
   {
-    for (auto &[words, buffer] : std::initializer_list<std::pair<std::vector<uint32_t> &, Buffer>>{
-             {traits, Buffer::body_traits}, {filters, Buffer::body_filter}, {body_trees, Buffer::body_tree}, {headers, Buffer::tree_header},
-             {nodes, Buffer::tree_node}, {leaves, Buffer::tree_leaf}})
+    for (auto &[words, buffer] :
+         std::initializer_list<std::pair<std::vector<uint32_t> &, Buffer>>{{traits, Buffer::body_traits},
+                                                                           {filters, Buffer::body_filter},
+                                                                           {body_trees, Buffer::body_tree},
+                                                                           {headers, Buffer::tree_header},
+                                                                           {nodes, Buffer::tree_node},
+                                                                           {leaves, Buffer::tree_leaf}})
       words = memory.read<uint32_t>(buffer, memory.bytes(buffer) / sizeof(uint32_t));
-    for (auto &[rows, buffer] : std::initializer_list<std::pair<std::vector<row> &, Buffer>>{
-             {shapes, Buffer::body_shape}, {poses, Buffer::body_shape_pose}, {frames, Buffer::tree_frame}, {positions, Buffer::body_position},
-             {orientations, Buffer::body_orientation}, {velocities, Buffer::body_velocity}})
+    for (auto &[rows, buffer] :
+         std::initializer_list<std::pair<std::vector<row> &, Buffer>>{{shapes, Buffer::body_shape},
+                                                                      {poses, Buffer::body_shape_pose},
+                                                                      {frames, Buffer::tree_frame},
+                                                                      {positions, Buffer::body_position},
+                                                                      {orientations, Buffer::body_orientation},
+                                                                      {velocities, Buffer::body_velocity}})
       rows = memory.read<row>(buffer, memory.bytes(buffer) / sizeof(row));
   }
 
   midphase_scene scene() const
   {
-    return {&parameters, traits.data(), filters.data(), body_trees.data(), shapes.data(), poses.data(), positions.data(), orientations.data(),
+    return {&parameters,       traits.data(),
+            filters.data(),    body_trees.data(),
+            shapes.data(),     poses.data(),
+            positions.data(),  orientations.data(),
             velocities.data(), {headers.data(), frames.data(), nodes.data(), leaves.data()}};
   }
 };
@@ -43,7 +53,9 @@ struct Buffers {
 struct Room {
   std::vector<uint32_t> a, b, leaf;
   leaf_list list;
-  explicit Room(uint32_t size) : a(size), b(size), leaf(4 * size_t{size}), list{1, a.data(), b.data(), leaf.data(), 0, size, 0} {}
+  explicit Room(uint32_t size)
+      : a(size), b(size), leaf(4 * size_t{size}), list{1, a.data(), b.data(), leaf.data(), 0, size, 0}
+  {}
 };
 
 void look_at_every_leaf(leaf_list *list, const midphase_scene &scene, uint32_t a, uint32_t b)
@@ -54,14 +66,17 @@ void look_at_every_leaf(leaf_list *list, const midphase_scene &scene, uint32_t a
   const tree t = load_tree(scene.trees, pair.tree_number);
   for (uint32_t node = 0; node < t.nodes; ++node) {
     const uint32_t word = word_of_node(scene.trees, &t, node);
-    if (is_leaf(word) && probe_hits(&probe, bounds_of_node(scene.trees, &t, node))) add_leaf_of_tree(list, &scene, &pair, &t, word);
+    if (is_leaf(word) && probe_hits(&probe, bounds_of_node(scene.trees, &t, node)))
+      add_leaf_of_tree(list, &scene, &pair, &t, word);
   }
 }
 
-std::vector<Entry> entries(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b, const std::vector<uint32_t> &leaf, uint32_t count)
+std::vector<Entry> entries(const std::vector<uint32_t> &a, const std::vector<uint32_t> &b,
+                           const std::vector<uint32_t> &leaf, uint32_t count)
 {
   std::vector<Entry> result;
-  for (size_t i = 0; i < count; ++i) result.push_back({a[i], b[i], leaf[4 * i], leaf[4 * i + 1], leaf[4 * i + 2], leaf[4 * i + 3]});
+  for (size_t i = 0; i < count; ++i)
+    result.push_back({a[i], b[i], leaf[4 * i], leaf[4 * i + 1], leaf[4 * i + 2], leaf[4 * i + 3]});
   return result;
 }
 
@@ -72,7 +87,8 @@ std::vector<Entry> expected_list(const Buffers &before, const std::vector<row> &
   Room room(1u << 20);
   for (uint32_t a = 0; a < bodies; ++a)
     for (uint32_t b = 0; b < a; ++b)
-      if (pair_allowed(scene.parameters, scene.traits, scene.filters, a, b) && bounds_overlap(load_bounds(bounds.data(), a), load_bounds(bounds.data(), b)))
+      if (pair_allowed(scene.parameters, scene.traits, scene.filters, a, b) &&
+          bounds_overlap(load_bounds(bounds.data(), a), load_bounds(bounds.data(), b)))
         look_at_every_leaf(&room.list, scene, a, b);
   REQUIRE(room.list.found < room.list.end);
   return entries(room.a, room.b, room.leaf, room.list.found);
@@ -97,7 +113,9 @@ std::vector<Entry> checked_lists(const Scene &scene, const std::string &midphase
     const Buffers before(world.memory());
     world.step();
     const auto bodies = uint32_t(scene.bodies.size());
-    const std::vector<Entry> list = list_of(world), expected = expected_list(before, world.memory().read<row>(Buffer::bounds, 2 * bodies), bodies);
+    const std::vector<Entry> list = list_of(world),
+                             expected =
+                                 expected_list(before, world.memory().read<row>(Buffer::bounds, 2 * bodies), bodies);
     const auto [found, wanted] = std::mismatch(list.begin(), list.end(), expected.begin(), expected.end());
     CAPTURE(midphase, backend, step, list.size(), expected.size(), found - list.begin());
     REQUIRE((found == list.end() && wanted == expected.end()));
@@ -110,7 +128,8 @@ void check_scene(const Scene &scene, size_t at_least)
 {
   const std::vector<Entry> walked = checked_lists(scene, "walk", "serial");
   CHECK(walked.size() > at_least);
-  for (const char *backend : {"serial", "serial:order=backward", "tbb:threads=2"}) CHECK((checked_lists(scene, "subtrees", backend) == walked)); /* without writing them out */
+  for (const char *backend : {"serial", "serial:order=backward", "tbb:threads=2"})
+    CHECK((checked_lists(scene, "subtrees", backend) == walked)); /* without writing them out */
 }
 
 Shape hills(Random &random, uint32_t columns)
@@ -127,7 +146,8 @@ void add_bodies(Scene &scene, Random &random, int count)
 {
   for (int k = 0; k < count; ++k) {
     const Point at = somewhere(random);
-    Body &body = add_solid(scene, k % 3 ? stone(random, 12, 0.2) : sphere_shape(0.15f), {at[0], at[1], at[2]}, random.orientation());
+    Body &body = add_solid(scene, k % 3 ? stone(random, 12, 0.2) : sphere_shape(0.15f), {at[0], at[1], at[2]},
+                           random.orientation());
     body.linear_velocity = vec3_of(Vector(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)));
   }
 }
@@ -153,7 +173,8 @@ uint32_t subtrees_of(const Scene &scene, uint32_t tree)
 
 TEST_CASE("leaf pairs of one tree: of one subtree, of a few, of many windows of them", "[sanitizer]")
 {
-  const auto [columns, least, most] = GENERATE(table<uint32_t, uint32_t, uint32_t>({{2, 1, 1}, {9, 2, WINDOW}, {61, 8 * WINDOW, 1000}}));
+  const auto [columns, least, most] =
+      GENERATE(table<uint32_t, uint32_t, uint32_t>({{2, 1, 1}, {9, 2, WINDOW}, {61, 8 * WINDOW, 1000}}));
   Random random(columns);
   Scene scene = empty_scene();
   add_body(scene, Motion::fixed, hills(random, columns), {0, 0, 0}).orientation = random.orientation();
@@ -167,7 +188,8 @@ TEST_CASE("leaf pairs of several trees in one group, in turns, and of bodies wit
 {
   Random random(7);
   Scene scene = empty_scene();
-  for (const uint32_t columns : {12u, 2u, 30u, 5u}) add_body(scene, Motion::fixed, hills(random, columns), somewhere(random)).orientation = random.orientation();
+  for (const uint32_t columns : {12u, 2u, 30u, 5u})
+    add_body(scene, Motion::fixed, hills(random, columns), somewhere(random)).orientation = random.orientation();
   add_bodies(scene, random, 60);
   for (int k = 0; k < 40; ++k) {
     const Point at = somewhere(random);
@@ -188,7 +210,8 @@ TEST_CASE("leaf pairs by subtrees: filters of children, and a list that grows")
   Scene scene = empty_scene();
   add_body(scene, Motion::fixed, hills(random, 41), {0, 0, 0});
   add_bodies(scene, random, 20);
-  add_solid(scene, box_shape(1.9f, 0.1f, 1.9f), {0, 0.1, 0}); /* meets nearly every triangle: more than there is room for */
+  add_solid(scene, box_shape(1.9f, 0.1f, 1.9f),
+            {0, 0.1, 0}); /* meets nearly every triangle: more than there is room for */
   Child seen, unseen;
   seen.shape = unseen.shape = sphere_shape(0.3f);
   unseen.position = {0.4f, 0, 0};

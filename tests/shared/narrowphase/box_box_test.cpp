@@ -1,8 +1,7 @@
 /* Boxes against boxes: axis, surfaces, polygon, area and depth against the reference of box_reference.h. */
-#include "tests/catch.h"
-
 #include <map>
 
+#include "tests/catch.h"
 #include "tests/shared/narrowphase/box_reference.h"
 
 using namespace tandem;
@@ -66,8 +65,8 @@ void add_random_pair(PairScene &scene, Random &random, Arrangement arrangement)
   };
   switch (arrangement) {
   case anywhere:
-    b.position = a.position +
-                 (random.direction() * random.uniform(0, a.extent().norm() + b.extent().norm())).cast<float>();
+    b.position =
+        a.position + (random.direction() * random.uniform(0, a.extent().norm() + b.extent().norm())).cast<float>();
     break;
   case face_to_face:
     if (random.below(2)) b.size = a.size;
@@ -254,7 +253,8 @@ FaceCase match_faces(const Contact &contact, const TestBody &a, const TestBody &
 double second_gap(const ReferenceBox &of, const ReferenceBox &other)
 {
   std::array<double, 3> gaps;
-  for (int k = 0; k < 3; ++k) gaps[size_t(k)] = std::max(gap_along(of, other, of.axes.col(k)), gap_along(of, other, -of.axes.col(k)));
+  for (int k = 0; k < 3; ++k)
+    gaps[size_t(k)] = std::max(gap_along(of, other, of.axes.col(k)), gap_along(of, other, -of.axes.col(k)));
   std::sort(gaps.begin(), gaps.end());
   return gaps[1];
 }
@@ -282,7 +282,8 @@ std::string fault_of(const PairScene &scene, const Contact &contact, const TestB
   const ReferenceAxis best = best_axis(all_axes(ReferenceBox(a), ReferenceBox(b)), rounding(a, b));
   const double reach = scene.parameters.speculative_distance;
   const double lead = lead_of(scene, a, b), error = rounding(a, b);
-  if (contact.points.empty()) return best.gap < 0 && !only_edges_meet(scene, a, b, 2 * lead + error) ? "overlap without a contact" : "";
+  if (contact.points.empty())
+    return best.gap < 0 && !only_edges_meet(scene, a, b, 2 * lead + error) ? "overlap without a contact" : "";
   if (only_edges_meet(scene, a, b, -error)) return "a contact of rounded edges";
   if (best.gap > reach + rounding(a, b)) return "contact out of reach";
   for (const Point &point : contact.points)
@@ -302,7 +303,8 @@ bool axis_is_clear(const PairScene &scene, const TestBody &a, const TestBody &b)
   const ReferenceAxis best = best_axis(axes, rounding(a, b));
   return std::all_of(axes.begin(), axes.end(), [&](const ReferenceAxis &axis) {
     const double margin = 2 * lead_of(scene, a, b) + 2 * rounding(a, b) / axis.sharpness;
-    const bool face_for_edges = best.edges && !axis.edges && std::abs(best.direction.dot(axis.direction)) > nearly_along - 1e-5;
+    const bool face_for_edges =
+        best.edges && !axis.edges && std::abs(best.direction.dot(axis.direction)) > nearly_along - 1e-5;
     return (axis.gap < best.gap - margin && !face_for_edges) || (axis.direction - best.direction).norm() < 1e-9;
   });
 }
@@ -391,7 +393,8 @@ TEST_CASE("a box resting on a box keeps feature code and slots while it jitters"
         upper.position = {0, lower.size.y() + upper.size.y() - 0.001f, 0};
         upper.position += (random.in_cube(1e-6)).cast<float>();
         upper.orientation = (Eigen::AngleAxisd(1e-6 * random.uniform(-1, 1), random.direction()) *
-                             Eigen::AngleAxisd(angle, Vector::UnitY())).cast<float>();
+                             Eigen::AngleAxisd(angle, Vector::UnitY()))
+                                .cast<float>();
         if (upper_first) scene.add(upper, lower);
         else scene.add(lower, upper);
       }
@@ -434,7 +437,8 @@ bool acts(const TestBody &a, const TestBody &b, const Contact &contact, double s
 {
   return std::any_of(contact.points.begin(), contact.points.end(), [&](const Point &point) {
     const Vector arm_b = a.center() + point.offset - b.center();
-    const Vector approach = (a.linear - b.linear).cast<double>() + a.angular.cast<double>().cross(point.offset) - b.angular.cast<double>().cross(arm_b);
+    const Vector approach = (a.linear - b.linear).cast<double>() + a.angular.cast<double>().cross(point.offset) -
+                            b.angular.cast<double>().cross(arm_b);
     return approach.dot(contact.normal) * step > point.separation;
   });
 }

@@ -1,6 +1,5 @@
 /* Boxes against half-spaces: the eight corners of the box against the plane, in double precision. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/box_reference.h"
 
 using namespace tandem;

@@ -1,7 +1,7 @@
-/* The time of impact against closed forms, and for pairs of every shape what it must mean: apart before, touching then. */
-#include "tests/catch.h"
-
+/* The time of impact against closed forms, and for pairs of every shape what it must mean: apart before, touching
+ * then. */
 #include "shared/narrowphase/conservative_advancement.h"
+#include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -16,7 +16,8 @@ const vec3 none = make_vec3(0, 0, 0);
 journey one_second(const moving_convex &a, const moving_convex &b)
 {
   const real fastest = length_of(subtract(a.linear, b.linear)) + fastest_swing(&a) + fastest_swing(&b);
-  return journey_of(fastest, 1, minimum(least_size(&a.shape), least_size(&b.shape)), bounding_radius_of(&a.shape) + bounding_radius_of(&b.shape));
+  return journey_of(fastest, 1, minimum(least_size(&a.shape), least_size(&b.shape)),
+                    bounding_radius_of(&a.shape) + bounding_radius_of(&b.shape));
 }
 
 Shape ball(float radius)
@@ -30,7 +31,8 @@ Shape ball(float radius)
 /* A shape after turning evenly about its own middle for a time. */
 Shape later(Shape shape, const Vector &linear, const Vector &angular, double time)
 {
-  const Eigen::AngleAxisd turn(angular.norm() * time, angular.norm() > 0 ? Vector(angular.normalized()) : Vector(Vector::UnitX()));
+  const Eigen::AngleAxisd turn(angular.norm() * time,
+                               angular.norm() > 0 ? Vector(angular.normalized()) : Vector(Vector::UnitX()));
   shape.orientation = (Eigen::Quaterniond(turn) * shape.orientation.cast<double>().normalized()).cast<float>();
   shape.center = (shape.center.cast<double>() + linear * time).cast<float>();
   return shape;
@@ -47,9 +49,13 @@ TEST_CASE("time of impact: two spheres meet when their centres are two radii apa
     Shape a = ball(float(random.logarithmic(0.01, 1))), b = ball(float(random.logarithmic(0.01, 1)));
     const double radii = a.extent().x() + b.extent().x();
     b.center = (random.direction() * random.uniform(1.05, 20) * radii).cast<float>();
-    const Vector p = b.middle(), v = (-p.normalized() + random.uniform(0, 1.2 * radii / p.norm()) * random.direction()).cast<float>().cast<double>() * p.norm();
+    const Vector p = b.middle(), v = (-p.normalized() + random.uniform(0, 1.2 * radii / p.norm()) * random.direction())
+                                         .cast<float>()
+                                         .cast<double>() *
+                                     p.norm();
     const convex shape_a = a.record(), shape_b = b.record();
-    const moving_convex moving_a = moving_convex_of(&shape_a, none, none, none, 0), moving_b = moving_convex_of(&shape_b, shape_b.center, vec(v), none, 0);
+    const moving_convex moving_a = moving_convex_of(&shape_a, none, none, none, 0),
+                        moving_b = moving_convex_of(&shape_b, shape_b.center, vec(v), none, 0);
     const journey way = one_second(moving_a, moving_b);
     const impact met = first_impact(&moving_a, &moving_b, way);
     /* |p + v t| = radii */
@@ -79,7 +85,8 @@ TEST_CASE("time of impact: a sphere falls on a plane at (height - radius) / spee
 {
   Random random(2);
   for (int k = 0; k < 2000; ++k) {
-    const double radius = random.logarithmic(0.01, 1), height = radius * random.uniform(1.1, 50), speed = (height - radius) * random.uniform(1.1, 100);
+    const double radius = random.logarithmic(0.01, 1), height = radius * random.uniform(1.1, 50),
+                 speed = (height - radius) * random.uniform(1.1, 100);
     const convex shape = ball(float(radius)).record();
     const vec3 aside = vec(random.in_cube(speed));
     const moving_convex moving = moving_convex_of(&shape, none, make_vec3(aside.x, real(-speed), aside.z), none, 0);
@@ -93,20 +100,23 @@ TEST_CASE("time of impact: a sphere falls on a plane at (height - radius) / spee
   }
 }
 
-/* A rod of half length L and radius r turns in its plane at w, from level, its middle h above the plane: its lower end touches when
- * sin w t = (h - r) / L. */
+/* A rod of half length L and radius r turns in its plane at w, from level, its middle h above the plane: its lower end
+ * touches when sin w t = (h - r) / L. */
 TEST_CASE("time of impact: a turning rod touches a plane with its end")
 {
   Random random(3);
   for (int k = 0; k < 1000; ++k) {
     Shape rod;
     rod.kind = SHAPE_CAPSULE;
-    const double L = random.uniform(0.5, 2), r = 0.05 * L, h = r + L * random.uniform(0.05, 0.95), w = random.uniform(2, 50), sink = random.uniform(0, 0.2) * L;
+    const double L = random.uniform(0.5, 2), r = 0.05 * L, h = r + L * random.uniform(0.05, 0.95),
+                 w = random.uniform(2, 50), sink = random.uniform(0, 0.2) * L;
     rod.size = Eigen::Vector3f(float(r), float(L), float(r));
     rod.orientation = Eigen::Quaternionf(Eigen::AngleAxisf(float(M_PI / 2), Eigen::Vector3f::UnitZ()));
     const convex shape = rod.record();
-    const moving_convex moving = moving_convex_of(&shape, none, make_vec3(0, real(-sink), 0), make_vec3(0, 0, real(w)), real(L + r));
-    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-h), none, journey_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
+    const moving_convex moving =
+        moving_convex_of(&shape, none, make_vec3(0, real(-sink), 0), make_vec3(0, 0, real(w)), real(L + r));
+    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-h), none,
+                                             journey_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
     double low = 0, high = std::asin(std::min(1.0, (h - r) / L)) / w; /* sinking only brings it forward */
     for (int i = 0; i < 60; ++i) {
       const double t = 0.5 * (low + high);
@@ -115,7 +125,8 @@ TEST_CASE("time of impact: a turning rod touches a plane with its end")
     CAPTURE(L, h, w, sink, low, met.at.time);
     REQUIRE(met.at.hits);
     CHECK(double{met.at.time} <= low * (1 + 1e-6));
-    /* Never later, and early by no more than the touching distance is worth, or by what the rounds left of a slow approach. */
+    /* Never later, and early by no more than the touching distance is worth, or by what the rounds left of a slow
+     * approach. */
     CHECK(h - r - sink * double{met.at.time} - L * std::sin(w * double{met.at.time}) < 2e-3 * r + 1e-4 * L);
   }
 }
@@ -130,11 +141,13 @@ TEST_CASE("time of impact: shapes that move and turn are apart before it, and to
     Shape b = maker.any(0.1, 1);
     const Vector away = maker.random.direction();
     ShapeMaker::place(a, b, away, maker.random.uniform(0.02, 3));
-    const Vector linear_a = maker.random.in_cube(2), linear_b = linear_a - away * maker.random.uniform(0, 6) + maker.random.in_cube(1);
+    const Vector linear_a = maker.random.in_cube(2),
+                 linear_b = linear_a - away * maker.random.uniform(0, 6) + maker.random.in_cube(1);
     const Vector angular_a = maker.random.in_cube(4), angular_b = maker.random.in_cube(4);
     const convex record_a = a.record(), record_b = b.record();
     const moving_convex moving_a = moving_convex_of(&record_a, none, vec(linear_a), vec(angular_a), real(a.radius()));
-    const moving_convex moving_b = moving_convex_of(&record_b, record_b.center, vec(linear_b), vec(angular_b), real(b.radius()));
+    const moving_convex moving_b =
+        moving_convex_of(&record_b, record_b.center, vec(linear_b), vec(angular_b), real(b.radius()));
     const journey way = one_second(moving_a, moving_b);
     const impact met = first_impact(&moving_a, &moving_b, way);
     met.at.hits ? ++hits : ++misses;

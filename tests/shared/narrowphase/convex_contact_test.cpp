@@ -1,6 +1,5 @@
 /* Manifolds of convex shapes: where their points lie, how deep they are, how much of the contact they span. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -69,7 +68,8 @@ bool holds(const std::vector<Vector> &points, const Vector &direction, const Vec
     for (size_t j = i + 1; j < points.size(); ++j)
       for (size_t k = j + 1; k < points.size(); ++k) {
         const double whole = spanned_area({points[i], points[j], points[k]}, direction);
-        fan = spanned_area({inside, points[i], points[j]}, direction) + spanned_area({inside, points[j], points[k]}, direction) +
+        fan = spanned_area({inside, points[i], points[j]}, direction) +
+              spanned_area({inside, points[j], points[k]}, direction) +
               spanned_area({inside, points[k], points[i]}, direction);
         if (fan < whole + 1e-4 * area) return true;
       }
@@ -136,17 +136,21 @@ TEST_CASE("convex contact: the deepest point is as deep as the shapes, all lie b
       normals.add(std::abs(contact.deepest() - found.gap), pair);
       for (size_t k = 0; k < contact.points.size(); ++k) {
         const double slack = std::abs(contact.separations[k]) / 2;
-        outside.add(std::max(0.0, std::max(outside_by(a, contact.points[k]), outside_by(b, contact.points[k])) - slack) / size, pair);
+        outside.add(
+            std::max(0.0, std::max(outside_by(a, contact.points[k]), outside_by(b, contact.points[k])) - slack) / size,
+            pair);
       }
     }
-    INFO("method " << method << ": " << touching << " touch, with " << points << " points; deepest against the gap along the normal: largest "
-                   << depth.largest << " (pair " << depth.worst << "), 99.9% " << depth.quantile(0.999) << "; outside: largest "
-                   << outside.largest << " (pair " << outside.worst << "), 99.9% " << outside.quantile(0.999));
+    INFO("method " << method << ": " << touching << " touch, with " << points
+                   << " points; deepest against the gap along the normal: largest " << depth.largest << " (pair "
+                   << depth.worst << "), 99.9% " << depth.quantile(0.999) << "; outside: largest " << outside.largest
+                   << " (pair " << outside.worst << "), 99.9% " << outside.quantile(0.999));
     CHECK(wrong == 0);
     CHECK(missed == 0);
     CHECK(depth.largest < 2e-4);
     CHECK(outside.quantile(0.999) < 2e-4);
-    if (method != CONVEX_SAMPLED) CHECK(outside.largest < 1e-2); /* a normal far from the least depth has no point of both along it */
+    if (method != CONVEX_SAMPLED)
+      CHECK(outside.largest < 1e-2); /* a normal far from the least depth has no point of both along it */
     CHECK(touching > 10000);
   }
 }
@@ -167,7 +171,8 @@ TEST_CASE("convex contact: boxes face to face span the whole overlap, by every m
       const double angle = random.uniform(0, 6);
       b.orientation = (a.orientation.cast<double>() * Eigen::AngleAxisd(angle, Vector::UnitY())).cast<float>();
       const double gap = random.uniform(-0.01, 0.01);
-      const Vector up = a.axes().col(1), sideways = a.axes() * Vector(random.uniform(-0.3, 0.3), 0, random.uniform(-0.1, 0.1));
+      const Vector up = a.axes().col(1),
+                   sideways = a.axes() * Vector(random.uniform(-0.3, 0.3), 0, random.uniform(-0.1, 0.1));
       b.center = (up * (0.9 + gap) + sideways).cast<float>();
       const Contact contact = pair % 3 ? contact_of(a, b, 0.02, method) : contact_of(b, a, 0.02, method);
       bool good = contact.points.size() == 4 && std::abs(contact.deepest() - gap) < 1e-5;
@@ -270,8 +275,9 @@ TEST_CASE("convex contact: tiny on huge keeps the precision of the tiny one")
       if (pair % 2) turned_too.add(error / 1000, pair);
       else errors.add(error / tiny.radius(), pair);
     }
-    INFO("method " << method << ": largest error " << errors.largest << " of the tiny size, worst pair " << errors.worst << ", 99.9% "
-                   << errors.quantile(0.999) << "; where the huge is turned: " << turned_too.largest << " of its size");
+    INFO("method " << method << ": largest error " << errors.largest << " of the tiny size, worst pair " << errors.worst
+                   << ", 99.9% " << errors.quantile(0.999) << "; where the huge is turned: " << turned_too.largest
+                   << " of its size");
     CHECK(errors.largest < 1e-4);
     CHECK(turned_too.largest < 2e-6); /* of a normalised quaternion's rounding */
   }
@@ -303,10 +309,13 @@ TEST_CASE("convex contact: a centre of mass off the middle moves the shape, not 
   const Shape floor = shape_of_kind(SHAPE_BOX, 50, 1, 50);
   const Shape cone = turned(shape_of_kind(SHAPE_CYLINDER, 0.5f, 1, 0.2f), 0.4, Vector::UnitZ());
   const vec3 middle = make_vec3(0, R(0.25), 0), offset = make_vec3(0, R(2.0), 0);
-  const convex record = convex_of(cone.kind, make_vec3(0.5f, 1, 0.2f), cone.rotation(), offset, middle, 0, hull_tables{}), a = floor.record();
+  const convex record =
+                   convex_of(cone.kind, make_vec3(0.5f, 1, 0.2f), cone.rotation(), offset, middle, 0, hull_tables{}),
+               a = floor.record();
   Shape same = cone;
   same.center = Eigen::Vector3f(0, 2, 0) + (cone.axes() * Vector(0, 0.25, 0)).cast<float>();
-  const Contact first(convex_contact(&a, &record, R(0.5), slop, CONVEX_EXPANSION)), second = contact_of(floor, same, 0.5, CONVEX_EXPANSION);
+  const Contact first(convex_contact(&a, &record, R(0.5), slop, CONVEX_EXPANSION)),
+      second = contact_of(floor, same, 0.5, CONVEX_EXPANSION);
   REQUIRE(first.points.size() == second.points.size());
   CHECK(first.deepest() == Approx(second.deepest()).margin(1e-6));
 }
@@ -327,9 +336,12 @@ TEST_CASE("convex contact: on a half-space the gap is the height of the lowest p
     if (contact.points.empty()) continue;
     errors.add(std::abs(contact.deepest() - (shape.support(-up).dot(up) - height)) / shape.radius(), pair);
     for (size_t k = 0; k < contact.points.size(); ++k)
-      outside.add(std::max(0.0, outside_by(shape, contact.points[k]) - std::abs(contact.separations[k]) / 2) / shape.radius(), pair);
+      outside.add(std::max(0.0, outside_by(shape, contact.points[k]) - std::abs(contact.separations[k]) / 2) /
+                      shape.radius(),
+                  pair);
   }
-  INFO("largest error " << errors.largest << " of the size, 99.9% " << errors.quantile(0.999) << "; outside " << outside.largest);
+  INFO("largest error " << errors.largest << " of the size, 99.9% " << errors.quantile(0.999) << "; outside "
+                        << outside.largest);
   CHECK(wrong == 0);
   CHECK(errors.largest < 2e-4); /* the deepest must lead by 1e-4 of the size */
   CHECK(outside.largest < 1e-5);

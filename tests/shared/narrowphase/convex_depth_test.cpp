@@ -1,7 +1,7 @@
-/* Depths of overlapping shapes: polytopes against all faces and all pairs of edges in double precision, round shapes against a
- * search over directions. Any direction gives an upper bound of the depth, so an answer can only be too deep. */
+/* Depths of overlapping shapes: polytopes against all faces and all pairs of edges in double precision, round shapes
+ * against a search over directions. Any direction gives an upper bound of the depth, so an answer can only be too
+ * deep. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 #include "tools/parallel.h"
 
@@ -76,9 +76,10 @@ void check_polytopes(size_t blocks, size_t hull_share, uint64_t first_seed)
   }
   const auto report = [](const char *name, Excess &e) {
     std::ostringstream text;
-    text << name << ": " << e.excess.values.size() << " pairs, too deep by at most " << e.excess.largest << " of the size (pair "
-         << e.excess.worst << "), 99.9% " << e.excess.quantile(0.999) << ", 99% " << e.excess.quantile(0.99) << ", rounding of the gap "
-         << e.rounding.largest << ", more than 1e-3: " << e.bad << "; ";
+    text << name << ": " << e.excess.values.size() << " pairs, too deep by at most " << e.excess.largest
+         << " of the size (pair " << e.excess.worst << "), 99.9% " << e.excess.quantile(0.999) << ", 99% "
+         << e.excess.quantile(0.99) << ", rounding of the gap " << e.rounding.largest << ", more than 1e-3: " << e.bad
+         << "; ";
     return text.str();
   };
   INFO(report("expansion", expansion) << report("axes", axes) << report("sampled", sampled));
@@ -111,8 +112,10 @@ TEST_CASE("convex depth: round shapes against a search over directions")
     expansion.add(a, b, found, -exact.gap, pair);
     sampled.add(a, b, find(a, b, CONVEX_SAMPLED), -exact.gap, pair);
   }
-  INFO("expansion: largest " << expansion.excess.largest << " (pair " << expansion.excess.worst << "), 99.9% " << expansion.excess.quantile(0.999));
-  INFO("sampled: largest " << sampled.excess.largest << " (pair " << sampled.excess.worst << "), 99% " << sampled.excess.quantile(0.99));
+  INFO("expansion: largest " << expansion.excess.largest << " (pair " << expansion.excess.worst << "), 99.9% "
+                             << expansion.excess.quantile(0.999));
+  INFO("sampled: largest " << sampled.excess.largest << " (pair " << sampled.excess.worst << "), 99% "
+                           << sampled.excess.quantile(0.99));
   CHECK(expansion.excess.largest < 1e-3);
   CHECK(expansion.excess.quantile(0.99) < 1e-4);
   CHECK(sampled.excess.quantile(0.9) < 1e-4);
@@ -133,7 +136,11 @@ TEST_CASE("convex depth: concentric shapes have a normal of unit length, and one
     }
   }
   CHECK(wrong == 0);
-  const Shape ball = [] { Shape s; s.kind = SHAPE_SPHERE; return s; }();
+  const Shape ball = [] {
+    Shape s;
+    s.kind = SHAPE_SPHERE;
+    return s;
+  }();
   CHECK((find(ball, ball, CONVEX_EXPANSION).normal - Vector::UnitY()).norm() < 1e-6);
 }
 

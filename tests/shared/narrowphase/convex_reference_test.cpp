@@ -1,7 +1,5 @@
-/* The same headers with `real` = double, as the reference build compiles them: what is left of the errors is the method's own. */
-#include "tests/catch.h"
-
-#include <Eigen/Geometry>
+/* The same headers with `real` = double, as the reference build compiles them: what is left of the errors is the
+ * method's own. */
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,10 +8,13 @@
 #include <random>
 #include <set>
 #include <span>
-#include <stdint.h>
 #include <vector>
 
+#include <Eigen/Geometry>
+#include <stdint.h>
+
 #include "host/scene/hull_strips.h"
+#include "tests/catch.h"
 
 /* Types of memory are wider too, so all of it lives in a namespace of its own, as in minicl/reference.cpp. */
 #define TANDEM_REFERENCE
@@ -39,13 +40,15 @@ TEST_CASE("convex shapes in double precision: distances and depths to its roundi
     const double exact = gap_between(a, b, found.normal.normalized());
     gap.add(std::abs(found.gap - exact) / size, pair);
     if (!found.overlapping) distance.add(std::abs(found.distance - exact) / size, pair);
-    if (!found.overlapping || a.kind == SHAPE_SPHERE || b.kind == SHAPE_SPHERE || (a.kind == b.kind && a.kind == SHAPE_HULL && pair % 20)) continue;
+    if (!found.overlapping || a.kind == SHAPE_SPHERE || b.kind == SHAPE_SPHERE ||
+        (a.kind == b.kind && a.kind == SHAPE_HULL && pair % 20))
+      continue;
     const Axis best = exhaustive_axis(a, b);
     depth.add((best.gap - exact) / size, pair);
     axes.add((best.gap - find(a, b, CONVEX_AXES).gap) / size, pair);
   }
-  INFO("gap " << gap.largest << ", distance " << distance.largest << ", depth " << depth.largest << " (pair " << depth.worst << "), axes "
-              << axes.largest << " (pair " << axes.worst << ")");
+  INFO("gap " << gap.largest << ", distance " << distance.largest << ", depth " << depth.largest << " (pair "
+              << depth.worst << "), axes " << axes.largest << " (pair " << axes.worst << ")");
   CHECK(gap.largest < 1e-14);
   CHECK(distance.largest < 1e-13);
   CHECK(depth.largest < 1e-13);

@@ -5,7 +5,6 @@
  */
 #pragma once
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,6 +13,8 @@
 #include <random>
 #include <set>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "host/scene/hull_strips.h"
 #include "shared/narrowphase/convex_contact.h"
@@ -27,7 +28,10 @@ using Matrix = Eigen::Matrix3d;
 class Random {
 public:
   explicit Random(uint64_t seed) : engine_(seed) {}
-  double uniform(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+  double uniform(double low, double high)
+  {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
   uint32_t below(uint32_t n) { return static_cast<uint32_t>(engine_() % n); }
   double logarithmic(double low, double high) { return std::exp(uniform(std::log(low), std::log(high))); }
   Vector in_cube(double size) { return {uniform(-size, size), uniform(-size, size), uniform(-size, size)}; }
@@ -47,7 +51,11 @@ private:
 /* A convex polytope with the tables that the kernels read. */
 struct Hull {
   std::vector<Vector> vertices;
-  struct Face { std::vector<uint32_t> corners; Vector normal; double distance; };
+  struct Face {
+    std::vector<uint32_t> corners;
+    Vector normal;
+    double distance;
+  };
   std::vector<Face> faces;
   std::vector<std::array<uint32_t, 4>> edges;
 
@@ -57,12 +65,15 @@ struct Hull {
 
   hull_tables tables() const
   {
-    return {headers.data(), rows.data(), planes.data(), face_starts.data(), corners.data(), edge_table.data(), strips.data(), links.data(), nullptr, nullptr, support};
+    return {headers.data(), rows.data(),       planes.data(), face_starts.data(),
+            corners.data(), edge_table.data(), strips.data(), links.data(),
+            nullptr,        nullptr,           support};
   }
 };
 
 /* The face through three points, if all others lie behind it. */
-inline bool supporting_face(const std::vector<Vector> &points, const std::array<size_t, 3> &three, double tolerance, Hull::Face &face)
+inline bool supporting_face(const std::vector<Vector> &points, const std::array<size_t, 3> &three, double tolerance,
+                            Hull::Face &face)
 {
   Vector normal = (points[three[1]] - points[three[0]]).cross(points[three[2]] - points[three[0]]);
   if (normal.norm() < tolerance * tolerance) return false;
@@ -107,7 +118,8 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
     for (size_t j = i + 1; j < n; ++j)
       for (size_t k = j + 1; k < n; ++k) {
         Hull::Face face;
-        if (!supporting_face(hull->vertices, {i, j, k}, 1e-6 * size, face) || !known.insert(face.corners).second) continue;
+        if (!supporting_face(hull->vertices, {i, j, k}, 1e-6 * size, face) || !known.insert(face.corners).second)
+          continue;
         sort_corners(hull->vertices, face);
         hull->faces.push_back(face);
       }
@@ -123,18 +135,23 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
   for (const Hull::Face &face : hull->faces) {
     hull->corners.insert(hull->corners.end(), face.corners.begin(), face.corners.end());
     hull->face_starts.push_back(uint(hull->corners.size()));
-    hull->planes.push_back({memory_real(face.normal.x()), memory_real(face.normal.y()), memory_real(face.normal.z()), memory_real(face.distance)});
+    hull->planes.push_back({memory_real(face.normal.x()), memory_real(face.normal.y()), memory_real(face.normal.z()),
+                            memory_real(face.distance)});
   }
-  for (const Vector &p : hull->vertices) hull->rows.push_back({memory_real(p.x()), memory_real(p.y()), memory_real(p.z()), 0});
+  for (const Vector &p : hull->vertices)
+    hull->rows.push_back({memory_real(p.x()), memory_real(p.y()), memory_real(p.z()), 0});
   for (const auto &edge : hull->edges) hull->edge_table.insert(hull->edge_table.end(), edge.begin(), edge.end());
-  hull->headers = {0, uint(n), 0, uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()), 0, 0, map_side};
+  hull->headers = {
+      0, uint(n), 0,       uint(hull->faces.size()), 0, uint(hull->edges.size()), 0, uint(hull->corners.size()),
+      0, 0,       map_side};
   std::vector<std::vector<uint32_t>> faces;
   for (const Hull::Face &face : hull->faces) faces.push_back(face.corners);
   ::tandem::append_strips(hull->strips, hull->rows, 3);
   ::tandem::append_strips(hull->strips, hull->planes, 4);
   ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
   hull->strips.push_back(::tandem::middle_of(std::span(hull->rows)));
-  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->strips.back(), map_side);
+  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->strips.back(),
+                             map_side);
   return hull;
 }
 
@@ -148,7 +165,8 @@ inline std::shared_ptr<Hull> random_hull(Random &random, uint32_t vertices, cons
 inline std::shared_ptr<Hull> box_hull(const Vector &extent)
 {
   std::vector<Vector> points;
-  for (int k = 0; k < 8; ++k) points.push_back(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).cwiseProduct(extent));
+  for (int k = 0; k < 8; ++k)
+    points.push_back(Vector(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1).cwiseProduct(extent));
   return make_hull(points);
 }
 
@@ -160,7 +178,10 @@ struct Shape {
   Eigen::Vector3f center{0, 0, 0}; /* seen from the centre of a */
   std::shared_ptr<Hull> hull;
 
-  mat3 rotation() const { return rotation_of(quat_normalized(make_quat(orientation.x(), orientation.y(), orientation.z(), orientation.w()))); }
+  mat3 rotation() const
+  {
+    return rotation_of(quat_normalized(make_quat(orientation.x(), orientation.y(), orientation.z(), orientation.w())));
+  }
   const Matrix &axes() const
   {
     if (kept_for_ == orientation.coeffs()) return kept_axes_;
@@ -172,8 +193,8 @@ struct Shape {
   convex record() const
   {
     const vec3 zero = make_vec3(0, 0, 0);
-    return convex_of(kind, make_vec3(size.x(), size.y(), size.z()), rotation(), make_vec3(center.x(), center.y(), center.z()), zero, 0,
-                     hull ? hull->tables() : hull_tables{});
+    return convex_of(kind, make_vec3(size.x(), size.y(), size.z()), rotation(),
+                     make_vec3(center.x(), center.y(), center.z()), zero, 0, hull ? hull->tables() : hull_tables{});
   }
   Vector middle() const { return center.cast<double>(); }
   Vector extent() const { return size.cast<double>(); }
@@ -197,9 +218,12 @@ struct Shape {
     const double across = std::hypot(d.x(), d.z());
     switch (kind) {
     case SHAPE_SPHERE: p = d.normalized() * e.x(); break;
-    case SHAPE_BOX: p = Vector(d.x() < 0 ? -e.x() : e.x(), d.y() < 0 ? -e.y() : e.y(), d.z() < 0 ? -e.z() : e.z()); break;
+    case SHAPE_BOX:
+      p = Vector(d.x() < 0 ? -e.x() : e.x(), d.y() < 0 ? -e.y() : e.y(), d.z() < 0 ? -e.z() : e.z());
+      break;
     case SHAPE_CAPSULE: {
-      const Vector low = Vector(0, -e.y(), 0) + d.normalized() * e.x(), high = Vector(0, e.y(), 0) + d.normalized() * e.z();
+      const Vector low = Vector(0, -e.y(), 0) + d.normalized() * e.x(),
+                   high = Vector(0, e.y(), 0) + d.normalized() * e.z();
       p = d.dot(high) > d.dot(low) ? high : low;
       break;
     }

@@ -1,6 +1,5 @@
 /* Surfaces told as points and as fields over cubes: how wrong the heights are, and what contacts come of them. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -64,7 +63,8 @@ TEST_CASE("cube field: heights are never too large, and nearly right where the s
         errors.add(exact - double(found.height), k);
       }
     }
-    INFO(vertices << " vertices, 8 cells a side: too low by " << errors.largest << " at most, 99th percentile " << errors.quantile(0.99));
+    INFO(vertices << " vertices, 8 cells a side: too low by " << errors.largest << " at most, 99th percentile "
+                  << errors.quantile(0.99));
     CHECK(errors.largest < 0.1);
     CHECK(errors.quantile(0.9) < 1e-3);
   }
@@ -72,8 +72,10 @@ TEST_CASE("cube field: heights are never too large, and nearly right where the s
 
 TEST_CASE("cube field: a box on a larger one, and on one that it overhangs")
 {
-  const Shape floor = box({2, 0.5, 2}, {0, 0, 0}), smaller = box({0.5, 0.5, 0.5}, {0.7, 0.999, -0.4}), aside = box({2, 0.5, 2}, {1, 0.999, 0.5});
-  const Manifold on = manifold_of(floor, smaller, 0.02, CONVEX_FIELDS), exact = manifold_of(floor, smaller, 0.02, CONVEX_AXES);
+  const Shape floor = box({2, 0.5, 2}, {0, 0, 0}), smaller = box({0.5, 0.5, 0.5}, {0.7, 0.999, -0.4}),
+              aside = box({2, 0.5, 2}, {1, 0.999, 0.5});
+  const Manifold on = manifold_of(floor, smaller, 0.02, CONVEX_FIELDS),
+                 exact = manifold_of(floor, smaller, 0.02, CONVEX_AXES);
   REQUIRE(on.points.size() == 4);
   CHECK((on.normal - Vector(0, 1, 0)).norm() < 1e-6);
   for (const Vector &p : on.points) {
@@ -88,7 +90,8 @@ TEST_CASE("cube field: a box on a larger one, and on one that it overhangs")
   CHECK(std::abs(over.deepest + 0.001) < 1e-6);
   Vector low = over.points[0], high = low;
   for (const Vector &p : over.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  CHECK((low - Vector(-1, 0.4995, -1.5)).cwiseAbs().maxCoeff() < 1.01); /* an edge is told by stretches of a quarter: 1 m */
+  CHECK((low - Vector(-1, 0.4995, -1.5)).cwiseAbs().maxCoeff() <
+        1.01); /* an edge is told by stretches of a quarter: 1 m */
   CHECK((high - Vector(2, 0.4995, 2)).cwiseAbs().maxCoeff() < 1.01);
   CHECK(high.y() - low.y() < 1e-6);
   CHECK(std::min(high.x() - low.x(), high.z() - low.z()) > 1.9);
@@ -114,7 +117,8 @@ TEST_CASE("cube field: stones that rest on each other, against all their axes")
     const Shape a = stone(random, 20, {1, 0.8, 0.6});
     Shape b = stone(random, 20, {0.7, 0.5, 0.9});
     ShapeMaker::place(a, b, random.direction(), 0);
-    for (int round = 0; round < 6; ++round) ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
+    for (int round = 0; round < 6; ++round)
+      ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
     const Axis exact = exhaustive_axis(a, b);
     if (exact.gap > 0) continue;
     const Manifold found = manifold_of(a, b, 0.02, CONVEX_FIELDS);
@@ -123,7 +127,8 @@ TEST_CASE("cube field: stones that rest on each other, against all their axes")
     right_normal += found.normal.dot(exact.normal) > 0.99;
     depth.add(std::abs(found.deepest - exact.gap), size_t(k));
   }
-  INFO(pairs << " pairs, normal right of " << right_normal << "; depth wrong by " << depth.largest << " at most, median " << depth.quantile(0.5));
+  INFO(pairs << " pairs, normal right of " << right_normal << "; depth wrong by " << depth.largest
+             << " at most, median " << depth.quantile(0.5));
   CHECK(pairs > 200);
   CHECK(right_normal > pairs / 2);
   CHECK(depth.quantile(0.5) < 1e-3);

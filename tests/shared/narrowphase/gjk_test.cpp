@@ -1,7 +1,7 @@
-/* Distances of convex shapes. The gap along the normal found can only be too small, the distance of the closest points only
- * too large: both, in double precision, must agree, which needs no other solver to compare with. Then closed forms. */
+/* Distances of convex shapes. The gap along the normal found can only be too small, the distance of the closest points
+ * only too large: both, in double precision, must agree, which needs no other solver to compare with. Then closed
+ * forms. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -27,8 +27,10 @@ void check_random_distances(size_t pairs, uint64_t seed)
     ++apart;
     distance.add(std::abs(found.distance - exact) / size, pair);
   }
-  INFO("gap: largest error " << gap.largest << " of the size, 99.9% " << gap.quantile(0.999) << ", worst pair " << gap.worst);
-  INFO("distance - gap: largest " << distance.largest << ", 99.9% " << distance.quantile(0.999) << ", worst pair " << distance.worst);
+  INFO("gap: largest error " << gap.largest << " of the size, 99.9% " << gap.quantile(0.999) << ", worst pair "
+                             << gap.worst);
+  INFO("distance - gap: largest " << distance.largest << ", 99.9% " << distance.quantile(0.999) << ", worst pair "
+                                  << distance.worst);
   CAPTURE(apart);
   CHECK(wrong == 0);
   CHECK(gap.largest < 2e-6); /* a quaternion normalised in float makes axes that are a rotation to a few roundings */
@@ -59,10 +61,7 @@ TEST_CASE("convex distance: the gap along the normal and the distance of the clo
 {
   check_random_distances(100000, 1);
 }
-TEST_CASE("convex distance: a million pairs", "[.long]")
-{
-  check_random_distances(1000000, 2);
-}
+TEST_CASE("convex distance: a million pairs", "[.long]") { check_random_distances(1000000, 2); }
 
 /* Points of a rim make slivers of simplices, and a sliver may seem to hold an origin that lies far outside of it. */
 TEST_CASE("convex distance: no pair overlaps while a direction shows a gap")
@@ -78,7 +77,8 @@ TEST_CASE("convex distance: no pair overlaps while a direction shows a gap")
     const gjk_result found = closest_points(&both.a, &both.b, R(1e30));
     if (found.contact.gap < 1e-5 * (a.radius() + b.radius())) continue;
     ++apart;
-    wrong += found.overlapping || std::abs(length_of(subtract(found.on_a, found.on_b)) - found.contact.gap) > 1e-4 * (a.radius() + b.radius());
+    wrong += found.overlapping || std::abs(length_of(subtract(found.on_a, found.on_b)) - found.contact.gap) >
+                                      1e-4 * (a.radius() + b.radius());
   }
   CHECK(wrong == 0);
   CHECK(apart > 190000);
@@ -99,7 +99,8 @@ TEST_CASE("convex distance: capsule against capsule is the distance of segments 
     const double exact = segments - a.size.x() - b.size.x(), size = a.radius() + b.radius();
     if (segments > 1e-5 * size) errors.add(std::abs(find(a, b, CONVEX_EXPANSION).gap - exact) / size, pair);
   }
-  INFO("largest error " << errors.largest << " of the size, 99.9% " << errors.quantile(0.999) << ", worst pair " << errors.worst);
+  INFO("largest error " << errors.largest << " of the size, 99.9% " << errors.quantile(0.999) << ", worst pair "
+                        << errors.worst);
   CHECK(errors.largest < 2e-6);
   CHECK(errors.values.size() > 15000);
 }

@@ -1,6 +1,6 @@
-/* The axis of least overlap of hulls of many faces, found by looking at few of them: against all faces and all pairs of edges. */
+/* The axis of least overlap of hulls of many faces, found by looking at few of them: against all faces and all pairs of
+ * edges. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -38,12 +38,14 @@ TEST_CASE("convex axes: stones of 20 vertices, resting and deep in each other, a
     const Shape a = stone(random, 20, {1, 0.8, 0.6});
     Shape b = stone(random, 20, {0.7, 0.5, 0.9});
     ShapeMaker::place(a, b, random.direction(), 0);
-    for (int k = 0; k < 6; ++k) ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
+    for (int k = 0; k < 6; ++k)
+      ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));
     compare(shallow, a, b);
     b.center *= float(random.uniform(0, 0.8)); /* down to one within the other: more edges matter than a list holds */
     compare(deep, a, b);
   }
-  INFO("resting: too deep by " << shallow.largest << ", " << shallow.of_edges << " of edges; deep: " << deep.largest << ", " << deep.of_edges);
+  INFO("resting: too deep by " << shallow.largest << ", " << shallow.of_edges << " of edges; deep: " << deep.largest
+                               << ", " << deep.of_edges);
   CHECK(shallow.overlapping > 100);
   CHECK(deep.overlapping > 130);
   CHECK(shallow.of_edges > 30);

@@ -1,6 +1,6 @@
-/* Farthest vertices of hulls: the exact ways name the same vertex, ties and all; the cube map errs by no more than its cells are wide. */
+/* Farthest vertices of hulls: the exact ways name the same vertex, ties and all; the cube map errs by no more than its
+ * cells are wide. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/convex_shapes.h"
 
 using namespace tandem;
@@ -12,7 +12,9 @@ uint32_t by_loop(const Hull &hull, vec3 d)
 {
   uint32_t best = 0;
   for (uint32_t k = 1; k < hull.rows.size(); ++k)
-    if (inner(make_vec3(hull.rows[k].x, hull.rows[k].y, hull.rows[k].z), d) > inner(make_vec3(hull.rows[best].x, hull.rows[best].y, hull.rows[best].z), d)) best = k;
+    if (inner(make_vec3(hull.rows[k].x, hull.rows[k].y, hull.rows[k].z), d) >
+        inner(make_vec3(hull.rows[best].x, hull.rows[best].y, hull.rows[best].z), d))
+      best = k;
   return best;
 }
 
@@ -77,7 +79,8 @@ TEST_CASE("convex supports: a cube map errs by no more than its cells allow")
     largest = std::max(largest, (hull->vertices[best] - hull->vertices[near]).dot(direction));
     other += near != best;
   }
-  /* |best - near| <= 2, times what the direction can differ from its cell's middle: half the diagonal of a cell of 2 / 8. */
+  /* |best - near| <= 2, times what the direction can differ from its cell's middle: half the diagonal of a cell of 2
+   * / 8. */
   CHECK(largest < 2 * std::sqrt(2.0) / 8);
   CHECK(other > 0);
   CHECK(other < 20000 / 4);

@@ -55,7 +55,8 @@ TEST_CASE("convex depth: overlaps and depths as libccd finds them")
     }
     ++depths;
     agreed += std::abs(-found.gap - depth) < 1e-4 * size;
-    /* What libccd claims may be less than there is: its direction is an upper bound, measured by the shapes themselves. */
+    /* What libccd claims may be less than there is: its direction is an upper bound, measured by the shapes
+     * themselves. */
     const Vector way = Vector(direction.v[0], direction.v[1], direction.v[2]).normalized();
     deeper.add((-found.gap + std::max(gap_between(a, b, way), gap_between(a, b, -way))) / size, pair);
   }

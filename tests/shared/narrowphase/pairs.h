@@ -4,11 +4,12 @@
  */
 #pragma once
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <cstring>
 #include <random>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "minicl/kernel_table.h"
 #include "shared/parameters.h"
@@ -113,7 +114,8 @@ public:
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
       const size_t groups = (pairs + TILE - 1) / TILE;
-      table.run[index_of(kernel)](arguments.data(), 0, static_cast<uint32_t>(row_of(kernel).form == Form::group ? groups : pairs));
+      table.run[index_of(kernel)](arguments.data(), 0,
+                                  static_cast<uint32_t>(row_of(kernel).form == Form::group ? groups : pairs));
     }
     return outputs;
   }

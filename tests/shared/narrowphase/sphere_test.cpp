@@ -1,6 +1,5 @@
 /* Spheres against spheres, boxes and half-spaces: closed forms in double precision. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/box_reference.h"
 
 using namespace tandem;
@@ -27,7 +26,7 @@ double scale_of(const TestBody &body) { return body.shape == sphere ? body.size.
 struct Expected {
   Vector normal; /* from a to b */
   double separation;
-  Vector point;  /* midway, in the world */
+  Vector point; /* midway, in the world */
   bool normal_is_unique;
 };
 
@@ -39,8 +38,7 @@ double reach(const PairScene &scene, size_t pair, const Vector &normal)
 {
   const TestBody &a = scene.a(pair), &b = scene.b(pair);
   const double closing = -(b.linear - a.linear).cast<double>().dot(normal) +
-                         double(a.angular.norm()) * swung_radius(a) +
-                         double(b.angular.norm()) * swung_radius(b);
+                         double(a.angular.norm()) * swung_radius(a) + double(b.angular.norm()) * swung_radius(b);
   return scene.parameters.speculative_distance + scene.parameters.step * std::max(0.0, closing);
 }
 
@@ -48,59 +46,71 @@ TestBody moved(TestBody body, double time)
 {
   const double turn = body.angular.cast<double>().norm() * time;
   body.position += (time * body.linear.cast<double>()).cast<float>();
-  if (turn > 0) body.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn, body.angular.cast<double>().normalized())) * body.orientation.cast<double>()).cast<float>();
+  if (turn > 0)
+    body.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn, body.angular.cast<double>().normalized())) *
+                        body.orientation.cast<double>())
+                           .cast<float>();
   return body;
 }
 
 /* The least separation of many moments before `time`. */
-template <class Reference>
-double least_before(const TestBody &a, const TestBody &b, double time, Reference reference)
+template <class Reference> double least_before(const TestBody &a, const TestBody &b, double time, Reference reference)
 {
   double least = 1e30;
-  for (int k = 0; k < 48; ++k) least = std::min(least, reference(moved(a, time * k / 48), moved(b, time * k / 48)).separation);
+  for (int k = 0; k < 48; ++k)
+    least = std::min(least, reference(moved(a, time * k / 48), moved(b, time * k / 48)).separation);
   return least;
 }
 
-/* A body that turns past another without touching it is guarded by a contact of the end of the step in its own centre. */
+/* A body that turns past another without touching it is guarded by a contact of the end of the step in its own
+ * centre. */
 bool is_in_a_centre(const TestBody &a, const TestBody &b, const Point &point, double tolerance)
 {
   return std::min(point.offset.norm(), (a.center() + point.offset - b.center()).norm()) < tolerance;
 }
 
-/* How fast a contact of the start comes nearer, by the motion of its points and by the turning of two bodies that can be pushed, whose
- * arms follow half of what they slide. */
+/* How fast a contact of the start comes nearer, by the motion of its points and by the turning of two bodies that can
+ * be pushed, whose arms follow half of what they slide. */
 struct Nearing {
   double by_motion, by_turning;
 };
 Nearing nearing_of(const TestBody &a, const TestBody &b, const Contact &contact, double step)
 {
-  const Vector arm_a = contact.points[0].offset, arm_b = a.center() + arm_a - b.center(), passing = (b.linear - a.linear).cast<double>();
+  const Vector arm_a = contact.points[0].offset, arm_b = a.center() + arm_a - b.center(),
+               passing = (b.linear - a.linear).cast<double>();
   const Vector approach = a.angular.cast<double>().cross(arm_a) - b.angular.cast<double>().cross(arm_b) - passing;
   const double turning = (step * passing).cross(contact.normal).dot((a.angular + b.angular).cast<double>() / 2);
   return {std::max(0.0, approach.dot(contact.normal)), std::max(0.0, turning)};
 }
 
 /* Of a pair that misses, a contact that only its turning would reach within the step is put where it does not. */
-bool is_put_clear(const TestBody &a, const TestBody &b, const Contact &contact, double gap, double step, double tolerance)
+bool is_put_clear(const TestBody &a, const TestBody &b, const Contact &contact, double gap, double step,
+                  double tolerance)
 {
   const Nearing nearing = nearing_of(a, b, contact, step);
   const double total = nearing.by_motion + nearing.by_turning, seen = contact.points[0].separation;
-  return step * nearing.by_turning > 4 * tolerance && seen > gap && gap > step * nearing.by_motion - tolerance && gap < step * total + tolerance &&
-         std::abs(seen - 1.01 * step * total) < tolerance;
+  return step * nearing.by_turning > 4 * tolerance && seen > gap && gap > step * nearing.by_motion - tolerance &&
+         gap < step * total + tolerance && std::abs(seen - 1.01 * step * total) < tolerance;
 }
 
-/* The contact at the moment of its impact, which is 0 for those of the start, and seen from the start. guards: it is of the end. */
-bool is_as_expected(const TestBody &a, const TestBody &b, const Contact &contact, const Expected &expected, double time, double tolerance, bool guards,
-                    bool put_clear)
+/* The contact at the moment of its impact, which is 0 for those of the start, and seen from the start. guards: it is of
+ * the end. */
+bool is_as_expected(const TestBody &a, const TestBody &b, const Contact &contact, const Expected &expected, double time,
+                    double tolerance, bool guards, bool put_clear)
 {
   const Point &point = contact.points[0];
   const Vector arm_b = a.center() + point.offset - b.center(), approach = (a.linear - b.linear).cast<double>() +
-    a.angular.cast<double>().cross(point.offset) - b.angular.cast<double>().cross(arm_b);
+                                                                          a.angular.cast<double>().cross(point.offset) -
+                                                                          b.angular.cast<double>().cross(arm_b);
   const double seen = expected.separation + time * std::max(0.0, approach.dot(contact.normal));
-  if ((!put_clear && std::abs(point.separation - seen) > tolerance) || contact.code != 0 || point.slot != 0 || std::abs(contact.normal.norm() - 1) > 1e-6) return false;
+  if ((!put_clear && std::abs(point.separation - seen) > tolerance) || contact.code != 0 || point.slot != 0 ||
+      std::abs(contact.normal.norm() - 1) > 1e-6)
+    return false;
   if (!expected.normal_is_unique) return true;
-  const double angle = time > 0 ? 2e-2 : 1e-3; /* at an impact the shapes are a hair apart, of which rounding is a larger part */
-  const bool is_in_place = guards ? is_in_a_centre(a, b, point, tolerance) : (a.center() + point.offset - expected.point).norm() < 1e3 * tolerance;
+  const double angle =
+      time > 0 ? 2e-2 : 1e-3; /* at an impact the shapes are a hair apart, of which rounding is a larger part */
+  const bool is_in_place = guards ? is_in_a_centre(a, b, point, tolerance)
+                                  : (a.center() + point.offset - expected.point).norm() < 1e3 * tolerance;
   return (contact.normal - expected.normal).norm() < angle && is_in_place;
 }
 
@@ -110,7 +120,8 @@ double left_before_plane(const TestBody &a, const TestBody &b, const Contact &co
   return contact.points[0].separation + step * (b.linear - a.linear).cast<double>().dot(contact.normal);
 }
 
-/* What the arms of two bodies that can be pushed let turning close within a step: each follows half of what they slide, half on average. */
+/* What the arms of two bodies that can be pushed let turning close within a step: each follows half of what they slide,
+ * half on average. */
 double closed_by_turning(const TestBody &a, const TestBody &b, double step)
 {
   return double(a.angular.norm() + b.angular.norm()) / 4 * double((b.linear - a.linear).norm()) * step * step;
@@ -124,10 +135,9 @@ double passing_gap(const TestBody &a, const TestBody &b)
   return (between + nearest * velocity).norm() - double(a.size.x()) - double(b.size.x());
 }
 
-/* Contacts of the start and those at impact against `reference` of where the bodies are then; what is left out must miss. Spheres that miss
- * have a contact where they pass each other, whose plane they do not meet. */
-template <class Reference>
-void compare(PairScene &scene, Kernel kernel, Reference reference)
+/* Contacts of the start and those at impact against `reference` of where the bodies are then; what is left out must
+ * miss. Spheres that miss have a contact where they pass each other, whose plane they do not meet. */
+template <class Reference> void compare(PairScene &scene, Kernel kernel, Reference reference)
 {
   const Outputs outputs = scene.run({kernel});
   size_t touching = 0, at_impact = 0, missing = 0, passing = 0, clear = 0, wrong = 0;
@@ -142,15 +152,19 @@ void compare(PairScene &scene, Kernel kernel, Reference reference)
     if (passes) expected.separation += closed_by_turning(a, b, scene.parameters.step);
     const double limit = reach(scene, pair, expected.normal);
     if (time == 0 && std::abs(expected.separation - limit) < tolerance * 4) continue;
-    const bool near = time > 0 || expected.separation < limit, guards = outputs.normals[pair].w == scene.parameters.step;
+    const bool near = time > 0 || expected.separation < limit,
+               guards = outputs.normals[pair].w == scene.parameters.step;
     bool good = true;
     if (outputs.counts[pair] > 0) {
-      const bool put_clear = time == 0 && is_put_clear(a, b, scene.contact(outputs, pair), expected.separation, scene.parameters.step, tolerance);
+      const bool put_clear = time == 0 && is_put_clear(a, b, scene.contact(outputs, pair), expected.separation,
+                                                       scene.parameters.step, tolerance);
       clear += put_clear;
-      good = near && is_as_expected(moved(a, time), moved(b, time), scene.contact(outputs, pair), expected, time, tolerance * (time > 0 ? 4 : 1), guards, put_clear);
+      good = near && is_as_expected(moved(a, time), moved(b, time), scene.contact(outputs, pair), expected, time,
+                                    tolerance * (time > 0 ? 4 : 1), guards, put_clear);
       good = good && (!put_clear || least_before(a, b, scene.parameters.step, reference) > -4 * tolerance);
       good = good && (time == 0 || least_before(a, b, time, reference) > -4 * tolerance);
-      good = good && (!passes || left_before_plane(a, b, scene.contact(outputs, pair), scene.parameters.step) > -4 * tolerance);
+      good = good &&
+             (!passes || left_before_plane(a, b, scene.contact(outputs, pair), scene.parameters.step) > -4 * tolerance);
       (passes ? passing : time > 0 ? at_impact : touching) += 1;
     } else if (near) {
       good = least_before(a, b, scene.parameters.step, reference) > -4 * tolerance;
@@ -165,7 +179,8 @@ void compare(PairScene &scene, Kernel kernel, Reference reference)
   CHECK(wrong == 0);
   CHECK(touching > scene.size() / 4);
   CHECK((kernel == Kernel::collide_sphere_half_space || clear > 0));
-  CHECK((kernel == Kernel::collide_sphere_half_space || (at_impact > scene.size() / 500 && missing + passing > scene.size() / 500)));
+  CHECK((kernel == Kernel::collide_sphere_half_space ||
+         (at_impact > scene.size() / 500 && missing + passing > scene.size() / 500)));
 }
 
 /* b at a given gap from a along a direction, plus noise: touching, apart and overlapping alike. */
@@ -221,7 +236,8 @@ TEST_CASE("coincident spheres part sideways, in directions that add up to nothin
     sum += contact.normal;
     squares += contact.normal.cwiseAbs2();
   }
-  CHECK(sum.norm() < 4 * std::sqrt(double(pairs))); /* as of random directions: one of sixteen thousand sums is longer */
+  CHECK(sum.norm() <
+        4 * std::sqrt(double(pairs))); /* as of random directions: one of sixteen thousand sums is longer */
   CHECK(squares.x() == Approx(pairs / 2.0).margin(pairs / 10.0));
 }
 
@@ -243,8 +259,8 @@ TEST_CASE("sphere against box: the nearest point, or the face of least depth")
     const double size = std::min<double>(ball.size.x(), brick.size.minCoeff());
     const bool inside = random.below(3) == 0;
     const double gap = inside ? -ball.size.x() - random.uniform(0, 1) * size : random_gap(random, size);
-    const Vector center = brick.center() + brick.axes() * on_surface.cwiseProduct(brick.extent()) +
-                          outward * (ball.size.x() + gap);
+    const Vector center =
+        brick.center() + brick.axes() * on_surface.cwiseProduct(brick.extent()) + outward * (ball.size.x() + gap);
     ball.position = center.cast<float>();
     if (random.below(2)) scene.add(ball, brick);
     else scene.add(brick, ball);
@@ -296,7 +312,7 @@ TEST_CASE("sphere against half-space: height above the plane")
     const TestBody &ball = sphere_first ? a : b, &ground = sphere_first ? b : a;
     const Vector up = ground.axes().col(1);
     const double separation = up.dot(ball.center() - ground.center()) - ball.size.x();
-    return Expected{sphere_first ? Vector(-up) : up, separation,
-                    ball.center() - up * (ball.size.x() + separation / 2), true};
+    return Expected{sphere_first ? Vector(-up) : up, separation, ball.center() - up * (ball.size.x() + separation / 2),
+                    true};
   });
 }

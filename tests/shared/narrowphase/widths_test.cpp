@@ -1,6 +1,5 @@
 /* All pair types, mixed, at every width and in both directions: the same bits in every word of every output. */
 #include "tests/catch.h"
-
 #include "tests/shared/narrowphase/pairs.h"
 
 using namespace tandem;
@@ -8,8 +7,9 @@ using namespace tandem::narrowphase_tests;
 
 namespace {
 
-const std::vector<Kernel> lane_kernels = {Kernel::collide_sphere_sphere, Kernel::collide_sphere_box, Kernel::collide_box_box,
-                                          Kernel::collide_sphere_half_space, Kernel::collide_box_half_space};
+const std::vector<Kernel> lane_kernels = {Kernel::collide_sphere_sphere, Kernel::collide_sphere_box,
+                                          Kernel::collide_box_box, Kernel::collide_sphere_half_space,
+                                          Kernel::collide_box_half_space};
 
 std::vector<Kernel> followed(std::vector<Kernel> kernels)
 {

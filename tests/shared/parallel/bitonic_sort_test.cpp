@@ -18,7 +18,8 @@ TEST_CASE("bitonic sort orders pairs by key, then value, at any length, in place
         primitives->set_length(n);
         primitives->set(Buffer::primitive_a, keys);
         primitives->set(Buffer::primitive_b, values);
-        bitonic_sort(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, COUNT_LENGTH, n % 2 ? n : 3 * n + 1);
+        bitonic_sort(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, COUNT_LENGTH,
+                     n % 2 ? n : 3 * n + 1);
         const auto sorted_keys = primitives->get<uint32_t>(Buffer::primitive_a, n);
         const auto sorted_values = primitives->get<uint32_t>(Buffer::primitive_b, n);
         for (uint32_t i = 0; i < n; ++i) found.emplace_back(sorted_keys[i], sorted_values[i]);

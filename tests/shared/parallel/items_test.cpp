@@ -101,13 +101,22 @@ TEST_CASE("bounds equal those of the standard library, for every value there is 
       primitives->set(Buffer::primitive_b, queries);
       primitives->reserve(Buffer::primitive_c, count * 4);
       primitives->reserve(Buffer::primitive_d, count * 4);
-      for (const auto &[kernel, result] : {std::pair(Kernel::lower_bound, Buffer::primitive_c), std::pair(Kernel::upper_bound, Buffer::primitive_d)})
-        primitives->launcher.launch({kernel, {Buffer::primitive_a, Buffer::primitive_b, result}, {COUNT_LENGTH}, COUNT_ZERO, COUNT_PAIRS, count});
-      const auto lower = primitives->get<uint32_t>(Buffer::primitive_c, count), upper = primitives->get<uint32_t>(Buffer::primitive_d, count);
+      for (const auto &[kernel, result] :
+           {std::pair(Kernel::lower_bound, Buffer::primitive_c), std::pair(Kernel::upper_bound, Buffer::primitive_d)})
+        primitives->launcher.launch({kernel,
+                                     {Buffer::primitive_a, Buffer::primitive_b, result},
+                                     {COUNT_LENGTH},
+                                     COUNT_ZERO,
+                                     COUNT_PAIRS,
+                                     count});
+      const auto lower = primitives->get<uint32_t>(Buffer::primitive_c, count),
+                 upper = primitives->get<uint32_t>(Buffer::primitive_d, count);
       for (uint32_t i = 0; i < count; ++i) {
         INFO(primitives->name() << ", n = " << n << ", query " << queries[i]);
-        REQUIRE(lower[i] == static_cast<uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), queries[i]) - sorted.begin()));
-        REQUIRE(upper[i] == static_cast<uint32_t>(std::upper_bound(sorted.begin(), sorted.end(), queries[i]) - sorted.begin()));
+        REQUIRE(lower[i] ==
+                static_cast<uint32_t>(std::lower_bound(sorted.begin(), sorted.end(), queries[i]) - sorted.begin()));
+        REQUIRE(upper[i] ==
+                static_cast<uint32_t>(std::upper_bound(sorted.begin(), sorted.end(), queries[i]) - sorted.begin()));
       }
     }
 }
@@ -128,8 +137,8 @@ TEST_CASE("compaction keeps the indices of all flags, in order, and counts them 
         primitives->reserve(Buffer::primitive_b, (n + 1) * 4);
         primitives->reserve(Buffer::primitive_c, (expected.size() + 1) * 4);
         primitives->reserve(Buffer::scan_sums, scan_sum_words(n) * 4);
-        compact(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, Buffer::primitive_c, COUNT_LENGTH, n,
-                COUNT_PAIRS);
+        compact(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, Buffer::primitive_c,
+                COUNT_LENGTH, n, COUNT_PAIRS);
         INFO(primitives->name() << ", n = " << n << ", one flag in " << one_in);
         REQUIRE(primitives->get<uint32_t>(Buffer::counts, COUNT_TOTAL)[COUNT_PAIRS] == expected.size());
         REQUIRE((primitives->get<uint32_t>(Buffer::primitive_c, expected.size()) == expected));
@@ -138,9 +147,11 @@ TEST_CASE("compaction keeps the indices of all flags, in order, and counts them 
 
 TEST_CASE("flipped floats are ordered like the floats, and come back bit for bit")
 {
-  constexpr float infinity = std::numeric_limits<float>::infinity(), denormal = std::numeric_limits<float>::denorm_min();
-  const std::vector<float> ordered = {-infinity, -3e38f, -1.5f, -1.0f, -1e-38f, -2 * denormal, -denormal, -0.0f,
-                                      0.0f,      denormal, 2 * denormal, 1e-38f, 1.0f, 1.5f, 3e38f, infinity};
+  constexpr float infinity = std::numeric_limits<float>::infinity(),
+                  denormal = std::numeric_limits<float>::denorm_min();
+  const std::vector<float> ordered = {-infinity, -3e38f, -1.5f, -1.0f,    -1e-38f,      -2 * denormal,
+                                      -denormal, -0.0f,  0.0f,  denormal, 2 * denormal, 1e-38f,
+                                      1.0f,      1.5f,   3e38f, infinity};
   std::vector<uint32_t> bits;
   for (const float value : ordered) bits.push_back(bits_of(value));
   const auto random = keys_of<uint32_t>(Distribution::random, 5000);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "host/runtime/make_backend.h"
-#include "host/runtime/launcher.h"
-#include "host/runtime/opencl/device_backend.h"
 #include "host/pipeline/primitives.h"
+#include "host/runtime/launcher.h"
+#include "host/runtime/make_backend.h"
+#include "host/runtime/opencl/device_backend.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/opencl_device.h"
 
@@ -65,7 +65,8 @@ public:
 inline std::vector<std::unique_ptr<Primitives>> all_primitives()
 {
   std::vector<std::unique_ptr<Primitives>> made;
-  for (const char *name : {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=1", "tbb:threads=2", "tbb:threads=7"})
+  for (const char *name :
+       {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=1", "tbb:threads=2", "tbb:threads=7"})
     made.push_back(std::make_unique<Primitives>(make_backend(name)));
   const opencl::Candidate *const device = find_test_device();
   if (!device) tests::leave_out_device("no OpenCL device");
@@ -74,8 +75,8 @@ inline std::vector<std::unique_ptr<Primitives>> all_primitives()
 }
 
 enum class Distribution { equal, sorted, reversed, few, random };
-constexpr Distribution distributions[] = {Distribution::equal, Distribution::sorted, Distribution::reversed, Distribution::few,
-                                          Distribution::random};
+constexpr Distribution distributions[] = {Distribution::equal, Distribution::sorted, Distribution::reversed,
+                                          Distribution::few, Distribution::random};
 
 /* Keys that use every bit of T, except where the distribution says otherwise. */
 template <class T> std::vector<T> keys_of(Distribution distribution, size_t n, uint32_t seed = 1)

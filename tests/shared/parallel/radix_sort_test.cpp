@@ -24,7 +24,8 @@ template <class T> std::vector<uint32_t> expected_order(const std::vector<T> &ke
 {
   std::vector<uint32_t> order(keys.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return masked(keys[a], bits) < masked(keys[b], bits); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](uint32_t a, uint32_t b) { return masked(keys[a], bits) < masked(keys[b], bits); });
   return order;
 }
 
@@ -34,7 +35,8 @@ template <class T> struct Sorted {
 };
 
 /* The values are the numbers of the items: after the sort they show that it was stable. */
-template <class T> Sorted<T> sort_on(Primitives &primitives, const std::vector<T> &keys, Bits bits, bool with_values, uint32_t capacity)
+template <class T>
+Sorted<T> sort_on(Primitives &primitives, const std::vector<T> &keys, Bits bits, bool with_values, uint32_t capacity)
 {
   constexpr bool wide = sizeof(T) == 8;
   const Buffer key = wide ? Buffer::pair_key : Buffer::sort_key;
@@ -50,7 +52,8 @@ template <class T> Sorted<T> sort_on(Primitives &primitives, const std::vector<T
   primitives.reserve(Buffer::sort_histogram, histogram_words(capacity) * 4);
   primitives.reserve(Buffer::scan_sums, scan_sum_words(histogram_words(capacity)) * 4);
   const auto call = [&](auto sort, auto... buffers) {
-    sort(primitives.launcher, buffers..., Buffer::sort_histogram, Buffer::scan_sums, COUNT_LENGTH, capacity, bits.first, bits.last);
+    sort(primitives.launcher, buffers..., Buffer::sort_histogram, Buffer::scan_sums, COUNT_LENGTH, capacity, bits.first,
+         bits.last);
   };
   if (with_values) call(wide ? sort_pairs64 : sort_pairs, key, Buffer::sort_value, other, Buffer::sort_value_other);
   else call(wide ? sort_keys64 : sort_keys, key, other);
@@ -62,8 +65,8 @@ template <class T> void check_sort(Primitives &primitives, const std::vector<T> 
   const auto order = expected_order(keys, bits);
   std::vector<T> expected;
   for (const uint32_t from : order) expected.push_back(keys[from]);
-  INFO(primitives.name() << ", " << 8 * sizeof(T) << "-bit keys, n = " << keys.size() << ", bits " << bits.first << " to " << bits.last
-                         << ", capacity " << capacity);
+  INFO(primitives.name() << ", " << 8 * sizeof(T) << "-bit keys, n = " << keys.size() << ", bits " << bits.first
+                         << " to " << bits.last << ", capacity " << capacity);
   const Sorted<T> pairs = sort_on(primitives, keys, bits, true, capacity);
   REQUIRE((pairs.keys == expected));
   REQUIRE((pairs.values == order));
@@ -107,7 +110,8 @@ TEST_CASE("radix sort of 10 million pairs")
   const auto keys = keys_of<uint32_t>(Distribution::random, 10'000'000);
   const Sorted<uint32_t> sorted = sort_on(primitives, keys, {0, 32}, true, 10'000'000);
   for (size_t i = 1; i < keys.size(); ++i)
-    if (sorted.keys[i - 1] > sorted.keys[i] || (sorted.keys[i - 1] == sorted.keys[i] && sorted.values[i - 1] >= sorted.values[i]))
+    if (sorted.keys[i - 1] > sorted.keys[i] ||
+        (sorted.keys[i - 1] == sorted.keys[i] && sorted.values[i - 1] >= sorted.values[i]))
       FAIL("items " << i - 1 << " and " << i << " are out of order");
   for (size_t i = 0; i < keys.size(); ++i)
     if (keys[sorted.values[i]] != sorted.keys[i]) FAIL("item " << i << " has lost its value");

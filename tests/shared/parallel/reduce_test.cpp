@@ -26,7 +26,8 @@ std::vector<float> random_floats(size_t n)
 {
   std::mt19937 engine(static_cast<uint32_t>(n));
   std::vector<float> values(n);
-  for (float &value : values) value = std::ldexp(static_cast<float>(engine() % 2000001u) - 1e6f, static_cast<int>(engine() % 20u) - 20);
+  for (float &value : values)
+    value = std::ldexp(static_cast<float>(engine() % 2000001u) - 1e6f, static_cast<int>(engine() % 20u) - 20);
   return values;
 }
 
@@ -38,9 +39,12 @@ TEST_CASE("reductions of whole numbers equal the standard library's")
     for (const uint32_t n : lengths()) {
       const auto values = keys_of<uint32_t>(Distribution::random, n);
       INFO(primitives->name() << ", n = " << n);
-      REQUIRE(reduced(reduce, *primitives, Reduction::sum, values, n) == std::accumulate(values.begin(), values.end(), 0u));
-      REQUIRE(reduced(reduce, *primitives, Reduction::smallest, values, n) == (n ? *std::min_element(values.begin(), values.end()) : 0xffffffffu));
-      REQUIRE(reduced(reduce, *primitives, Reduction::largest, values, n + 9000) == (n ? *std::max_element(values.begin(), values.end()) : 0u));
+      REQUIRE(reduced(reduce, *primitives, Reduction::sum, values, n) ==
+              std::accumulate(values.begin(), values.end(), 0u));
+      REQUIRE(reduced(reduce, *primitives, Reduction::smallest, values, n) ==
+              (n ? *std::min_element(values.begin(), values.end()) : 0xffffffffu));
+      REQUIRE(reduced(reduce, *primitives, Reduction::largest, values, n + 9000) ==
+              (n ? *std::max_element(values.begin(), values.end()) : 0u));
     }
 }
 
@@ -51,8 +55,10 @@ TEST_CASE("the smallest and largest real are found wherever they stand")
       if (n == 0) continue;
       const auto values = random_floats(n);
       INFO(primitives->name() << ", n = " << n);
-      REQUIRE(reduced(reduce_real, *primitives, Reduction::smallest, values, n) == *std::min_element(values.begin(), values.end()));
-      REQUIRE(reduced(reduce_real, *primitives, Reduction::largest, values, n) == *std::max_element(values.begin(), values.end()));
+      REQUIRE(reduced(reduce_real, *primitives, Reduction::smallest, values, n) ==
+              *std::min_element(values.begin(), values.end()));
+      REQUIRE(reduced(reduce_real, *primitives, Reduction::largest, values, n) ==
+              *std::max_element(values.begin(), values.end()));
     }
 }
 

@@ -39,7 +39,8 @@ std::vector<uint32_t> scan_in_place(Primitives &primitives, const std::vector<ui
   primitives.set_length(static_cast<uint32_t>(values.size()));
   primitives.set(Buffer::primitive_a, padded);
   primitives.reserve(Buffer::scan_sums, scan_sum_words(capacity) * 4);
-  exclusive_scan(primitives.launcher, Buffer::primitive_a, Buffer::primitive_a, Buffer::scan_sums, COUNT_LENGTH, capacity);
+  exclusive_scan(primitives.launcher, Buffer::primitive_a, Buffer::primitive_a, Buffer::scan_sums, COUNT_LENGTH,
+                 capacity);
   const auto all = primitives.get<uint32_t>(Buffer::primitive_a, padded.size());
   for (size_t i = values.size() + 1; i < all.size(); ++i)
     if (all[i] != untouched) FAIL("element " << i << " beyond the result was written");
@@ -68,7 +69,8 @@ TEST_CASE("sums past 2^32 stay at the largest number, however often they pass it
       std::vector<uint32_t> one_large(n, 1), at_end(n, 0);
       one_large[n / 2] = UINT32_MAX;
       at_end[n - 1] = at_end[0] = 0x80000000u;
-      for (const auto &values : {crowd, one_large, at_end, keys_of<uint32_t>(Distribution::random, n), std::vector<uint32_t>(n, UINT32_MAX)}) {
+      for (const auto &values : {crowd, one_large, at_end, keys_of<uint32_t>(Distribution::random, n),
+                                 std::vector<uint32_t>(n, UINT32_MAX)}) {
         INFO(primitives->name() << ", n = " << n);
         REQUIRE((scan_in_place(*primitives, values, n) == expected_scan(values)));
       }
@@ -94,7 +96,8 @@ TEST_CASE("a scan from one buffer to another leaves the first alone")
     primitives->set(Buffer::primitive_a, values);
     primitives->reserve(Buffer::primitive_b, 10'000 * 4);
     primitives->reserve(Buffer::scan_sums, scan_sum_words(9999) * 4);
-    exclusive_scan(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, COUNT_LENGTH, 9999);
+    exclusive_scan(primitives->launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, COUNT_LENGTH,
+                   9999);
     INFO(primitives->name());
     CHECK((primitives->get<uint32_t>(Buffer::primitive_b, 10'000) == expected_scan(values)));
     CHECK((primitives->get<uint32_t>(Buffer::primitive_a, 9999) == values));

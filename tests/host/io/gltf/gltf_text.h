@@ -1,13 +1,14 @@
 /* gltf_text.h - small glTF files as text, for the tests of their reader, and what it makes of them. */
 #pragma once
 
-#include "host/io/gltf/scene.h"
-
-#include <Eigen/Dense>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+
+#include <Eigen/Dense>
 #include <unistd.h>
+
+#include "host/io/gltf/scene.h"
 
 namespace tandem::gltf_text {
 
@@ -91,26 +92,36 @@ inline std::string base64(const std::string &bytes)
   return text;
 }
 
-template <class T> std::string bytes_of(const std::vector<T> &values) { return {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T)}; }
+template <class T> std::string bytes_of(const std::vector<T> &values)
+{
+  return {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T)};
+}
 
 /* Members of a file with one mesh. Its buffer: positions, then indices of 16 bits. */
-inline std::string with_mesh(const std::vector<Vec3> &points, const std::vector<uint16_t> &indices, const std::string &primitive = "")
+inline std::string with_mesh(const std::vector<Vec3> &points, const std::vector<uint16_t> &indices,
+                             const std::string &primitive = "")
 {
   const std::string bytes = bytes_of(points) + bytes_of(indices), split = std::to_string(12 * points.size());
-  return R"(,"buffers":[{"byteLength":)" + std::to_string(bytes.size()) + R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes) +
-         R"("}],"bufferViews":[{"buffer":0,"byteLength":)" + split + R"(},{"buffer":0,"byteOffset":)" + split + R"(,"byteLength":)" +
-         std::to_string(2 * indices.size()) + R"(}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
-         std::to_string(points.size()) + R"(,"min":[-9,-9,-9],"max":[9,9,9]},{"bufferView":1,"componentType":5123,"type":"SCALAR","count":)" +
-         std::to_string(indices.size()) + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1)" + primitive + "}]}]";
+  return R"(,"buffers":[{"byteLength":)" + std::to_string(bytes.size()) +
+         R"(,"uri":"data:application/octet-stream;base64,)" + base64(bytes) +
+         R"("}],"bufferViews":[{"buffer":0,"byteLength":)" + split + R"(},{"buffer":0,"byteOffset":)" + split +
+         R"(,"byteLength":)" + std::to_string(2 * indices.size()) +
+         R"(}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
+         std::to_string(points.size()) +
+         R"(,"min":[-9,-9,-9],"max":[9,9,9]},{"bufferView":1,"componentType":5123,"type":"SCALAR","count":)" +
+         std::to_string(indices.size()) + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1)" +
+         primitive + "}]}]";
 }
 
 inline const std::vector<Vec3> tip_points{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
 inline const std::vector<uint16_t> tip_triangles{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
 /* A body called Cup, of the given geometry, that is `node`. */
-inline std::string cup_of(const std::string &geometry, const std::string &node = "", const std::string &motion = R"("motion":{},)")
+inline std::string cup_of(const std::string &geometry, const std::string &node = "",
+                          const std::string &motion = R"("motion":{},)")
 {
-  return R"({"name":"Cup",)" + node + R"("extensions":{"KHR_physics_rigid_bodies":{)" + motion + R"("collider":{"geometry":{)" + geometry + "}}}}}";
+  return R"({"name":"Cup",)" + node + R"("extensions":{"KHR_physics_rigid_bodies":{)" + motion +
+         R"("collider":{"geometry":{)" + geometry + "}}}}}";
 }
 
 } // namespace tandem::gltf_text

@@ -1,5 +1,5 @@
-/* scene_gltf_strict_test.cpp - values of wrong types, lengths and ranges in all that physics reads of a glTF file: each is refused in one
- * line that names its place. What only renders may be anything. */
+/* strict_test.cpp - values of wrong types, lengths and ranges in all that physics reads of a glTF file: each
+ * is refused in one line that names its place. What only renders may be anything. */
 #include "host/geometry/convex_hull.h"
 #include "tests/catch.h"
 #include "tests/host/io/gltf/gltf_text.h"
@@ -26,7 +26,8 @@ std::string replaced(std::string text, const std::string &part, const std::strin
 }
 
 const std::vector<std::string> no_numbers{R"("3")", R"("0x1p+1")", "true", "null", "{}", "[]", "1e39", "-1e300"};
-const std::vector<std::string> no_indices{R"("0")", "-1", "-5", "0.5", "1e20", "99", "4294967295", "4294967296", "true", "null", "[0]", "{}"};
+const std::vector<std::string> no_indices{R"("0")",     "-1",         "-5",   "0.5",  "1e20", "99",
+                                          "4294967295", "4294967296", "true", "null", "[0]",  "{}"};
 
 /* Of n numbers, of which one or the whole is wrong. */
 std::vector<std::string> no_vectors(size_t n)
@@ -49,31 +50,40 @@ TEST_CASE("glTF, strictly: transforms of nodes")
 {
   for (const auto &[key, n] : {std::pair{"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}})
     for (const std::string &wrong : no_vectors(size_t(n))) {
-      check_refused({.nodes = cup("", 0, std::string("\"") + key + "\":" + wrong + ",")}, std::string("node 'Cup': ") + key);
+      check_refused({.nodes = cup("", 0, std::string("\"") + key + "\":" + wrong + ",")},
+                    std::string("node 'Cup': ") + key);
     }
   const std::string matrix = R"("matrix":[1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1],)";
   CHECK(complaint({.nodes = cup("", 0, matrix)}).empty());
   for (const char *other : {R"("translation":[0,0,0],)", R"("rotation":[0,0,0,1],)", R"("scale":[1,1,1],)"})
     check_refused({.nodes = cup("", 0, matrix + other)}, "node 'Cup': matrix and ");
-  check_refused({.nodes = cup("", 0, replaced(matrix, "[1,0,0,0,", "[1,0,0,0.5,"))}, "node 'Cup': matrix: the last row");
+  check_refused({.nodes = cup("", 0, replaced(matrix, "[1,0,0,0,", "[1,0,0,0.5,"))},
+                "node 'Cup': matrix: the last row");
 }
 
 TEST_CASE("glTF, strictly: what nodes and scenes name")
 {
   for (const std::string &wrong : no_indices) {
     check_refused({.nodes = cup("", 0, R"("children":[)" + wrong + "],") + ",{}"}, "node 'Cup': children[0]");
-    check_refused({.nodes = cup("", 0, R"("mesh":)" + wrong + ","), .more = with_mesh(tip_points, tip_triangles)}, "node 'Cup': mesh");
+    check_refused({.nodes = cup("", 0, R"("mesh":)" + wrong + ","), .more = with_mesh(tip_points, tip_triangles)},
+                  "node 'Cup': mesh");
     check_refused({.nodes = cup(""), .more = R"(,"scenes":[{"nodes":[0]}],"scene":)" + wrong}, ": scene: ");
     check_refused({.nodes = cup(""), .more = R"(,"scenes":[{"nodes":[)" + wrong + "]}]"}, ": scenes[0].nodes[0]: ");
-    check_refused({.nodes = cup(""), .more = R"(,"animations":[{"samplers":[],"channels":[{"sampler":0,"target":{"path":"translation","node":)" + wrong + "}}]}]"},
-                  ": animations[0].channels[0].target.node: ");
+    check_refused(
+        {.nodes = cup(""),
+         .more = R"(,"animations":[{"samplers":[],"channels":[{"sampler":0,"target":{"path":"translation","node":)" +
+                 wrong + "}}]}]"},
+        ": animations[0].channels[0].target.node: ");
     for (const char *key : {"shape", "node", "mesh"})
-      check_refused({.nodes = cup_of(std::string("\"") + key + "\":" + wrong), .more = with_mesh(tip_points, tip_triangles)}, "node 'Cup': ");
+      check_refused(
+          {.nodes = cup_of(std::string("\"") + key + "\":" + wrong), .more = with_mesh(tip_points, tip_triangles)},
+          "node 'Cup': ");
   }
   for (const char *wrong : {"1", R"("1")", "{}", "true", "null"}) {
     check_refused({.nodes = cup("", 0, std::string(R"("children":)") + wrong + ",")}, "node 'Cup': children");
     check_refused({.nodes = cup(""), .more = std::string(R"(,"scenes":)") + wrong}, ": scenes");
-    check_refused({.nodes = cup(""), .more = std::string(R"(,"scenes":[{"nodes":)") + wrong + "}]"}, ": scenes[0].nodes");
+    check_refused({.nodes = cup(""), .more = std::string(R"(,"scenes":[{"nodes":)") + wrong + "}]"},
+                  ": scenes[0].nodes");
   }
   check_refused({.nodes = cup("", 0, R"("tranlation":[0,3,0],)")}, "node 'Cup': tranlation: unknown key");
   check_refused({.nodes = R"({"name":7})"}, ": nodes[0].name: is 7; a string is needed");
@@ -85,20 +95,31 @@ TEST_CASE("glTF, strictly: what nodes and scenes name")
 TEST_CASE("glTF, strictly: numbers of the two extensions")
 {
   for (const std::string &wrong : no_numbers) {
-    for (const char *key : {"mass", "gravityFactor"}) check_refused({.nodes = cup(std::string("\"") + key + "\":" + wrong)}, std::string("node 'Cup': motion.") + key);
-    check_refused({.nodes = cup(""), .shapes = R"({"type":"sphere","sphere":{"radius":)" + wrong + "}}"}, "extensions.KHR_implicit_shapes.shapes[0].sphere.radius");
+    for (const char *key : {"mass", "gravityFactor"})
+      check_refused({.nodes = cup(std::string("\"") + key + "\":" + wrong)}, std::string("node 'Cup': motion.") + key);
+    check_refused({.nodes = cup(""), .shapes = R"({"type":"sphere","sphere":{"radius":)" + wrong + "}}"},
+                  "extensions.KHR_implicit_shapes.shapes[0].sphere.radius");
     for (const char *key : {"height", "radiusTop", "radiusBottom"})
-      check_refused({.nodes = cup(""), .shapes = std::string(R"({"type":"cylinder","cylinder":{")") + key + "\":" + wrong + "}}"}, std::string("cylinder.") + key);
+      check_refused(
+          {.nodes = cup(""), .shapes = std::string(R"({"type":"cylinder","cylinder":{")") + key + "\":" + wrong + "}}"},
+          std::string("cylinder.") + key);
     for (const char *key : {"staticFriction", "dynamicFriction", "restitution"})
-      check_refused({.nodes = cup(""), .document = std::string(R"("physicsMaterials":[{")") + key + "\":" + wrong + "}]"}, std::string("physicsMaterials[0].") + key);
+      check_refused(
+          {.nodes = cup(""), .document = std::string(R"("physicsMaterials":[{")") + key + "\":" + wrong + "}]"},
+          std::string("physicsMaterials[0].") + key);
   }
   for (const char *key : {"centerOfMass", "inertiaDiagonal", "linearVelocity", "angularVelocity"})
-    for (const std::string &wrong : no_vectors(3)) check_refused({.nodes = cup(std::string("\"") + key + "\":" + wrong)}, std::string("node 'Cup': motion.") + key);
-  for (const std::string &wrong : no_vectors(4)) check_refused({.nodes = cup(R"("inertiaOrientation":)" + wrong)}, "node 'Cup': motion.inertiaOrientation");
-  for (const std::string &wrong : no_vectors(3)) check_refused({.nodes = cup(""), .shapes = R"({"type":"box","box":{"size":)" + wrong + "}}"}, "shapes[0].box.size");
+    for (const std::string &wrong : no_vectors(3))
+      check_refused({.nodes = cup(std::string("\"") + key + "\":" + wrong)}, std::string("node 'Cup': motion.") + key);
+  for (const std::string &wrong : no_vectors(4))
+    check_refused({.nodes = cup(R"("inertiaOrientation":)" + wrong)}, "node 'Cup': motion.inertiaOrientation");
+  for (const std::string &wrong : no_vectors(3))
+    check_refused({.nodes = cup(""), .shapes = R"({"type":"box","box":{"size":)" + wrong + "}}"}, "shapes[0].box.size");
   for (const char *wrong : {"1", R"("true")", "null", "[]"}) {
     check_refused({.nodes = cup(std::string(R"("isKinematic":)") + wrong)}, "node 'Cup': motion.isKinematic");
-    check_refused({.nodes = cup_of(std::string(R"("mesh":0,"convexHull":)") + wrong), .more = with_mesh(tip_points, tip_triangles)}, "collider.geometry.convexHull");
+    check_refused({.nodes = cup_of(std::string(R"("mesh":0,"convexHull":)") + wrong),
+                   .more = with_mesh(tip_points, tip_triangles)},
+                  "collider.geometry.convexHull");
   }
 }
 
@@ -125,8 +146,10 @@ TEST_CASE("glTF, strictly: accessors, views and buffers of meshes that a collide
     spoiled(R"("buffers":[{"byteLength":72)", std::string(R"("buffers":[{"byteLength":)") + wrong);
     spoiled(R"("indices":1)", std::string(R"("indices":1,"mode":)") + wrong);
   }
-  for (const char *wrong : {R"("VEC5")", "3", "null", R"("VEC2")", R"("MAT3")"}) spoiled(R"("type":"VEC3")", std::string(R"("type":)") + wrong);
-  for (const char *wrong : {"5120", "5122", "5124", "5126", "5130"}) spoiled(R"("componentType":5123)", std::string(R"("componentType":)") + wrong);
+  for (const char *wrong : {R"("VEC5")", "3", "null", R"("VEC2")", R"("MAT3")"})
+    spoiled(R"("type":"VEC3")", std::string(R"("type":)") + wrong);
+  for (const char *wrong : {"5120", "5122", "5124", "5126", "5130"})
+    spoiled(R"("componentType":5123)", std::string(R"("componentType":)") + wrong);
   spoiled(R"("type":"SCALAR")", R"("type":"VEC2")");
   spoiled(R"("type":"VEC3")", R"("normalized":1,"type":"VEC3")");
   spoiled(R"("type":"VEC3")", R"("normalized":true,"type":"VEC3")");
@@ -142,33 +165,44 @@ TEST_CASE("glTF: whole numbers for positions are read where the file says so")
   /* The corners of the tip in sixths of an unsigned byte each, which the scale makes metres again; 4 bytes a vertex. */
   const std::vector<uint8_t> packed{0, 0, 0, 0, 255, 0, 0, 0, 0, 170, 0, 0, 0, 0, 85, 0};
   std::string bytes = bytes_of(packed) + bytes_of(tip_triangles);
-  const std::string mesh = R"(,"buffers":[{"byteLength":40,"uri":"data:application/octet-stream;base64,)" + base64(bytes) +
-                           R"("}],"bufferViews":[{"buffer":0,"byteLength":16,"byteStride":4},{"buffer":0,"byteOffset":16,"byteLength":24}],)"
-                           R"("accessors":[{"bufferView":0,"componentType":5121,"normalized":true,"type":"VEC3","count":4},)"
-                           R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":12}],"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])";
-  const std::string quantized = R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
+  const std::string mesh =
+      R"(,"buffers":[{"byteLength":40,"uri":"data:application/octet-stream;base64,)" + base64(bytes) +
+      R"("}],"bufferViews":[{"buffer":0,"byteLength":16,"byteStride":4},{"buffer":0,"byteOffset":16,"byteLength":24}],)"
+      R"("accessors":[{"bufferView":0,"componentType":5121,"normalized":true,"type":"VEC3","count":4},)"
+      R"({"bufferView":1,"componentType":5123,"type":"SCALAR","count":12}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])";
+  const std::string quantized =
+      R"(,"extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"])";
   const Scene scene = loaded({.nodes = cup_of(R"("mesh":0)", R"("scale":[3,3,3],)"), .more = mesh + quantized});
   REQUIRE(scene.shapes[0].type == ShapeType::hull);
   CHECK(scene.bodies[0].mass == Approx(1000));
   CHECK(near(rounded(scene.bodies[0].position), 0.75, 0.5, 0.25));
-  const Scene plain = loaded({.nodes = cup_of(R"("mesh":0)", R"("scale":[0.5,0.5,0.5],)"), .more = replaced(mesh, R"("normalized":true,)", "") + quantized});
+  const Scene plain = loaded({.nodes = cup_of(R"("mesh":0)", R"("scale":[0.5,0.5,0.5],)"),
+                              .more = replaced(mesh, R"("normalized":true,)", "") + quantized});
   CHECK(plain.bodies[0].mass == Approx(1000 * std::pow(42.5, 3)));
   check_refused({.nodes = cup_of(R"("mesh":0)"), .more = mesh}, "whole numbers of KHR_mesh_quantization");
 }
 
 TEST_CASE("glTF: required extensions that cannot change the motion are passed over")
 {
-  const auto requires_it = [](const std::string &name) { return R"(,"extensionsUsed":[")" + name + R"("],"extensionsRequired":[")" + name + "\"]"; };
-  for (const char *name : {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_materials_variants", "KHR_texture_basisu", "KHR_texture_transform", "EXT_texture_webp",
-                           "MSFT_texture_dds", "EXT_lights_image_based", "KHR_audio_emitter", "KHR_xmp_json_ld", "KHR_node_visibility", "MSFT_lod",
-                           "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}) {
+  const auto requires_it = [](const std::string &name) {
+    return R"(,"extensionsUsed":[")" + name + R"("],"extensionsRequired":[")" + name + "\"]";
+  };
+  for (const char *name :
+       {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_materials_variants", "KHR_texture_basisu",
+        "KHR_texture_transform", "EXT_texture_webp", "MSFT_texture_dds", "EXT_lights_image_based", "KHR_audio_emitter",
+        "KHR_xmp_json_ld", "KHR_node_visibility", "MSFT_lod", "KHR_draco_mesh_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "KHR_mesh_quantization"}) {
     INFO(name);
     CHECK(complaint({.nodes = cup(""), .more = requires_it(name)}).empty());
   }
-  for (const char *name : {"KHR_interactivity", "AGI_articulations", "ACME_wind", "", "KHR_lights", "khr_lights_punctual", "MSFT_physics_bodies", "OMI_physics_joint"})
-    check_refused({.nodes = cup(""), .more = requires_it(name)}, std::string("required extension ") + name + " is not supported yet");
+  for (const char *name : {"KHR_interactivity", "AGI_articulations", "ACME_wind", "", "KHR_lights",
+                           "khr_lights_punctual", "MSFT_physics_bodies", "OMI_physics_joint"})
+    check_refused({.nodes = cup(""), .more = requires_it(name)},
+                  std::string("required extension ") + name + " is not supported yet");
   for (const char *wrong : {"[5]", R"("KHR_lights_punctual")", "{}", "[null]", "null"})
-    for (const std::string list : {"extensionsRequired", "extensionsUsed"}) check_refused({.nodes = cup(""), .more = ",\"" + list + "\":" + wrong}, list);
+    for (const std::string list : {"extensionsRequired", "extensionsUsed"})
+      check_refused({.nodes = cup(""), .more = ",\"" + list + "\":" + wrong}, list);
 }
 
 TEST_CASE("glTF: packed and instanced meshes are refused where a collider reads them, and nowhere else")
@@ -178,12 +212,18 @@ TEST_CASE("glTF: packed and instanced meshes are refused where a collider reads 
     check_refused({.nodes = cup_of(R"("mesh":0)", R"("mesh":0,)"), .more = more}, said);
     CHECK(complaint({.nodes = cup("", 0, R"("mesh":0,)"), .more = more}).empty());
   };
-  const std::string draco = replaced(mesh, R"("indices":1)", R"("indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}})");
-  both(replaced(draco, R"("accessors":[{"bufferView":0,)", R"("accessors":[{)"), "a mesh packed by KHR_draco_mesh_compression is not supported yet");
+  const std::string draco = replaced(
+      mesh, R"("indices":1)",
+      R"("indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}})");
+  both(replaced(draco, R"("accessors":[{"bufferView":0,)", R"("accessors":[{)"),
+       "a mesh packed by KHR_draco_mesh_compression is not supported yet");
   CHECK(complaint({.nodes = cup_of(R"("mesh":0)"), .more = draco}).empty()); /* the plain numbers stand beside */
   for (const std::string name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-    std::string packed = replaced(mesh, R"("buffers":[{)", R"("buffers":[{"extensions":{")" + name + R"(":{"fallback":true}},)");
-    packed = replaced(packed, R"("bufferViews":[{)", R"("bufferViews":[{"extensions":{")" + name + R"(":{"buffer":0,"byteLength":4,"byteStride":12,"count":4,"mode":"ATTRIBUTES"}},)");
+    std::string packed =
+        replaced(mesh, R"("buffers":[{)", R"("buffers":[{"extensions":{")" + name + R"(":{"fallback":true}},)");
+    packed = replaced(packed, R"("bufferViews":[{)",
+                      R"("bufferViews":[{"extensions":{")" + name +
+                          R"(":{"buffer":0,"byteLength":4,"byteStride":12,"count":4,"mode":"ATTRIBUTES"}},)");
     both(packed, "a mesh packed by " + name + " is not supported yet");
   }
   const std::string crowd = R"(,{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}})";
@@ -193,24 +233,37 @@ TEST_CASE("glTF: packed and instanced meshes are refused where a collider reads 
 
 TEST_CASE("glTF: pictures and buffers that no collider reads may be missing, or anything")
 {
-  const std::string more = R"(,"images":[{"uri":"missing.png"},{"uri":"x.ktx2","mimeType":"image/ktx2"},{},{"uri":5},{"bufferView":7,"mimeType":"image/png"}],)"
-                           R"("textures":[{"source":77},5],"samplers":"none","materials":[{"pbrMetallicRoughness":7}],"cameras":[{"type":"fisheye"}],"skins":[{}],)"
-                           R"("buffers":[{"byteLength":4,"uri":"missing.bin"},{"byteLength":4,"uri":"../../missing.bin"}],"bufferViews":[{"buffer":9}],"accessors":[{"type":"X"}],)"
-                           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":9}]},{}])";
+  const std::string more =
+      R"(,"images":[{"uri":"missing.png"},{"uri":"x.ktx2","mimeType":"image/ktx2"},{},{"uri":5},{"bufferView":7,)"
+      R"("mimeType":"image/png"}],)"
+      R"("textures":[{"source":77},5],"samplers":"none","materials":[{"pbrMetallicRoughness":7}],)"
+      R"("cameras":[{"type":"fisheye"}],"skins":[{}],)"
+      R"("buffers":[{"byteLength":4,"uri":"missing.bin"},{"byteLength":4,"uri":"../../missing.bin"}],)"
+      R"("bufferViews":[{"buffer":9}],"accessors":[{"type":"X"}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":9}]},{}])";
   CHECK(complaint({.nodes = cup("", 0, R"("mesh":0,"camera":3,)"), .more = more}).empty());
 }
 
 TEST_CASE("glTF: an animation that points at a body is refused as one that names it")
 {
   const auto pointing = [](const std::string &path) {
-    return R"(,"animations":[{"samplers":[],"channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":")" + path + R"("}}}}]}])";
+    return R"(,"animations":[{"samplers":[],"channels":[{"sampler":0,"target":{"path":"pointer",)"
+           R"("extensions":{"KHR_animation_pointer":{"pointer":")" +
+           path + R"("}}}}]}])";
   };
   for (const char *path : {"/nodes/0/translation", "/nodes/0/rotation", "/nodes/0/scale"})
-    check_refused({.nodes = cup(""), .more = pointing(path)}, "node 'Cup': an animated rigid body is not supported yet");
-  check_refused({.nodes = cup(""), .more = pointing("/extensions/KHR_physics_rigid_bodies/physicsMaterials/0/staticFriction")}, "is not supported yet");
-  check_refused({.nodes = cup(""), .more = pointing("/nodes/0/extensions/KHR_physics_rigid_bodies/motion/linearVelocity")}, "is not supported yet");
-  for (const char *path : {"/nodes/x/translation", "/nodes/9/translation", "/nodes/-1/translation"}) check_refused({.nodes = cup(""), .more = pointing(path)}, "animations[0]");
-  for (const char *path : {"/nodes/0/weights", "/materials/0/emissiveFactor", "/nodes/0/extensions/KHR_node_visibility/visible"})
+    check_refused({.nodes = cup(""), .more = pointing(path)},
+                  "node 'Cup': an animated rigid body is not supported yet");
+  check_refused(
+      {.nodes = cup(""), .more = pointing("/extensions/KHR_physics_rigid_bodies/physicsMaterials/0/staticFriction")},
+      "is not supported yet");
+  check_refused(
+      {.nodes = cup(""), .more = pointing("/nodes/0/extensions/KHR_physics_rigid_bodies/motion/linearVelocity")},
+      "is not supported yet");
+  for (const char *path : {"/nodes/x/translation", "/nodes/9/translation", "/nodes/-1/translation"})
+    check_refused({.nodes = cup(""), .more = pointing(path)}, "animations[0]");
+  for (const char *path :
+       {"/nodes/0/weights", "/materials/0/emissiveFactor", "/nodes/0/extensions/KHR_node_visibility/visible"})
     CHECK(complaint({.nodes = cup(""), .more = pointing(path)}).empty());
 }
 
@@ -221,7 +274,9 @@ TEST_CASE("glTF: binary files whose chunks do not fit are refused")
     for (size_t k = 0; k < 4; ++k) bytes[k] = char(value >> 8 * k);
     return bytes;
   };
-  const auto chunk = [&](const std::string &type, const std::string &bytes) { return number(bytes.size()) + type + bytes; };
+  const auto chunk = [&](const std::string &type, const std::string &bytes) {
+    return number(bytes.size()) + type + bytes;
+  };
   const auto said = [&](const std::string &chunks, size_t version, size_t length) {
     TemporaryFile file("glTF" + number(version) + number(length) + chunks);
     try {
@@ -234,13 +289,17 @@ TEST_CASE("glTF: binary files whose chunks do not fit are refused")
   std::string mesh = with_mesh(tip_points, tip_triangles);
   mesh.erase(mesh.find(R"(,"uri":)"), mesh.find(R"("}])") + 1 - mesh.find(R"(,"uri":)"));
   const std::string json = chunk("JSON", gltf({.nodes = cup_of(R"("mesh":0)"), .more = mesh}));
-  const std::string buffer = chunk(std::string("BIN\0", 4), bytes_of(tip_points) + bytes_of(tip_triangles)), whole = json + buffer;
+  const std::string buffer = chunk(std::string("BIN\0", 4), bytes_of(tip_points) + bytes_of(tip_triangles)),
+                    whole = json + buffer;
   CHECK(said(whole, 2, 12 + whole.size()).empty());
-  CHECK(said(whole + chunk("MORE", "abcd"), 2, 24 + whole.size()).empty()); /* chunks of unknown types are to be passed over */
+  CHECK(said(whole + chunk("MORE", "abcd"), 2, 24 + whole.size())
+            .empty()); /* chunks of unknown types are to be passed over */
   CHECK_THAT(said(json, 2, 12 + json.size()), ContainsSubstring("buffers[0]: has 0 bytes; it says 72"));
   CHECK_THAT(said(whole, 1, 12 + whole.size()), ContainsSubstring("not of version 2"));
   CHECK_THAT(said(whole, 2, 13 + whole.size()), ContainsSubstring("shorter than it says"));
-  for (size_t cut : {1, 4, 72, 79}) CHECK_THAT(said(whole.substr(0, whole.size() - cut), 2, 12 + whole.size() - cut), ContainsSubstring("a chunk ends behind the file"));
+  for (size_t cut : {1, 4, 72, 79})
+    CHECK_THAT(said(whole.substr(0, whole.size() - cut), 2, 12 + whole.size() - cut),
+               ContainsSubstring("a chunk ends behind the file"));
   CHECK_THAT(said(buffer + json, 2, 12 + whole.size()), ContainsSubstring("must be the JSON"));
   CHECK_THAT(said(json + json, 2, 12 + 2 * json.size()), ContainsSubstring("must be the JSON"));
   CHECK_THAT(said("", 2, 12), ContainsSubstring("ends within its first 20 bytes"));
@@ -273,9 +332,12 @@ TEST_CASE("glTF, strictly: corners that make no whole triangles")
            R"(}]}],"accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":)" +
            std::to_string(indexed ? 3 : count) + R"(},{"bufferView":1,"componentType":5121,"type":"SCALAR","count":)" +
            std::to_string(count) +
-           R"(}],"bufferViews":[{"buffer":0,"byteLength":84},{"buffer":0,"byteOffset":84,"byteLength":8}],"buffers":[{"byteLength":92,"uri":")" +
-           "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/" + /* 0 0 0, 1 0 0, 0 0 -1 */
-           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/AAAAAAAAAAAAAAAA" + "AAECAAECAAA=" + R"("}])";
+           R"(}],"bufferViews":[{"buffer":0,"byteLength":84},{"buffer":0,"byteOffset":84,"byteLength":8}],)"
+           R"("buffers":[{"byteLength":92,"uri":")" +
+           "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/" + /* 0 0 0, 1 0 0, 0
+                                                                                                        0 -1 */
+           "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAAAAAIC/AAAAAAAAAAAAAAAA" +
+           "AAECAAECAAA=" + R"("}])";
   };
   for (const bool indexed : {false, true}) {
     for (const int count : {1, 2, 4, 5, 7})

@@ -1,18 +1,20 @@
-/* scene_json_test.cpp - a written scene reads back to the same bits; every mistake in a file is named with its place. */
-#include "host/geometry/shape_mass.h"
-#include "host/io/json/reader.h"
-#include "host/base/random.h"
-#include "host/catalog/catalog.h"
-#include "host/io/json/scene.h"
-#include "tests/catch.h"
-
+/* scene_test.cpp - a written scene reads back to the same bits; every mistake in a file is named with its
+ * place. */
 #include <bit>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+
 #include <unistd.h>
+
+#include "host/base/random.h"
+#include "host/catalog/catalog.h"
+#include "host/geometry/shape_mass.h"
+#include "host/io/json/reader.h"
+#include "host/io/json/scene.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 using Catch::Matchers::ContainsSubstring;
@@ -34,7 +36,8 @@ std::string complaint(const std::string &text)
 /* A scene of one box, with the given text inside the body. */
 std::string with_body(const std::string &fields)
 {
-  return R"({"tandem_scene": 1, "shapes": [{"type": "box", "half_extents": [1, 1, 1]}], "bodies": [{"name": "first"}, {)" +
+  return R"({"tandem_scene": 1, "shapes": [{"type": "box", "half_extents": [1, 1, 1]}], "bodies": [{"name": "first"},)"
+         R"( {)" +
          fields + "}]}";
 }
 
@@ -45,9 +48,13 @@ bool same_bits(const Shape &a, const Shape &b)
   if (a.type != b.type || !same_bits(a.size, b.size) || bool(a.hull) != bool(b.hull)) return false;
   if (!a.hull) return true;
   const ConvexHull &x = *a.hull, &y = *b.hull;
-  if (x.vertices.size() != y.vertices.size() || x.planes.size() != y.planes.size() || x.faces != y.faces || x.edges != y.edges) return false;
-  return std::equal(x.vertices.begin(), x.vertices.end(), y.vertices.begin(), [](const Vec3 &v, const Vec3 &w) { return same_bits(v, w); }) &&
-         std::equal(x.planes.begin(), x.planes.end(), y.planes.begin(), [](const HullPlane &v, const HullPlane &w) { return same_bits(v, w); }) &&
+  if (x.vertices.size() != y.vertices.size() || x.planes.size() != y.planes.size() || x.faces != y.faces ||
+      x.edges != y.edges)
+    return false;
+  return std::equal(x.vertices.begin(), x.vertices.end(), y.vertices.begin(),
+                    [](const Vec3 &v, const Vec3 &w) { return same_bits(v, w); }) &&
+         std::equal(x.planes.begin(), x.planes.end(), y.planes.begin(),
+                    [](const HullPlane &v, const HullPlane &w) { return same_bits(v, w); }) &&
          same_bits(x.centroid, y.centroid) && same_bits(x.tolerance, y.tolerance);
 }
 
@@ -61,8 +68,8 @@ bool same_bits(const Material &a, const Material &b)
 
 bool same_bits(const Body &a, const Body &b)
 {
-  return a.name == b.name && a.motion == b.motion && a.trigger == b.trigger && a.shape == b.shape && a.material == b.material &&
-         same_bits(a.position, b.position) && same_bits(a.orientation, b.orientation) &&
+  return a.name == b.name && a.motion == b.motion && a.trigger == b.trigger && a.shape == b.shape &&
+         a.material == b.material && same_bits(a.position, b.position) && same_bits(a.orientation, b.orientation) &&
          same_bits(a.shape_position, b.shape_position) && same_bits(a.shape_orientation, b.shape_orientation) &&
          same_bits(a.linear_velocity, b.linear_velocity) && same_bits(a.angular_velocity, b.angular_velocity) &&
          same_bits(a.mass, b.mass) && same_bits(a.inertia, b.inertia) && a.infinite_inertia == b.infinite_inertia &&
@@ -191,39 +198,47 @@ TEST_CASE("a file written by hand is read")
 
 TEST_CASE("malformed JSON: file, line and column")
 {
-  CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"), ContainsSubstring("pile.json:3:11: malformed JSON: "));
+  CHECK_THAT(complaint("{\n  \"tandem_scene\": 1,\n  \"name\": oops\n}"),
+             ContainsSubstring("pile.json:3:11: malformed JSON: "));
   CHECK_THAT(complaint(""), ContainsSubstring("pile.json:1:1: malformed JSON"));
-  CHECK_THAT(complaint("{\n  \"gravity\": [0, 1e400, 0]\n}"), ContainsSubstring("pile.json:2:22: malformed JSON: ") && ContainsSubstring("1e400"));
+  CHECK_THAT(complaint("{\n  \"gravity\": [0, 1e400, 0]\n}"),
+             ContainsSubstring("pile.json:2:22: malformed JSON: ") && ContainsSubstring("1e400"));
   CHECK_THAT(complaint("{\"tandem_scene\": 1"), ContainsSubstring("pile.json:1:19: malformed JSON"));
   CHECK_THAT(complaint("{\"a\": 1e999}"), ContainsSubstring("malformed JSON"));
   CHECK_THAT(complaint(with_body(R"("mass": NaN)")), ContainsSubstring("malformed JSON"));
   CHECK_THAT(complaint(std::string(50, '[')), ContainsSubstring("malformed JSON"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1, "mass": 2)")), ContainsSubstring("pile.json: the key \"mass\" stands twice"));
+  CHECK_THAT(complaint(with_body(R"("mass": 1, "mass": 2)")),
+             ContainsSubstring("pile.json: the key \"mass\" stands twice"));
 }
 
 TEST_CASE("unknown keys and wrong types are refused with their place")
 {
   CHECK_THAT(complaint(with_body(R"("mas": 1)")),
              ContainsSubstring("pile.json: bodies[1].mas: unknown key; known here: name, motion, shape"));
-  CHECK_THAT(complaint(with_body(R"("mass": "heavy")")), ContainsSubstring("pile.json: bodies[1].mass: is \"heavy\"; a number"));
+  CHECK_THAT(complaint(with_body(R"("mass": "heavy")")),
+             ContainsSubstring("pile.json: bodies[1].mass: is \"heavy\"; a number"));
   CHECK_THAT(complaint(with_body(R"("mass": null)")), ContainsSubstring("bodies[1].mass: is null; a number"));
   CHECK_THAT(complaint(with_body(R"("mass": "nan")")), ContainsSubstring("bodies[1].mass"));
   CHECK_THAT(complaint(with_body(R"("mass": "0xinf")")), ContainsSubstring("bodies[1].mass"));
   CHECK_THAT(complaint(with_body(R"("mass": "0x1p+200")")), ContainsSubstring("bodies[1].mass"));
   CHECK_THAT(complaint(with_body(R"("mass": "0x1.8p+1kg")")), ContainsSubstring("bodies[1].mass"));
   CHECK_THAT(complaint(with_body(R"("mass": "0x")")), ContainsSubstring("bodies[1].mass"));
-  CHECK_THAT(complaint(with_body(R"("mass": 1e39)")), ContainsSubstring("bodies[1].mass: is 1e+39; no finite 32-bit float"));
+  CHECK_THAT(complaint(with_body(R"("mass": 1e39)")),
+             ContainsSubstring("bodies[1].mass: is 1e+39; no finite 32-bit float"));
   CHECK_THAT(complaint(with_body(R"("position": [1, 2])")),
              ContainsSubstring("bodies[1].position: is [1,2]; an array of 3 numbers"));
-  CHECK_THAT(complaint(with_body(R"("position": [1, 2, true])")), ContainsSubstring("bodies[1].position[2]: is true; a number"));
+  CHECK_THAT(complaint(with_body(R"("position": [1, 2, true])")),
+             ContainsSubstring("bodies[1].position[2]: is true; a number"));
   CHECK_THAT(complaint(with_body(R"("orientation": [0, 0, 0])")), ContainsSubstring("array of 4 numbers"));
   CHECK_THAT(complaint(with_body(R"("motion": "moving")")),
              ContainsSubstring("bodies[1].motion: is \"moving\"; one of fixed, kinematic, dynamic"));
   CHECK_THAT(complaint(with_body(R"("shape": -1)")), ContainsSubstring("bodies[1].shape: is -1; an integer from 0"));
   CHECK_THAT(complaint(with_body(R"("filter_mask": 4294967296)")), ContainsSubstring("bodies[1].filter_mask"));
   CHECK_THAT(complaint(with_body(R"("infinite_inertia": 1)")), ContainsSubstring("true or false"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"), ContainsSubstring("shapes: is {}; an array"));
-  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"), ContainsSubstring("bodies[0]: is 3; an object"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": {}, "bodies": []})"),
+             ContainsSubstring("shapes: is {}; an array"));
+  CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": [], "bodies": [3]})"),
+             ContainsSubstring("bodies[0]: is 3; an object"));
   CHECK_THAT(complaint(R"({"tandem_scene": 1, "shapes": []})"), ContainsSubstring("\"bodies\" is missing"));
   CHECK_THAT(complaint(R"({"tandem_scene": 2, "shapes": [], "bodies": []})"), ContainsSubstring("version 1 is known"));
   CHECK_THAT(complaint(R"({"shapes": []})"), ContainsSubstring("this is not a Tandem scene"));
@@ -246,40 +261,53 @@ std::string with_shape(const std::string &shape, const std::string &body = "")
   return R"({"tandem_scene": 1, "shapes": [)" + shape + R"(], "bodies": [{)" + body + "}]}";
 }
 
-const std::string wedge = R"({"type": "hull", "points": [[0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1], [0.1, 0.1, 0.1]]})";
+const std::string wedge =
+    R"({"type": "hull", "points": [[0, 0, 0], [3, 0, 0], [0, 2, 0], [0, 0, 1], [0.1, 0.1, 0.1]]})";
 
 } // namespace
 
 TEST_CASE("capsules, cylinders, cones and hulls written by hand")
 {
-  auto shape = [](const std::string &text) { return parse_scene_json(with_shape(text, R"("motion": "fixed")"), "shapes").shapes[0]; };
+  auto shape = [](const std::string &text) {
+    return parse_scene_json(with_shape(text, R"("motion": "fixed")"), "shapes").shapes[0];
+  };
   CHECK(same_bits(shape(R"({"type": "capsule", "radius": 0.5, "half_height": 2})"), capsule_shape(0.5f, 2)));
   CHECK(same_bits(shape(R"({"half_height": 2, "type": "capsule", "radius_top": 0.25, "radius_bottom": 0.5})"),
                   {ShapeType::capsule, {0.5f, 2, 0.25f}}));
   CHECK(same_bits(shape(R"({"type": "cylinder", "radius": "0x1p-1", "half_height": 2})"), cylinder_shape(0.5f, 2)));
-  CHECK(same_bits(shape(R"({"type": "cylinder", "radius_bottom": 0, "radius_top": 1, "half_height": 2})"), {ShapeType::cylinder, {0, 2, 1}}));
+  CHECK(same_bits(shape(R"({"type": "cylinder", "radius_bottom": 0, "radius_top": 1, "half_height": 2})"),
+                  {ShapeType::cylinder, {0, 2, 1}}));
   CHECK(same_bits(shape(R"({"type": "cylinder", "size": [1, 2, 3]})"), {ShapeType::cylinder, {1, 2, 3}}));
   CHECK(same_bits(shape(R"({"type": "cone", "radius": 0.5, "half_height": 2})"), cone_shape(0.5f, 2)));
   const Shape hull = shape(wedge);
   CHECK(hull.type == ShapeType::hull);
-  CHECK(hull.hull->vertices == std::vector<Vec3>{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}); /* the fifth lies inside */
+  CHECK(hull.hull->vertices ==
+        std::vector<Vec3>{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}); /* the fifth lies inside */
 }
 
 TEST_CASE("mistakes in shapes are named with their place")
 {
   auto told = [](const std::string &shape) { return complaint(with_shape(shape)); };
-  CHECK_THAT(told(R"({"type": "capsule", "half_height": 1})"), ContainsSubstring("shapes[0]: \"radius_bottom\" is missing"));
-  CHECK_THAT(told(R"({"type": "capsule", "radius_bottom": 1, "half_height": 1})"), ContainsSubstring("\"radius_top\" is missing"));
+  CHECK_THAT(told(R"({"type": "capsule", "half_height": 1})"),
+             ContainsSubstring("shapes[0]: \"radius_bottom\" is missing"));
+  CHECK_THAT(told(R"({"type": "capsule", "radius_bottom": 1, "half_height": 1})"),
+             ContainsSubstring("\"radius_top\" is missing"));
   CHECK_THAT(told(R"({"type": "capsule", "radius": 1})"), ContainsSubstring("\"half_height\" is missing"));
-  CHECK_THAT(told(R"({"type": "capsule", "radius": 1, "radius_top": 1, "half_height": 1})"), ContainsSubstring("exclude each other"));
-  CHECK_THAT(told(R"({"type": "cylinder", "size": [1, 1, 1], "half_height": 1})"), ContainsSubstring("exclude each other"));
-  CHECK_THAT(told(R"({"type": "cylinder", "height": 1, "radius": 1})"), ContainsSubstring("shapes[0].height: unknown key; known here: type, radius"));
-  CHECK_THAT(told(R"({"type": "cone", "radius_top": 1, "half_height": 1})"), ContainsSubstring("shapes[0].radius_top: unknown key"));
+  CHECK_THAT(told(R"({"type": "capsule", "radius": 1, "radius_top": 1, "half_height": 1})"),
+             ContainsSubstring("exclude each other"));
+  CHECK_THAT(told(R"({"type": "cylinder", "size": [1, 1, 1], "half_height": 1})"),
+             ContainsSubstring("exclude each other"));
+  CHECK_THAT(told(R"({"type": "cylinder", "height": 1, "radius": 1})"),
+             ContainsSubstring("shapes[0].height: unknown key; known here: type, radius"));
+  CHECK_THAT(told(R"({"type": "cone", "radius_top": 1, "half_height": 1})"),
+             ContainsSubstring("shapes[0].radius_top: unknown key"));
   CHECK_THAT(told(R"({"type": "hull"})"), ContainsSubstring("shapes[0]: \"points\" is missing"));
-  CHECK_THAT(told(R"({"type": "hull", "points": [[0, 0, 0], [1, 0]]})"), ContainsSubstring("shapes[0].points[1]: is [1,0]; an array of 3"));
+  CHECK_THAT(told(R"({"type": "hull", "points": [[0, 0, 0], [1, 0]]})"),
+             ContainsSubstring("shapes[0].points[1]: is [1,0]; an array of 3"));
   CHECK_THAT(told(R"({"type": "hull", "points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]})"),
              ContainsSubstring("pile.json: shapes[0].points: all 4 points lie in a plane"));
-  CHECK_THAT(told(R"({"type": "capsule", "radius_bottom": 1, "radius_top": 4, "half_height": 1})"), ContainsSubstring("shape 0: one sphere of the capsule"));
+  CHECK_THAT(told(R"({"type": "capsule", "radius_bottom": 1, "radius_top": 4, "half_height": 1})"),
+             ContainsSubstring("shape 0: one sphere of the capsule"));
 }
 
 TEST_CASE("a density takes mass, centre and axes from the shape")
@@ -297,19 +325,26 @@ TEST_CASE("a density takes mass, centre and axes from the shape")
   CHECK(scene.bodies[0].shape_orientation == expected.bodies[0].shape_orientation);
   CHECK(scene.bodies[0].shape_orientation != Quat{0, 0, 0, 1});
   check_same(scene, parse_scene_json(to_scene_json(scene), "again"));
-  const Scene box = parse_scene_json(with_shape(R"({"type": "box", "half_extents": [1, 2, 3]})", R"("density": 10, "position": [0.1, 0, 0])"), "box");
+  const Scene box = parse_scene_json(
+      with_shape(R"({"type": "box", "half_extents": [1, 2, 3]})", R"("density": 10, "position": [0.1, 0, 0])"), "box");
   CHECK(box.bodies[0].mass == 480);
   CHECK(box.bodies[0].position == Point{0.1, 0, 0});
 
-  auto told = [](const std::string &body, const std::string &shape = wedge) { return complaint(with_shape(shape, body)); };
+  auto told = [](const std::string &body, const std::string &shape = wedge) {
+    return complaint(with_shape(shape, body));
+  };
   CHECK_THAT(told(""), ContainsSubstring("body 0: inertia from shape and mass is about"));
-  CHECK_THAT(told(R"("density": 1, "mass": 1)"), ContainsSubstring("bodies[0]: \"density\" and \"mass\" exclude each other"));
+  CHECK_THAT(told(R"("density": 1, "mass": 1)"),
+             ContainsSubstring("bodies[0]: \"density\" and \"mass\" exclude each other"));
   CHECK_THAT(told(R"("density": 1, "inertia": [1, 1, 1])"), ContainsSubstring("\"density\" and \"inertia\" exclude"));
   CHECK_THAT(told(R"("density": 0)"), ContainsSubstring("bodies[0].density: is 0; a number above 0"));
-  CHECK_THAT(told(R"("density": 1e38)", R"({"type": "sphere", "radius": 100})"), ContainsSubstring("body 0: mass is inf"));
+  CHECK_THAT(told(R"("density": 1e38)", R"({"type": "sphere", "radius": 100})"),
+             ContainsSubstring("body 0: mass is inf"));
   CHECK_THAT(told(R"("density": 1, "shape": 7)"), ContainsSubstring("shape 7 does not exist"));
-  CHECK_THAT(told(R"("density": 1, "motion": "fixed")", R"({"type": "half_space"})"), ContainsSubstring("bodies[0].density: a half_space has no mass"));
-  CHECK_THAT(told(R"("density": 1)", R"({"type": "sphere", "radius": -1})"), ContainsSubstring("shape 0: radius is -1"));
+  CHECK_THAT(told(R"("density": 1, "motion": "fixed")", R"({"type": "half_space"})"),
+             ContainsSubstring("bodies[0].density: a half_space has no mass"));
+  CHECK_THAT(told(R"("density": 1)", R"({"type": "sphere", "radius": -1})"),
+             ContainsSubstring("shape 0: radius is -1"));
 }
 
 TEST_CASE("values that cannot be simulated are refused")

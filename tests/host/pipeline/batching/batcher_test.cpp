@@ -1,14 +1,13 @@
 /* Every batcher against oracles of its own kind, on hard lists of contacts; and the check, against planted faults. */
-#include "tests/catch.h"
-
 #include <algorithm>
 #include <numeric>
 
 #include "host/catalog/catalog.h"
 #include "host/catalog/talks.h"
-#include "host/runtime/memory.h"
 #include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
 #include "shared/counts.h"
+#include "tests/catch.h"
 #include "tests/physics/physics.h"
 
 using namespace tandem;
@@ -93,7 +92,8 @@ Scene sizes_from_1_to_100()
              {float(random.uniform(-60, 60)), float(100 + random.uniform(0, 3)), float(random.uniform(-8, 8))});
   }
   for (int i = 0; i < 200; ++i) /* a ring of small ones about the foot of the first: one body that touches hundreds */
-    add_body(scene, Motion::dynamic, sphere_shape(0.5f), {-50 + 10 * std::cos(0.0314159265f * float(i)), 0.5f, 10 * std::sin(0.0314159265f * float(i))});
+    add_body(scene, Motion::dynamic, sphere_shape(0.5f),
+             {-50 + 10 * std::cos(0.0314159265f * float(i)), 0.5f, 10 * std::sin(0.0314159265f * float(i))});
   return scene;
 }
 
@@ -103,7 +103,9 @@ Scene slab_on_hundreds()
   Scene scene = empty_scene();
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(11, 0.25f, 11), {0, 1.25f, 0}).mass = 50;
-  for (int i = 0; i < 400; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {1.1f * float(i % 20) - 10.45f, 0.5f, 1.1f * float(i / 20) - 10.45f});
+  for (int i = 0; i < 400; ++i)
+    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f),
+             {1.1f * float(i % 20) - 10.45f, 0.5f, 1.1f * float(i / 20) - 10.45f});
   return scene;
 }
 
@@ -122,7 +124,8 @@ TEST_CASE("batching: no conflict whatever the sizes of bodies and the number of 
   run(slab, 2);
   const Contacts contacts(slab);
   CHECK(contacts.touching() == 800);
-  const auto tail = std::count(contacts.color.begin(), contacts.color.end(), COLOR_TAIL); /* a colour may be lost to the ground */
+  const auto tail =
+      std::count(contacts.color.begin(), contacts.color.end(), COLOR_TAIL); /* a colour may be lost to the ground */
   CHECK(tail >= 400 - COLOR_LIMIT);
   CHECK(tail <= 402 - COLOR_LIMIT);
   CHECK_FALSE(slab.batch_fault());
@@ -188,7 +191,8 @@ TEST_CASE("batching: batches but for kept colours follow from the contacts alone
   CHECK(reached.sizes().size() <= 11); /* six contacts at a body: twice as many less one, at most */
 }
 
-/* A column of cubes: two pairs a cube, with the ground's bounds and with the cube below; contact (k + 1, k) has colour k % 2. */
+/* A column of cubes: two pairs a cube, with the ground's bounds and with the cube below; contact (k + 1, k) has colour
+ * k % 2. */
 TEST_CASE("batching: the check finds and names a planted conflict")
 {
   const std::string backend = GENERATE("serial", "serial:order=backward", "tbb:threads=7,lanes=8");
@@ -225,7 +229,9 @@ TEST_CASE("batching: the check finds a contact that no batch holds")
   world.set_observer([&](const Launch &launch) {
     if (launch.kernel != Kernel::color_keys) return;
     const Contacts contacts(world);
-    at = size_t(std::find_if(contacts.points.begin(), contacts.points.end(), [](uint32_t points) { return points > 0; }) - contacts.points.begin());
+    at = size_t(
+        std::find_if(contacts.points.begin(), contacts.points.end(), [](uint32_t points) { return points > 0; }) -
+        contacts.points.begin());
     const uint32_t planted = COLOR_INACTIVE;
     world.memory().upload(Buffer::sort_key, &planted, sizeof planted, at * sizeof planted);
   });

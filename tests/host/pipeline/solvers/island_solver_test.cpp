@@ -1,12 +1,12 @@
-/* Contact problems of random points: the laws hold at what the solver calls converged, and nothing else is ever returned. */
-#include "tests/catch.h"
-
+/* Contact problems of random points: the laws hold at what the solver calls converged, and nothing else is ever
+ * returned. */
 #include <cmath>
 
 #include <Eigen/Dense>
 
 #include "host/base/random.h"
 #include "host/pipeline/solvers/island_solver.h"
+#include "tests/catch.h"
 
 using namespace tandem;
 
@@ -44,7 +44,8 @@ Eigen::VectorXd speeds_of(const IslandProblem &problem)
   const Eigen::Index n = problem.rows;
   Eigen::MatrixXd matrix = Eigen::Map<const Eigen::MatrixXd>(problem.matrix.data(), n, n);
   matrix.diagonal() *= 1 + 1e-6;
-  return matrix * Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n) + Eigen::Map<const Eigen::VectorXd>(problem.offset.data(), n);
+  return matrix * Eigen::Map<const Eigen::VectorXd>(problem.impulse.data(), n) +
+         Eigen::Map<const Eigen::VectorXd>(problem.offset.data(), n);
 }
 
 /* The laws in words, not as the map that the solver drives to zero. */
@@ -111,7 +112,8 @@ TEST_CASE("island solver: what has no solution gives back no worse than the gues
   Random random(3);
   for (int k = 0; k < 12; ++k) {
     IslandProblem problem = random_problem(random, 2, 6, 20.0);
-    for (uint32_t i = 0; i < problem.rows; ++i) problem.offset[i] = random.uniform(-100, 100); /* outside the range of W */
+    for (uint32_t i = 0; i < problem.rows; ++i)
+      problem.offset[i] = random.uniform(-100, 100); /* outside the range of W */
     IslandProblem once = problem;
     const IslandResult result = solve_island(problem);
     for (double x : problem.impulse) CHECK(std::isfinite(x));

@@ -1,12 +1,12 @@
 /* Launches and moves on an OpenCL device: fill, at every awkward length and place of the buffer. */
-#include "tests/host/runtime/opencl/opencl_device.h"
-
 #include <numeric>
 
-#include "host/runtime/opencl/device_backend.h"
-#include "host/runtime/memory.h"
-#include "host/runtime/make_backend.h"
 #include <tandem/scene.h>
+
+#include "host/runtime/make_backend.h"
+#include "host/runtime/memory.h"
+#include "host/runtime/opencl/device_backend.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 
 using namespace tandem;
 

@@ -1,11 +1,11 @@
 /* Which device a text means, and what is said when it means none. */
-#include "tests/host/runtime/opencl/opencl_device.h"
-
 #include <fmt/format.h>
 
-#include "host/runtime/opencl/program.h"
-#include "host/runtime/make_backend.h"
 #include <tandem/scene.h>
+
+#include "host/runtime/make_backend.h"
+#include "host/runtime/opencl/program.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 
 using namespace tandem;
 
@@ -56,14 +56,17 @@ TEST_CASE("the self-test names every operation that a device gets wrong")
   using Catch::Matchers::ContainsSubstring;
   CHECK_THAT(with_planted(context, "square_root(real x) { return", "square_root(real x) { return 1.0000001f *"),
              ContainsSubstring("square root") && !ContainsSubstring("division"));
-  CHECK_THAT(with_planted(context, "a / b)", "a * (1.0f / b))"), ContainsSubstring("division") && !ContainsSubstring("square root"));
+  CHECK_THAT(with_planted(context, "a / b)", "a * (1.0f / b))"),
+             ContainsSubstring("division") && !ContainsSubstring("square root"));
   CHECK_THAT(with_planted(context, ", a + b)", ", (fabs(a + b) < 1.17549435e-38f ? 0.0f : a + b))"),
              ContainsSubstring("addition") && !ContainsSubstring("subtraction"));
   CHECK_THAT(with_planted(context, ", a * b + c)", ", fma(a, b, c))"),
              ContainsSubstring("contraction of a * b + c") && !ContainsSubstring("contraction of a * b - c"));
   CHECK_THAT(with_planted(context, " atomic_max(", " atomic_min("), ContainsSubstring("integer atomics"));
-  CHECK_THAT(with_planted(context, "= (ulong)p * q", "= (ulong)(p * q)"), ContainsSubstring("64-bit product") && !ContainsSubstring("32-bit"));
-  CHECK_THAT(with_planted(context, "memory[TILE - 1u - i]", "memory[TILE - 1u - i / 2u]"), ContainsSubstring("local memory and barriers"));
+  CHECK_THAT(with_planted(context, "= (ulong)p * q", "= (ulong)(p * q)"),
+             ContainsSubstring("64-bit product") && !ContainsSubstring("32-bit"));
+  CHECK_THAT(with_planted(context, "memory[TILE - 1u - i]", "memory[TILE - 1u - i / 2u]"),
+             ContainsSubstring("local memory and barriers"));
 }
 
 TEST_CASE("devices are found by part of a name, in any case")

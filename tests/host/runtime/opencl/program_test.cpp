@@ -1,8 +1,6 @@
 /* Building: compiler's logs, the cache of binaries and what can be wrong with it. */
-#include "tests/host/runtime/opencl/opencl_device.h"
-
-#include <filesystem>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -10,6 +8,7 @@
 
 #include "host/runtime/opencl/program.h"
 #include "host/runtime/opencl/program_cache.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 
 using namespace tandem;
 namespace files = std::filesystem;
@@ -123,7 +122,8 @@ TEST_CASE("a program that does not compile is shown with file and line")
   const opencl::Candidate &device = test_device();
   const PrivateCache cache;
   const opencl::DeviceContext context(device);
-  const EmbeddedProgram broken{"broken", "#line 1 \"cl/broken.cl\"\n\n#line 41 \"shared/math.h\"\n\nfloat f(float x) { return y; }\n"};
+  const EmbeddedProgram broken{
+      "broken", "#line 1 \"cl/broken.cl\"\n\n#line 41 \"shared/math.h\"\n\nfloat f(float x) { return y; }\n"};
   try {
     opencl::build_program(context, broken);
     FAIL("it compiled");

@@ -1,8 +1,7 @@
 /* The hand-written entries of cl/ against kernels.def: names, order and direction of every argument. */
-#include "tests/host/runtime/opencl/opencl_device.h"
-
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/opencl/program.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
 
 using namespace tandem;
 
@@ -55,7 +54,8 @@ TEST_CASE("every row of kernels.def has its OpenCL entry, with the same argument
     INFO("kernel " << row.name << " in cl/" << name_of(row.stage) << ".cl");
     cl::Program &program = programs[static_cast<size_t>(row.stage)];
     if (!program())
-      program = opencl::build_program(context, opencl::embedded_program(name_of(row.stage)), "-cl-kernel-arg-info -D FEATURES=0u");
+      program = opencl::build_program(context, opencl::embedded_program(name_of(row.stage)),
+                                      "-cl-kernel-arg-info -D FEATURES=0u");
     cl::Kernel kernel;
     REQUIRE_NOTHROW(kernel = cl::Kernel(program, row.name));
     compare(row, kernel);
