@@ -26,8 +26,8 @@ SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const u
 }
 
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low`
- * is what rounding took from `high` (Dekker, "A floating-point technique for extending the available precision", 1971).
- */
+ * is what rounding took from `high` (Dekker, "A floating-point technique for extending the available precision",
+ * 1971). */
 typedef struct {
   vec3 high, low;
 } place;
@@ -94,6 +94,15 @@ SHARED real share_of_slide(motion a, motion b)
 {
   return choose(a.inverse_mass == R(0.0), (real)R(1.0), choose(b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
 }
+
+/* What manifold_normal keeps beside the normal: the moment of the contacts, s of the step; below 0 where the bodies
+ * pass each other: arms that followed them would turn the plane of the contact into what it was to leave alone. */
+#define LEAST_MOMENT R(1e-12)
+SHARED real packed_moment(real time, mask passing)
+{
+  return choose(passing, R(0.0) - maximum(time, LEAST_MOMENT), time);
+}
+SHARED real moment_of(real packed) { return magnitude(packed); }
 
 SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
 {

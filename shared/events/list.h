@@ -82,7 +82,7 @@ SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *mani
     vec4 point = load_row(manifold_points, stride * k + pair);
     real carried = component(impulses, k);
     if (!point_touches(point, carried)) continue;
-    vec3 where = add_scaled(xyz(point), velocity, normal.w);
+    vec3 where = add_scaled(xyz(point), velocity, moment_of(normal.w));
     sum->pressed = add_scaled(sum->pressed, where, carried);
     sum->overlapped = add(sum->overlapped, where);
     ++sum->points;

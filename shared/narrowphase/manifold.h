@@ -23,7 +23,7 @@ typedef struct {
   vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
   mask kept[4];
   natural code;     /* of the feature pair, 24 bits */
-  real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start */
+  real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start; packed_moment */
 } manifold;
 
 SHARED real sign_of(real x) { return choose(x < R(0.0), (real)R(-1.0), (real)R(1.0)); }

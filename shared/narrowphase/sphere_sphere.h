@@ -49,17 +49,12 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
   return met;
 }
 
-/* How much nearer a contact takes passing spheres to come than they do, m. Turning moves nothing of a sphere, but does
- * move the arms of its contact, which follow what the bodies slide past each other as shift_of_arms of setup/contact.h
- * says: on average half of what they slide within the step. Gravity bends the way by a quarter of its mean speed, and
- * set-up places the arms without it. */
+/* How much nearer a contact takes passing spheres to come than they do, m: gravity bends the way by a quarter of its
+ * mean speed, and set-up places the arms without it. */
 SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
 {
-  real speed = length_of(subtract(moves.b.linear, moves.a.linear)), share = share_of_slide(moves.a, moves.b);
-  real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
-  real turning = share * turning_a + (R(1.0) - share) * turning_b, unplaced = (turning_a + turning_b) * time;
-  return (R(0.5) * turning * speed * parameters->step + (R(0.25) + unplaced) * length_of(moves.fall)) *
-         parameters->step;
+  real unplaced = (length_of(moves.a.angular) + length_of(moves.b.angular)) * time;
+  return (R(0.25) + unplaced) * length_of(moves.fall) * parameters->step;
 }
 
 SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,

@@ -137,8 +137,8 @@ SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion 
   return way;
 }
 
-/* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the horizon.
- */
+/* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the
+ * horizon. */
 typedef struct {
   mask active, hits;
   real time; /* s: up to here it does not touch */
@@ -191,9 +191,10 @@ SHARED real least_separation(manifold m)
 }
 
 /* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so the plane of one that turns
- * comes nearer to the other, m/s: of what nothing pushes at most; of both, if nothing else turns them. */
+ * moves along the normal, m/s: towards the other, and either way. Of what nothing pushes at most, of both if nothing
+ * else turns them. */
 typedef struct {
-  real of_driven, of_both;
+  real toward, either_way;
 } slide_closing;
 
 SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
@@ -203,8 +204,8 @@ SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_
                 choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
   vec3 slide = scale(subtract(m.b.linear, m.a.linear), parameters->step);
   vec3 turning = add(scale(m.a.angular, share), scale(m.b.angular, R(1.0) - share));
-  real of_driven = driven * length_of(slide);
-  slide_closing s = {of_driven, maximum(of_driven, inner(outer(slide, normal), turning))};
+  real of_driven = driven * length_of(slide), of_both = inner(outer(slide, normal), turning);
+  slide_closing s = {maximum(of_driven, of_both), maximum(of_driven, magnitude(of_both))};
   return s;
 }
 
@@ -214,11 +215,11 @@ SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real l
   return fastest * parameters->step > FAR_SHARE * least;
 }
 
-/* How fast the points of a manifold come nearer, m/s, which of them the motion of the pair itself would run into within
- * the step, and which of them the turning of bodies that can be pushed would, too. */
+/* How fast the points of a manifold come nearer, m/s, and which of them are met within the step: by their own motion,
+ * or also by that of arms which follow. */
 typedef struct {
   real closing[4];
-  mask reached[4], turned_into[4];
+  mask reached[4], reached_by_slide[4];
   slide_closing by_slide;
 } approaching_points;
 
@@ -232,24 +233,28 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
     vec3 arm = xyz(m.point[slot]);
     points.closing[slot] = maximum(
         inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    points.reached[slot] =
-        m.kept[slot] & ((points.closing[slot] + points.by_slide.of_driven) * parameters->step >= m.point[slot].w);
-    points.turned_into[slot] =
-        m.kept[slot] & ((points.closing[slot] + points.by_slide.of_both) * parameters->step >= m.point[slot].w);
+    points.reached[slot] = m.kept[slot] & (points.closing[slot] * parameters->step >= m.point[slot].w);
+    points.reached_by_slide[slot] =
+        m.kept[slot] & ((points.closing[slot] + points.by_slide.either_way) * parameters->step >= m.point[slot].w);
   }
   return points;
 }
 SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
   approaching_points points = approach_of_points(parameters, m, offset, moves);
-  return points.turned_into[0] | points.turned_into[1] | points.turned_into[2] | points.turned_into[3];
+  return points.reached_by_slide[0] | points.reached_by_slide[1] | points.reached_by_slide[2] |
+         points.reached_by_slide[3];
 }
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that
  * the motion of the step reaches, which are followed, and those of a body that swings far. */
 typedef struct {
   mask asked, reached, a_swings, b_swings;
+  real room; /* m: so far points of bodies that pass may be put clear of them */
 } speculation;
+
+/* Of the size of a pair that can both be pushed. */
+#define ROOM_SHARE R(0.05)
 
 /* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far,
  * and so does not swing far, and reaches none of its points would keep them all, so it is not asked. */
@@ -258,10 +263,11 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
 {
   real gap = least_separation(m);
   speculation s;
+  s.room = choose((moves.a.inverse_mass > R(0.0)) & (moves.b.inverse_mass > R(0.0)), ROOM_SHARE * least, (real)R(0.0));
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
   mask ahead = has_points(m) & (gap > way.touching);
-  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).of_both) *
+  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).either_way) *
                            parameters->step >
                        gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
@@ -276,8 +282,10 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
 typedef struct {
   mask at_impact; /* they are replaced by those of `time` */
   mask missed;
+  mask passing; /* the bodies do not meet within the step */
   mask a_swings, b_swings;
   real time; /* s */
+  real room; /* m, as of speculation */
 } encounter;
 
 /* A pair that does not come far meets as it stands at the start. One that misses while one of it swings far is looked
@@ -286,15 +294,20 @@ SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s
 {
   mask missed = s.asked & (!at.hits), meets = s.asked & at.hits & way.far & (at.time > R(0.0));
   mask one_swings = (s.a_swings | s.b_swings) & (!(s.a_swings & s.b_swings));
-  encounter met = {meets | (missed & one_swings), missed, s.a_swings, s.b_swings,
-                   choose(at.hits, at.time, (real)parameters->step)};
+  encounter met = {meets | (missed & one_swings),
+                   missed,
+                   missed,
+                   s.a_swings,
+                   s.b_swings,
+                   choose(at.hits, at.time, (real)parameters->step),
+                   s.room};
   return met;
 }
 
 /* Of a body that swings far and misses what nothing pushes, the contacts of the end of the step: what others add must
  * not bring it nearer than it is then. In its centre, where its turning moves nothing, so that its own motion ends
  * ahead of it; where that of the other moves the point by much, it is left out. Of two that can be pushed neither is
- * guarded: their arms would leave the centre. */
+ * guarded. */
 SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset,
                          pair_motion moves)
 {
@@ -314,8 +327,10 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
 
 /* From the moment of the impact back to the start of the step: points were as far apart again as they close until then.
  * A point that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
- * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them. A
- * point that only turning would reach is put clear of it, for the turning of what can be pushed is not sure to come.
+ * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them.
+ * A point into which only arms that follow would turn its plane is put clear of it, so that what others push through it
+ * keeps angular momentum, though they may push the bodies as far into each other. Where there is no room for that the
+ * arms do not follow.
  * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset,
                                    pair_motion moves)
@@ -323,15 +338,24 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
   manifold m =
       choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
   approaching_points points = approach_of_points(parameters, m, offset, moves);
-  mask swings = met.a_swings | met.b_swings;
+  mask swings = met.a_swings | met.b_swings, turned_into = swings & (!swings);
+  /* Arms of another moment than the start are off by what is slid until then, or after it, and so turn either way. */
+  real farthest = choose(met.at_impact, maximum(met.time / parameters->step, (real)R(1.0)), (real)R(1.0));
+  real either_way = points.by_slide.either_way * farthest;
+  real toward = choose(met.at_impact, either_way, points.by_slide.toward);
   for (int slot = 0; slot < 4; ++slot) {
     m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
-    real clear = choose(met.missed & points.turned_into[slot],
-                        CLEARLY * (points.closing[slot] + points.by_slide.of_both) * parameters->step, m.point[slot].w);
-    m.point[slot].w =
-        choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, maximum(m.point[slot].w, clear));
+    turned_into = turned_into | (m.kept[slot] & met.passing &
+                                 ((points.closing[slot] + either_way) * parameters->step >= m.point[slot].w));
   }
-  m.impact_time = choose(met.at_impact, met.time, (real)R(0.0));
+  mask arms_stay = turned_into & (either_way * parameters->step > met.room);
+  for (int slot = 0; slot < 4; ++slot) {
+    real clear = CLEARLY * (points.closing[slot] + toward) * parameters->step;
+    mask unclear = turned_into & (!arms_stay) & (m.point[slot].w < clear);
+    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, m.point[slot].w);
+    m.point[slot].w = choose(unclear, maximum(m.point[slot].w, clear), m.point[slot].w);
+  }
+  m.impact_time = packed_moment(choose(met.at_impact, met.time, (real)R(0.0)), arms_stay);
   return m;
 }
 

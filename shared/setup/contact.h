@@ -87,8 +87,8 @@ SHARED real twist_mass(body_pair bodies, vec3 normal)
 }
 
 /* The speed at which a point shall part: restitution x speed of impact. A point that touches only later in
- * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no bounce.
- */
+ * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no
+ * bounce. */
 SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, real approach, real pull,
                          real separation)
 {
@@ -225,9 +225,9 @@ SHARED void prepare_contacts_item(
   vec3 normal = xyz(manifold);
   /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the
    * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
-  vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, manifold.w);
+  vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
   real size = size_between(body_shape, bodies.a, bodies.b);
-  mask arms_stay = length_of(passing) * parameters->substep > FOLLOWED_SHARE * size;
+  mask arms_stay = (manifold.w < R(0.0)) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));

@@ -3,6 +3,8 @@
  * Whatever stands below lies under the plane y = 0 and reaches up to it; whatever flies stays above y = clearance, for
  * it only turns about the vertical. So none touches, however fast it is and wherever it stands when a step starts.
  */
+#include <tuple>
+
 #include "tests/catch.h"
 #include "tests/physics/solids.h"
 
@@ -159,7 +161,8 @@ Scene past_turning_balls(uint64_t seed, double step, const Vec3 &gravity = {0, 0
     const double z = 3 * apart * lane, standing = logarithmic(random, 0.05, 2), flying = logarithmic(random, 0.05, 2);
     const double speed = logarithmic(random, 1, 300), clearance = logarithmic(random, 0.001, 0.02);
     Body &ball = add_body(scene, Motion::kinematic, sphere_shape(float(standing)), {0, 0, z});
-    ball.angular_velocity = {0, 30, 9};
+    const double turning = logarithmic(random, 0.3, 40) * (lane % 4 < 2 ? 1 : -1);
+    ball.angular_velocity = {0, float(0.5 * turning), float(0.9 * turning)};
     const double before = standing + flying + random.uniform(0, 1) + speed * step * random.uniform(0, 3);
     Body &body = add_solid(scene, sphere_shape(float(flying)), {standing + flying + clearance, before, z});
     body.linear_velocity = {0, float(-speed), 0};
@@ -241,8 +244,8 @@ double farthest_from_free_fall(const Scene &scene, Settings settings, double ste
   return farthest;
 }
 
-/* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the other.
- */
+/* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the
+ * other. */
 Scene spinners(uint64_t seed)
 {
   Random random(seed);
@@ -307,6 +310,22 @@ Scene past_round_spinners(uint64_t seed, double step)
   return scene;
 }
 
+/* A ball flies past one that spins about the axis which turns the plane between them, met early and late in a step. */
+Scene past_at_every_moment(bool driven, double spin, double speed, double clearance, double step)
+{
+  constexpr double standing = 1, flying = 0.5;
+  Scene scene = bouncy_scene({0, 0, 0}, 0);
+  for (int lane = 0; lane < 28; ++lane) {
+    const double z = apart * lane, moment = 0.02 + 0.07 * (lane / 2), before = speed * step * (1 + moment);
+    Body &ball = driven ? add_body(scene, Motion::kinematic, sphere_shape(standing), {0, 0, z})
+                        : add_solid(scene, sphere_shape(standing), {0, 0, z}, {0, 0, 0, 1}, 1000);
+    ball.angular_velocity = {0, 0, float(lane % 2 ? spin : -spin)};
+    Body &body = add_solid(scene, sphere_shape(flying), {-before, standing + flying + clearance, z});
+    body.linear_velocity = {float(speed), 0, 0};
+  }
+  return scene;
+}
+
 } // namespace
 
 TEST_CASE("what misses goes on while it falls, in every solver", "[physics]")
@@ -360,6 +379,20 @@ TEST_CASE("what misses goes on: balls past balls that turn in place, in every so
     CAPTURE(solver, step);
     CHECK(largest_deviation(past_turning_balls(7, step), settings, 6.5 * step) < 1e-3);
     CHECK(farthest_from_free_fall(past_turning_balls(7, step, {0, -10, 0}), settings, step, 6) < 5e-4);
+  }
+}
+
+TEST_CASE("what misses goes on: balls past balls that spin, at every moment of a step, in every solver", "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (const auto &[driven, spin, speed, clearance, hertz] :
+       {std::tuple(true, 2.0, 100.0, 0.005, 60), std::tuple(false, 20.0, 100.0, 0.005, 60),
+        std::tuple(true, 150.0, 30.0, 0.01, 60), std::tuple(false, 150.0, 30.0, 0.01, 60),
+        std::tuple(false, 30.0, 10.0, 0.001, 60), std::tuple(true, 5.0, 10.0, 0.001, 60),
+        std::tuple(false, 10.0, 3.0, 0.002, 60), std::tuple(false, 30.0, 300.0, 0.01, 240)}) {
+    CAPTURE(solver, driven, spin, speed, clearance, hertz);
+    CHECK(farthest_from_free_fall(past_at_every_moment(driven, spin, speed, clearance, 1.0 / hertz),
+                                  settings_for(solver), 1.0 / hertz, 4) < 5e-4);
   }
 }
 
