@@ -306,7 +306,7 @@ Command stability_command(CLI::App &parser)
       ->type_name("FILE");
   command->add_flag("--bounds", options->bounds,
                     "list figure, bound and ratio of every check; status 1 if a ratio above ten states no derivation");
-  command->add_flag("--list", options->list, "name the cases");
+  command->add_flag("--list", options->list, "name the cases")->excludes("--json")->excludes("--table-in");
   command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
   command->footer("Exit status: 0 if the default solver (or the first of --solvers) passes every case, 1 if not or if "
                   "memory did not suffice, 2 for bad use or an output that cannot be written.");

@@ -22,8 +22,10 @@ constexpr std::string_view passed_over[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
     "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
-constexpr size_t most_corners =
-    10'000; /* of a face: the time to cut it grows with their square, here to some tenths of a second */
+/* The time to cut a face grows with the square of its corners. One of so many takes some tenths of a second, and so may
+ * all of a file together. */
+constexpr size_t most_corners = 10'000, most_squares = most_corners * most_corners;
+constexpr size_t many_corners = 100; /* faces of fewer are cut as fast as they are read */
 
 struct ObjFace {
   std::vector<int64_t> corners; /* from 0 */
@@ -56,6 +58,7 @@ private:
 
   std::string_view text_;
   const std::string &where_;
+  size_t squares_ = 0; /* of the corners of faces that have many */
   size_t line_ = 0, lines_joined_ = 1;
 };
 
@@ -145,6 +148,11 @@ void ObjReader::read_face(const std::vector<std::string_view> &words)
     fail(fmt::format("a face of {} corners; more than {} are not cut into triangles: give triangles", words.size() - 1,
                      most_corners),
          line_);
+  if (words.size() - 1 > many_corners) squares_ += (words.size() - 1) * (words.size() - 1);
+  if (squares_ > most_squares)
+    fail(fmt::format("faces of more than {} corners up to here take too long to cut into triangles: give triangles",
+                     many_corners),
+         line_);
   ObjFace &face = faces.emplace_back();
   face.line = line_;
   for (size_t k = 1; k < words.size(); ++k) face.corners.push_back(corner(words[k]));
@@ -224,7 +232,8 @@ void ObjReader::check_cut(const ObjFace &face) const
   ObjFace alone{{}, face.line};
   for (size_t k = 0; k < face.corners.size(); ++k) alone.corners.push_back(static_cast<int64_t>(k));
   if (cut(corners_of(face), {alone}).size() != face.corners.size() - 2)
-    fail("a polygon that cannot be cut into triangles: it leaves its plane, names a place twice or crosses itself; "
+    fail("a polygon that was not cut into triangles, as where it leaves its plane, names a place twice or crosses "
+         "itself; "
          "give triangles",
          face.line);
 }

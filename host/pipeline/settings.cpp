@@ -137,6 +137,8 @@ std::vector<std::pair<std::string, std::string>> parse_placement(const std::stri
     if (!names_stage_or_kernel(place))
       throw InputError(
           fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
+    if (std::any_of(exceptions.begin(), exceptions.end(), [&](const auto &given) { return given.first == place; }))
+      throw InputError(fmt::format("placement '{}': {} is given twice", text, place));
     exceptions.emplace_back(place, part.substr(equals + 1));
   }
   return exceptions;

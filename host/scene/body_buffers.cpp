@@ -6,6 +6,7 @@
 
 #include <tandem/round_to_float.h>
 
+#include "host/base/finite_vector.h"
 #include "host/base/hash.h"
 #include "host/geometry/shape_mass.h"
 #include "host/scene/buffer_upload.h"
@@ -253,6 +254,22 @@ void quarantine_body(Memory &memory, uint32_t index)
   record.velocity = {};
   record.traits = (record.traits & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
   write_body(memory, index, record);
+}
+
+std::vector<uint32_t> bodies_not_finite(Memory &memory, uint32_t bodies)
+{
+  std::vector<bool> bad(bodies);
+  for (const auto &[buffer, rows] : {std::pair(Buffer::body_position, 2u), std::pair(Buffer::body_orientation, 1u),
+                                     std::pair(Buffer::body_velocity, 2u), std::pair(Buffer::solver_velocity, 2u),
+                                     std::pair(Buffer::solver_delta, 2u), std::pair(Buffer::solver_orientation, 1u)}) {
+    const std::vector<row> values = memory.read<row>(buffer, size_t{bodies} * rows);
+    for (size_t i = 0; i < values.size(); ++i)
+      if (!is_finite_vector(std::array{values[i].x, values[i].y, values[i].z, values[i].w})) bad[i / rows] = true;
+  }
+  std::vector<uint32_t> indices;
+  for (uint32_t body = 0; body < bodies; ++body)
+    if (bad[body]) indices.push_back(body);
+  return indices;
 }
 
 void measure_contacts(Memory &memory, Statistics &statistics)

@@ -41,6 +41,9 @@ void write_body(Memory &memory, uint32_t index, const BodyRecord &record);
 /* Takes the body at `index` out of the simulation: fixed, at rest, in no pair, where it last was finite. */
 void quarantine_body(Memory &memory, uint32_t index);
 
+/* Indices of the bodies whose velocity or motion of the last launches is not finite, or their state before it. */
+std::vector<uint32_t> bodies_not_finite(Memory &memory, uint32_t bodies);
+
 /* Fills the contact figures of the last step. */
 void measure_contacts(Memory &memory, Statistics &statistics);
 double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);

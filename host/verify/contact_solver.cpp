@@ -19,6 +19,61 @@
 namespace tandem {
 namespace {
 
+/* Kernels square what they are given, in floats. A problem in units far from 1 is solved in others, powers of two away,
+ * so that nothing is rounded for it: W' = W / compliance, q' = q / speed, r = r' speed / compliance. */
+struct Units {
+  double compliance = 1, speed = 1;
+};
+
+constexpr int most_exponent = 40; /* of two: up to there the squares of what floats hold beside it are floats */
+
+double power_near(double size)
+{
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  return size > 0 && std::abs(exponent) > most_exponent ? std::ldexp(1.0, exponent) : 1.0;
+}
+
+double mean_of_diagonal(const ContactProblem &problem)
+{
+  double sum = 0;
+  for (size_t i = 0; i < problem.contacts; ++i)
+    for (const size_t k : {0, 4, 8}) sum += std::abs(problem.blocks[problem.start[i]][k]) / (3.0 * problem.contacts);
+  return sum;
+}
+
+Units units_of(const ContactProblem &problem)
+{
+  double fastest = 0;
+  for (const std::array<double, 3> &velocity : problem.free_velocity)
+    for (const double component : velocity) fastest = std::max(fastest, std::abs(component));
+  return {power_near(mean_of_diagonal(problem)), power_near(fastest)};
+}
+
+ContactProblem in_units(ContactProblem problem, const Units &units)
+{
+  for (std::array<double, 9> &block : problem.blocks)
+    for (double &value : block) value /= units.compliance;
+  for (std::array<double, 3> &velocity : problem.free_velocity)
+    for (double &component : velocity) component /= units.speed;
+  return problem;
+}
+
+/* Contacts whose own compliances differ by more than floats can be squared in are no problem for them, whatever the
+ * units. */
+void check_range(const ContactProblem &problem, const std::string &solver)
+{
+  constexpr double widest = 1e18;
+  const double mean = mean_of_diagonal(problem);
+  for (size_t i = 0; i < problem.contacts && solver != "nsgs"; ++i)
+    for (const size_t k : {0, 4, 8})
+      if (const double own = std::abs(problem.blocks[problem.start[i]][k]); own > 0 && own * widest < mean)
+        throw InputError(
+            fmt::format("W of contact {} has {} on its diagonal, whose mean is {}: more than a factor of {} "
+                        "between them is out of the range of 32-bit numbers; use --solver nsgs",
+                        i, own, mean, widest));
+}
+
 class Solver {
 public:
   Solver(const ContactProblem &problem, Backend &backend)
@@ -197,7 +252,9 @@ ContactSolution solve_contact_problem(const ContactProblem &problem, const Conta
   const auto &names = contact_solver_names();
   if (std::find(names.begin(), names.end(), settings.solver) == names.end())
     throw InputError(fmt::format("--solver '{}' is unknown; use {}", settings.solver, fmt::join(names, ", ")));
-  Solver solver(problem, backend);
+  check_range(problem, settings.solver);
+  const Units units = units_of(problem);
+  Solver solver(in_units(problem, units), backend);
   ContactSolution solution;
   backend.finish();
   const auto begin = std::chrono::steady_clock::now();
@@ -212,6 +269,8 @@ ContactSolution solve_contact_problem(const ContactProblem &problem, const Conta
   solution.converged = residual <= settings.tolerance;
   solution.residuals = solver.residuals();
   solution.impulse = solver.impulses();
+  for (std::array<double, 3> &impulse : solution.impulse)
+    for (double &component : impulse) component *= units.speed / units.compliance;
   return solution;
 }
 

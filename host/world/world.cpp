@@ -40,6 +40,10 @@ namespace {
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
 constexpr size_t most_repetitions = 64;
 
+/* So many bodies of a step that stop being finite are taken out by a repetition each, so that none takes another with
+ * it; where there are more, all that are not finite by then. */
+constexpr size_t taken_one_by_one = 32;
+
 /* A body's number shares a word with the stage that it failed in (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
 
@@ -265,9 +269,7 @@ struct World::Implementation {
   void run_until_whole()
   {
     bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
-    /* One body is taken out by a repetition, so that it takes no other with it: those do not count. */
-    for (size_t repetition = 0; repetition < most_repetitions + std::min<size_t>(taken_out.size(), plan.bodies);
-         ++repetition) {
+    for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
       begin_launches();
       launch_step(launcher, plan, settings);
       memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
@@ -277,8 +279,8 @@ struct World::Implementation {
       prepare_repetition(plan.known[COUNT_STATUS], may_forget);
     }
     throw std::runtime_error(
-        fmt::format("it did not complete in {} repetitions, {} of them for bodies that did not stay finite (status {})",
-                    most_repetitions + taken_out.size(), taken_out.size(), plan.known[COUNT_STATUS]));
+        fmt::format("it did not complete in {} repetitions, in which {} bodies did not stay finite (status {})",
+                    most_repetitions + taken_one_by_one, taken_out.size(), plan.known[COUNT_STATUS]));
   }
 
   /* --- a step happens whole or not at all: host/world/carried.h ---------------------------------------------- */
@@ -368,7 +370,7 @@ struct World::Implementation {
     if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
     if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
     if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
-    if (status & STATUS_NONFINITE) quarantine(plan.known[COUNT_NONFINITE]);
+    if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
     plan.known[COUNT_COMMIT_BODIES] = plan.bodies;
     plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
     plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
@@ -423,11 +425,21 @@ struct World::Implementation {
     }
   }
 
-  void quarantine(uint32_t code)
+  /* code: COUNT_NONFINITE, the first body that is not finite, and where. */
+  void quarantine_from(uint32_t code)
+  {
+    const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
+    quarantine(first, stage);
+    if (taken_out.size() > taken_one_by_one)
+      for (const uint32_t body : bodies_not_finite(memory, plan.bodies))
+        if (body != first) quarantine(body, stage);
+  }
+
+  void quarantine(uint32_t index, uint32_t stage)
   {
     static const char *const stages[] = {"start", "solve", "integrate"};
-    const uint32_t index = code & 0x0fffffffu, body = special.order[index];
-    quarantined.push_back({body, scene.bodies[body].name, stages[code >> 28], statistics.steps});
+    const uint32_t body = special.order[index];
+    quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
     ++statistics.nonfinite;
     taken_out.reserve(taken_out.size() + 1);
     const BodyRecord record = read_body(memory, index);

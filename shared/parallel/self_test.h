@@ -14,13 +14,13 @@
 #define SELF_TEST_REALS(RESULT)                             \
   RESULT("addition", a + b)                                 \
   RESULT("subtraction", a - b)                              \
-  RESULT("multiplication", a *b)                            \
+  RESULT("multiplication", a * b)                            \
   RESULT("division", a / b)                                 \
   RESULT("square root", square_root(a))                     \
-  RESULT("square root", square_root(a *a + b * b))          \
-  RESULT("contraction of a * b + c", a *b + c)              \
-  RESULT("contraction of a * b - c", a *b - c)              \
-  RESULT("dot product", a *b + b * c + c * a)               \
+  RESULT("square root", square_root(a * a + b * b))          \
+  RESULT("contraction of a * b + c", a * b + c)              \
+  RESULT("contraction of a * b - c", a * b - c)              \
+  RESULT("dot product", a * b + b * c + c * a)               \
   RESULT("reciprocal", R(1.0) / a)                          \
   RESULT("reciprocal square root", R(1.0) / square_root(a)) \
   RESULT("smaller of two", choose(a < b, a, b))             \
@@ -33,7 +33,7 @@
   RESULT("comparisons", (uint)(a < b) | (uint)(a <= b) << 1 | (uint)(a > b) << 2 | (uint)(a >= b) << 3 | \
                             (uint)(a == b) << 4 | (uint)(a != b) << 5 | (uint)(a < R(0.0)) << 6)         \
   RESULT("float to int", (uint)truncate_to_int(small))                                                   \
-  RESULT("32-bit integers", p *q + (p ^ q))                                                              \
+  RESULT("32-bit integers", p * q + (p ^ q))                                                              \
   RESULT("32-bit division", p / (q | 1u) ^ p % (q | 1u))                                                 \
   RESULT("32-bit shifts", (p << (q & 31u)) ^ (q >> (p & 31u)))                                           \
   RESULT("signed integers", (uint)((int)(p >> 1) - (int)(q >> 1)))                                       \

@@ -2,11 +2,15 @@
 #include <limits>
 
 #include "host/catalog/catalog.h"
+#include "host/runtime/interface/backend.h"
+#include "host/runtime/memory.h"
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
+#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -84,6 +88,43 @@ TEST_CASE("a hundred bodies that are not finite are quarantined in one step, and
   for (const Quarantine &taken : world.quarantined()) CHECK(taken.body % 2 == 1);
   CHECK(world.statistics().steps == 1);
   CHECK(all_finite(world.bodies()));
+}
+
+/* Each alone, so that all of them leave the range of floats by themselves, in the same step. */
+TEST_CASE("thousands of bodies that stop being finite are taken out in few repetitions", "[physics]")
+{
+  Scene scene = empty_scene({0, 3e38f, 0});
+  for (int i = 0; i < 3000; ++i) add_solid(scene, sphere_shape(0.5f), {1000.0 * i, 0, 0}).linear_velocity[1] = 3.4e38f;
+  add_solid(scene, sphere_shape(0.5f), {-1000, 0, 0}).gravity_factor = 0;
+  World world(scene);
+  int repetitions = 0;
+  world.set_observer([&](const Launch &launch) { repetitions += launch.kernel == Kernel::begin_step; });
+  world.step();
+  CHECK(world.quarantined().size() == 3000);
+  for (const Quarantine &taken : world.quarantined()) CHECK(taken.body < 3000);
+  CHECK(repetitions < 40);
+  CHECK(all_finite(world.bodies()));
+}
+
+TEST_CASE("a step that asks for another repetition for ever ends with a line, and leaves the state as it was",
+          "[physics]")
+{
+  World world(load_scene("spheres:n=20"));
+  world.step();
+  const uint64_t before = world.state_hash();
+  int repetitions = 0;
+  world.set_observer([&](const Launch &launch) {
+    if (launch.kernel != Kernel::finish_step) return;
+    ++repetitions;
+    const uint32_t more_colors = STATUS_COLORS;
+    world.memory().upload(Buffer::counts, &more_colors, sizeof more_colors, COUNT_STATUS * sizeof more_colors);
+  });
+  CHECK_THROWS_WITH(world.step(), ContainsSubstring("step 1: it did not complete in 96 repetitions"));
+  CHECK(repetitions == 96);
+  CHECK(world.state_hash() == before);
+  world.set_observer({});
+  world.step();
+  CHECK(world.statistics().steps == 2);
 }
 
 TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics]")

@@ -184,7 +184,7 @@ TEST_CASE("obj: a polygon that cannot be cut, or not in reasonable time, is name
 {
   const std::string twisted = "v 0 1 1\nv 1 1 1\nv 1 2 1\nv 1 2 0\nv 2 0 0\n";
   CHECK_THAT(refusal(twisted + "f 1 2 3\nf 1 2 3 4 5\nf 1 3 4\n"),
-             ContainsSubstring("cube.obj: line 7: a polygon that cannot be cut into triangles"));
+             ContainsSubstring("cube.obj: line 7: a polygon that was not cut into triangles"));
   const auto circle = [](int n) {
     std::string text, face = "f";
     for (int k = 0; k < n; ++k) {
@@ -196,4 +196,7 @@ TEST_CASE("obj: a polygon that cannot be cut, or not in reasonable time, is name
   };
   CHECK(parse_obj(circle(3000), "circle.obj").triangles.size() == 2998);
   CHECK_THAT(refusal(circle(10'001)), ContainsSubstring("line 10002: a face of 10001 corners; more than 10000"));
+  std::string twice = circle(8000);
+  twice += twice.substr(twice.find("f "));
+  CHECK_THAT(refusal(twice), ContainsSubstring("line 8002: faces of more than 100 corners up to here take too long"));
 }

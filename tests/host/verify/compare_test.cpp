@@ -280,6 +280,22 @@ TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "
   CHECK(hash_numbers(integers, &nan, 4) != hash_numbers(integers, &minus_nan, 4));
 }
 
+TEST_CASE("compare: a NaN of another sign is not taken for the first number that differs", "[compare]")
+{
+  ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, 2);
+  const size_t unused = 3, changed = 4 * 7 + 1;
+  request.tamper = [&](size_t index, uint64_t, World &world, const Launch &launch) {
+    if (launch.kernel != Kernel::compute_bounds) return;
+    const uint32_t nan = index == 0 ? 0x7fc00000 : 0xffc00000, other = 0x3f800000;
+    world.memory().upload(Buffer::bounds, &nan, sizeof nan, unused * sizeof nan);
+    if (index == 1) world.memory().upload(Buffer::bounds, &other, sizeof other, changed * sizeof other);
+  };
+  const Comparison comparison = compare_backends(small_scene(), request);
+  REQUIRE(comparison.first_difference);
+  CHECK(comparison.first_difference->scalar == changed);
+  CHECK(comparison.first_difference->differing == 1);
+}
+
 /* Speeds that the solver's squares cannot hold, between bodies that touch: infinity less infinity is made in lanes
  * and in scalars with other signs. */
 TEST_CASE("compare: bodies that stop being finite in the solver do so alike in scalars and in lanes", "[compare]")

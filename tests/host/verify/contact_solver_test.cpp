@@ -1,4 +1,5 @@
 /* contact_solver_test.cpp - frictional contact problems: closed forms, an oracle in Eigen, the published figures. */
+#include <cmath>
 #include <filesystem>
 
 #include "host/runtime/make_backend.h"
@@ -109,6 +110,41 @@ TEST_CASE(
     REQUIRE(length_of(pair) < 2e-3f); /* the root of a number near 0 */
     REQUIRE(length_of(fischer_burmeister(scale(make_vec3(1, c, s), size + 0.1f), make_vec3(1, c, s))) > 0.05f);
   }
+}
+
+/* In units in which the squares of W or of q leave the range of floats. */
+TEST_CASE("contact problem: units change the impulses by their ratio alone")
+{
+  const ContactProblem problem = read_contact_problem(scenes + "box-on-corners.dat");
+  const ContactProblem sliding = read_contact_problem(scenes + "contact-sliding.dat");
+  for (const std::string solver : {"pgs", "nncg", "jacobi"})
+    for (const ContactProblem &given : {problem, sliding}) {
+      const ContactSolution plain = solved(given, solver, "serial", 1e-5);
+      for (const auto &[compliance, speed] :
+           {std::pair(80, 0), std::pair(-80, 0), std::pair(0, -77), std::pair(90, 60), std::pair(-60, -100)}) {
+        ContactProblem far = given;
+        for (auto &block : far.blocks)
+          for (double &value : block) value = std::ldexp(value, compliance);
+        for (auto &velocity : far.free_velocity)
+          for (double &component : velocity) component = std::ldexp(component, speed);
+        const ContactSolution found = solved(far, solver, "serial", 1e-5);
+        CAPTURE(solver, compliance, speed);
+        CHECK(plain.converged);
+        CHECK(found.converged);
+        for (size_t i = 0; i < given.contacts; ++i)
+          for (size_t axis = 0; axis < 3; ++axis)
+            CHECK(std::ldexp(found.impulse[i][axis], compliance - speed) ==
+                  Approx(plain.impulse[i][axis]).epsilon(1e-3).margin(1e-5));
+      }
+    }
+}
+
+TEST_CASE("contact problem: what floats cannot square side by side is refused")
+{
+  ContactProblem problem = read_contact_problem(scenes + "contact-sticking.dat");
+  problem.blocks[0] = {1e-30, 0, 0, 0, 1e30, 0, 0, 0, 1e-30};
+  CHECK_THROWS_WITH(solved(problem, "pgs", "serial", 1e-5),
+                    Catch::Matchers::ContainsSubstring("out of the range of 32-bit numbers; use --solver nsgs"));
 }
 
 TEST_CASE("contact problem: levels keep the order of the plain pass")
