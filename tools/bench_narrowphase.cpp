@@ -1,8 +1,8 @@
 /* bench_narrowphase.cpp - see bench_narrowphase.h.
  *
  *    (a)(b)   .   (a)(b)   .      Pairs far from each other, at random poses near contact: a third apart, yet within
- * reach of a .   (a)(b)   .   (a)(b)    contact ahead of touching, the others overlapping by up to 2 cm. Every pair
- * makes a manifold.
+ *      .   (a)(b)   .   (a)(b)    reach of a contact ahead of touching, the others overlapping by up to 2 cm. Every
+ *                                 pair makes a manifold.
  *
  * b comes from afar along a line through both middles until it touches (conservative advancement), then steps along the
  * normal to the gap wanted. A first step of a microsecond makes the list of pairs, and moves nothing; then the kernel

@@ -5,10 +5,9 @@
  * appears at an edge that is not there.
  *
  *       exact hull                faces within the tolerance of one plane are joined, largest agreement first, as long
- * as the
- *      +----+      +----+         polygon stays convex; points that then lie in no more than two faces are within the
- * tolerance | \  |  ->  |    |         of an edge or face, and are left out. Hence every vertex has three faces or
- * more, and |  \ |      |    |         V - E + F = 2.
+ *      +----+      +----+         as the polygon stays convex; points that then lie in no more than two faces are
+ *      | \  |  ->  |    |         within the tolerance of an edge or face, and are left out. Hence every vertex has
+ *      |  \ |      |    |         three faces or more, and V - E + F = 2.
  *      +----+      +----+
  *
  * The result depends on the points and their order alone, to the bit on every machine: vertices stand in the order of

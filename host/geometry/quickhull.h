@@ -5,9 +5,9 @@
  *
  *          p                Which side of a face a point lies on is a determinant of coordinates that are multiples of
  *         / \               2^-41: it fits in 128 bits, so that no rounding decides anything. The surface is exactly
- * convex at
- *      __/___\__            every moment, what p sees hangs together, its border is one cycle, and no triangle is thin
- * to /  hidden \           nothing: there are no special cases, and the result is the same on every machine.
+ *      __/___\__            convex at every moment, what p sees hangs together, its border is one cycle, and no
+ *     /  hidden \           triangle is thin to nothing: there are no special cases, and the result is the same on
+ *                           every machine.
  */
 #pragma once
 

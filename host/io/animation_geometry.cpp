@@ -93,8 +93,7 @@ DisplayMesh sphere_mesh()
  *
  *   y ^  _          Rings along the profile from the top down, each with the normal there: (across, along Y).
  *     | / \         A ring of radius 0 is a pole. Where the profile has a corner, as a cylinder at its rim, a ring
- * stands
- *     ||   |        twice, with a normal each, and nothing is drawn between the two.
+ *     ||   |        stands twice, with a normal each, and nothing is drawn between the two.
  *     | \_/
  */
 struct Ring {

@@ -100,7 +100,7 @@ double reach_along(const Round &round, size_t axis)
 }
 
 /* From the body's centre to the farthest point. */
-double farthest(const Round &round)
+double farthest_from_centre(const Round &round)
 {
   if (!round.disc) return length(round.center) + round.radius;
   const double along =
@@ -152,7 +152,7 @@ float bounding_radius(const Scene &scene, const Body &body)
   if (shape.type == ShapeType::box && centred) return round_to_float(length(double3(shape.size)));
   double radius = 0;
   for (const Round &round : rounds_of(shape, body.shape_position, body.shape_orientation))
-    radius = std::max(radius, farthest(round));
+    radius = std::max(radius, farthest_from_centre(round));
   return outward(radius);
 }
 

@@ -12,13 +12,14 @@
 #include "host/base/hash.h"
 
 namespace tandem {
-namespace {
 
 bool holds_reals(Buffer buffer)
 {
   const Element element = row_of(buffer).element;
   return element == Element::row || element == Element::real;
 }
+
+namespace {
 
 uint32_t scalars_per_element(Buffer buffer) { return row_of(buffer).element == Element::row ? 4 : 1; }
 

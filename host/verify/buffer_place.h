@@ -42,6 +42,8 @@ std::optional<uint64_t> ulps_between(Buffer buffer, const void *one, const void 
  * the operands, which is the compiler's (docs/exactness.md). */
 bool same_number(Buffer buffer, const void *one, const void *other);
 
+bool holds_reals(Buffer buffer); /* rows or reals, not whole numbers */
+
 /* Equal for two buffers of which every number is the same. */
 uint64_t hash_numbers(Buffer buffer, const void *contents, size_t bytes);
 

@@ -24,12 +24,6 @@
 namespace tandem {
 namespace {
 
-bool holds_reals(Buffer buffer)
-{
-  const Element element = row_of(buffer).element;
-  return element == Element::row || element == Element::real;
-}
-
 /* All planes of a buffer under one name: "separation[2]" is "separation". */
 std::string field_of(const BufferPlace &place) { return place.field.substr(0, place.field.find('[')); }
 

@@ -7,7 +7,7 @@
  *   mark_batches    each body: a bit for each colour that touches it, and a second where a colour does so again
  *   check_batches   each constraint: is its colour doubled at one of its bodies?
  *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and is no trigger's,
- * else none?
+ *                   else none?
  *
  * Sums, bits and minima: the verdict does not depend on order.
  */

@@ -8,8 +8,8 @@
  *   bodies  1-2  2-3  3-4  5-6         round 2: e1
  *                                      round 3: e2
  * The batches are those of the sequential batching, to the bit. A chain of contacts costs a round for each link, and
- * all but one compute unit of the device stand idle: it does not scale, as the talks say, and is here to be
- * measured. */
+ * all but one compute unit of the device stand idle: it does not scale, as the talks say, and is here to be measured.
+ */
 #ifndef TANDEM_SHARED_BATCHING_SINGLE_GROUP_H
 #define TANDEM_SHARED_BATCHING_SINGLE_GROUP_H
 

@@ -1,8 +1,9 @@
 /* box_pyramid.h - unions of the boxes of any stretch of a list, in as many loads as the stretch's length has bits.
  *
  *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node
- * leaves + i. 2         3             Behind the list: empty boxes, which overlap nothing. 4   5     6   7 8 9 10 11 12
- * . . .         Places 1 to 4 are the nodes 9, 5 and 12.
+ *           2         3             leaves + i. Behind the list: empty boxes, which overlap nothing.
+ *         4   5     6   7
+ *        8 9 10 11 12 . . .         Places 1 to 4 are the nodes 9, 5 and 12.
  *
  * A tree over the list (hierarchy.h) takes the boxes of its nodes from here, all at once: no node waits for those below
  * it, as it must where boxes are joined from the leaves up with flags and fences, which OpenCL 1.2 does not promise to

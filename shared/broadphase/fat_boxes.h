@@ -4,8 +4,9 @@
  * After Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
  *
  *        +------------------+       A body keeps its fat box, the pairs that it makes with others, and its place in the
- * tree, for as long | +----+           |       as its bounds stay inside. One that leaves gets a new one, with a margin
- * on all sides and a piece of | |  o - - - >     |       the way ahead, and looks for pairs again: most steps, few do.
+ *        | +----+           |       tree, for as long as its bounds stay inside. One that leaves gets a new one, with a
+ *        | |  o - - - >     |       margin on all sides and a piece of the way ahead, and looks for pairs again: most
+ *                                   steps, few do.
  *        | +----+           |
  *        +------------------+
  *

@@ -1,8 +1,9 @@
 /* grid_symmetric.h - the grid of grid.h with 14 cells instead of 27: each pair of cells is looked at from one side.
  *
  *      z + 1 row    x x x   x x x   x x x        A body looks at those behind it in its own cell and at 13 of the cells
- * around it: the z     row    . . .   . o x   x x x        right one, the row above, and three rows of the next layer.
- * The others look at it. y - 1     y     y + 1
+ *      z     row    . . .   . o x   x x x        around it: the right one, the row above, and three rows of the next
+ *                                                layer. The others look at it.
+ *                   y - 1     y     y + 1
  *
  * Half the tests (2009 talk); but what is found may belong to either body, so the pairs are keys to be sorted
  * (pair_keys.h).

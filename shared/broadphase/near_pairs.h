@@ -2,8 +2,8 @@
  * list.
  *
  *     kept list  (neither of the two left its box)  +  what those who left find in both trees  ->  the other side of
- * the kept list kept list  (bounds overlap)                                                              ->  pair_a,
- * pair_b
+ *     kept list  (bounds overlap)                                                              ->  the kept list
+ *                                                                                                  pair_a, pair_b
  *
  * Steps in which no body left do the second line alone. The kept list has two sides that change places; each owner's
  * stretch is sorted, as that of the pair list is. Of two who both left, the one with the higher number finds the pair.

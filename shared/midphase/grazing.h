@@ -1,10 +1,9 @@
 /* grazing.h - contacts of two bodies that another of their contacts explains: the seams between children of compounds.
  *
  *      +------+------+        At rest the upper compound stands a little in the lower one. Child B and child C, which
- * share no |  A   |  B   |        face, then overlap by that much, and their shortest way out is sideways (x): it would
- * hold up
- *      +------x------+        whatever slides. All its points lie in the surface on which A stands; what is no thicker
- * than |  C   |  D   |        the penetration that is left in place is no obstacle.
+ *      |  A   |  B   |        share no face, then overlap by that much, and their shortest way out is sideways (x): it
+ *      +------x------+        would hold up whatever slides. All its points lie in the surface on which A stands; what
+ *      |  C   |  D   |        is no thicker than the penetration that is left in place is no obstacle.
  *      +------+------+
  *
  * For meshes triangle_contact.h knows better, by the neighbours of a triangle; children have none. Two kernels, as in

@@ -1,9 +1,9 @@
 /* merge.h - the manifolds of one pair of bodies, joined where they press the same way.
  *
  *      +-----------+              A box on a mesh touches many triangles of one plane: each leaf gives a manifold, and
- * sixteen |           |              points where four hold it. Leaves whose normals agree form a group; the first leaf
- * of a group
- *    __*__*__*__*__*__            keeps its best four points (contact_points.h), the others are left with none.
+ *      |           |              sixteen points where four hold it. Leaves whose normals agree form a group; the first
+ *    __*__*__*__*__*__            leaf of a group keeps its best four points (contact_points.h), the others are left
+ *                                 with none.
  *     /\  |  /\  |  /\
  *
  * Two kernels, since a leaf's manifold must not change while another still reads it: group_manifolds names for each

@@ -1,10 +1,12 @@
 /* tree.h - the hierarchy of boxes over the parts of one body: triangles of a mesh, children of a compound.
  *
  *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the
- * tree's frame, and /   \           word:  -7  -3   a   b  -3   c   d       the number of a leaf, or minus the nodes of
- * the subtree. 1     4 / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is
- * missed is passed over (by a   b c   d        the size of its subtree). Built by host/geometry/bvh.h; after Bullet's
- * btQuantizedBvh and Ericson, "Real-Time Collision Detection", 2005, chapter 6.
+ *       /   \           word:  -7  -3   a   b  -3   c   d       tree's frame, and the number of a leaf, or minus the
+ *                                                               nodes of the subtree.
+ *      1     4
+ *     / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is missed is passed
+ *    a   b c   d        over (by the size of its subtree). Built by host/geometry/bvh.h; after Bullet's btQuantizedBvh
+ *                       and Ericson, "Real-Time Collision Detection", 2005, chapter 6.
  *
  * Coordinates are those of the tree: the axes of the body's shape, not of the body.
  */

@@ -26,8 +26,8 @@
  *       +---------+ -->                    Where two boxes overlap by no more than the slop along one face axis of a
  *       |         |                        box, and are apart or overlap no more along another, only a bar that thin
  *    ---|--+------|-+---------  <- slop    of their edges can touch. Edges count as rounded off by that much: such
- * boxes
- *       +--|------+ |                      are apart. A ledge lower than the slop is slid over, in every direction.
+ *       +--|------+ |                      boxes are apart. A ledge lower than the slop is slid over, in every
+ *                                          direction.
  *     tile |   tile |   tile
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_AXES_H

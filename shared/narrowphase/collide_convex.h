@@ -5,7 +5,9 @@
  *   box               .       .         x        x  here
  *   half-space                -         x        -  neither moves
  *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its
- * body's centre or continuous; compound and mesh, of which a pair holds one child or triangle (midphase/leaf_pairs.h)
+ *                                                body's centre or continuous;
+ *                                                 compound and mesh, of which a pair holds one child or triangle
+ *                                                 (midphase/leaf_pairs.h)
  *
  * Branches follow the data: shapes of one pair differ too much for lanes.
  */

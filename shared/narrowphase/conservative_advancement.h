@@ -2,13 +2,11 @@
  * moment.
  *
  *    start            impact          The bodies move with the velocities they start with. Along the direction of the
- * closest
- *     .--.    v  |     .--.|          points no part of one nears the other faster than the bodies approach and their
- * turning ( a  ) ---> |  - ( a  )| b       swings round: they are advanced by the time in which they cannot touch,
- * again and again
- *     '--'       |     '--'|          (van den Bergen, "Ray Casting against General Convex Objects", 2004; Zhang, Lee,
- * Kim,
- *      <-- gap -->                    "Interactive Continuous Collision Detection for Non-Convex Polyhedra", 2006).
+ *     .--.    v  |     .--.|          closest points no part of one nears the other faster than the bodies approach and
+ *    ( a  ) ---> |  - ( a  )| b       their turning swings round: they are advanced by the time in which they cannot
+ *     '--'       |     '--'|          touch, again and again (van den Bergen, "Ray Casting against General Convex
+ *      <-- gap -->                    Objects", 2004; Zhang, Lee, Kim, "Interactive Continuous Collision Detection for
+ *                                     Non-Convex Polyhedra", 2006).
  *
  * The manifold of that moment goes to the solver as one seen from the start of the step: its separations are larger by
  * what the points close until then, so the ordinary rows stop the bodies at the surface, without a substep of their

@@ -1,9 +1,10 @@
 /* convex.h - any convex shape as the narrowphase sees it: a point farthest in a direction, and a radius around it.
  *
  *      core, sharp            core + radius           Sphere: a point.  Capsule: a segment along Y.  Box, cylinder,
- * hull:
+ *                                                                                                    hull:
  *      +---------+             .---------.            themselves, radius 0.  The tests work on the core and subtract
- * the |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
+ *                                                                            the
+ *      |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
  *      +---------+             `---------'            and keeps the full precision of its distance.
  *
  * A pair is moved into axes where precision lies (pair_of): those of the larger shape, whose faces are then exact,

@@ -2,10 +2,8 @@
  *
  *         .-----.
  *        /       \       The face, edge or point turned to the plane; of its corners those within reach, reduced to
- * four
- *       '----+----'      as in contact_points.h. The farthest point of the shape counts for the deepest, so a rounded
- * or
- *    ------------------  steep shape loses nothing.
+ *       '----+----'      four as in contact_points.h. The farthest point of the shape counts for the deepest, so a
+ *    ------------------  rounded or steep shape loses nothing.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_HALF_SPACE_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_HALF_SPACE_H

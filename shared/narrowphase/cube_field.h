@@ -2,8 +2,9 @@
  * cube.
  *
  *   Each shape holds the points of its surface (corners, and three along each edge) and its field: a cube around its
- * middle, each cell of which names the face that lies in the direction of the cell's middle. A point of one shape is
- * looked up in the field of the other; the plane of the face named there tells how high above the surface the point is.
+ *   middle, each cell of which names the face that lies in the direction of the cell's middle. A point of one shape is
+ *   looked up in the field of the other; the plane of the face named there tells how high above the surface the point
+ *   is.
  *
  *        .---.---.---.        points of a (o) over the field of b and points of b over the field of a; the deepest of
  *        |   | \ |   |        all names the normal, those over faces of the same normal are the contact

@@ -1,10 +1,9 @@
 /* depth_refinement.h - a normal of little overlap made one of least overlap nearby, by distance queries.
  *
  *     .------.   .--.     b is moved out along the normal until the two are apart: the normal of the closest points
- * there |  a   |   | b|     is that of the face, the pair of edges or the round side nearby, as exact as gjk.h is.
- * Taken only
- *     '------'   '--'     where it shows less overlap, and repeated from there. It needs no memory beyond that of a
- * distance.
+ *     |  a   |   | b|     there is that of the face, the pair of edges or the round side nearby, as exact as gjk.h is.
+ *     '------'   '--'     Taken only where it shows less overlap, and repeated from there. It needs no memory beyond
+ *                         that of a distance.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_DEPTH_REFINEMENT_H
 #define TANDEM_SHARED_NARROWPHASE_DEPTH_REFINEMENT_H

@@ -1,8 +1,7 @@
 /* epa.h - how deep two convex cores overlap, and along which normal: the expanding polytope algorithm.
  *
  *        .-----.        A polytope inside a - b grows where it is nearest to the origin, until the face found there is
- * a
- *      .'   o   '.      face of a - b itself, or the support beyond it no farther than rounding (G. van den Bergen,
+ *      .'   o   '.      a face of a - b itself, or the support beyond it no farther than rounding (G. van den Bergen,
  *      |    |----*      "Proximity queries and penetration depth computation on 3D game objects", GDC 2001).
  *      '.       .'
  *        '-----'        Every normal tried gives a true upper bound of the depth; the least of them is the answer,

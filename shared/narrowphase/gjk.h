@@ -9,11 +9,11 @@
  *            \/                largest gap seen and its direction are then the answer, still a true lower bound.
  *            o origin
  *
- * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005,
- * section 9.5) from differences of its points, never from determinants of their coordinates: these cancel for tiny
- * against huge. Every face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no
- * case of its own (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable
- * distance queries between convex objects", ACM TOG 36(3), 2017).
+ * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005, section
+ * 9.5) from differences of its points, never from determinants of their coordinates: these cancel for tiny against
+ * huge. Every face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no case of
+ * its own (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable distance
+ * queries between convex objects", ACM TOG 36(3), 2017).
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_GJK_H
 #define TANDEM_SHARED_NARROWPHASE_GJK_H

@@ -5,7 +5,7 @@
  * between them. (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013.)
  *
  *           left of a                Ties prefer faces, and those of the larger shape, as in box_axes.h: faces carry up
- * to |   right of -b       four points, an edge one, and a body at rest must keep its axis.
+ *              |   right of -b       to four points, an edge one, and a body at rest must keep its axis.
  *     ---------+---------
  *   left of -b |
  *          right of a
@@ -14,8 +14,8 @@
  * than how far any one probe lies beyond it:
  *
  *        a  \   . p                  1  the face beyond which the nearest probe lies farthest is the only one worth a
- * look;
- *      ______\__.____ face              the point of b that really lies nearest to it is the next probe. Two or three
+ *      ______\__.____ face              look; the point of b that really lies nearest to it is the next probe. Two or
+ *                                       three
  *             \  b                     looks leave no face that could be better: the best is found, and proven.
  *                                    2  an edge's axes lie on the arc between the normals of its faces, so beyond 0 or
  *                                       below it no edge is better than the better one of its two faces. Where a face

@@ -5,13 +5,13 @@
  *   SUPPORT_CUBE_MAP       the vertex that the map names: near the farthest, by how much docs/pipeline.md says
  *
  *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex
- * farthest | 3 | 3 | 7 |     in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans, 2012,
- * 2013.)
+ *      | 3 | 3 | 7 |     farthest in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans,
+ *                        2012, 2013.)
  *      +---+---+---+
  *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are
- * the corners
- *      '---+---+---'     of all faces around a vertex, so that a face may be a little uneven. Heights within rounding
- * of each other (a face or edge square to the direction) are no proof: then all are looked at.
+ *      '---+---+---'     the corners of all faces around a vertex, so that a face may be a little uneven. Heights
+ *                        within rounding of each other (a face or edge square to the direction) are no proof: then all
+ *                        are looked at.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H

@@ -2,9 +2,9 @@
  * it turns.
  *
  *      .---.                    Points of a manifold move on lines. What an impact sets spinning turns on circles:
- * within the same step / (o) \  v                its next corner comes where no point is, and its middle passes the
- * face. The ball lies within the body
- *      '---\.'                  as the body turns, and its point, square below the middle, is turned by nothing.
+ *     / (o) \  v                within the same step its next corner comes where no point is, and its middle passes the
+ *      '---\.'                  face. The ball lies within the body as the body turns, and its point, square below the
+ *                               middle, is turned by nothing.
  *   ====x=================
  *
  * So it adds nothing that is not there: it acts only where the body would be half in the wall. It stands in for the

@@ -1,7 +1,9 @@
 /* polytope.h - faces, edges and corners of boxes and hulls alike, in the shape's own axes.
  *
  *   box   face 2 k: +axis k, face 2 k + 1: -axis k     edge 4 k + (sign of u) + 2 (sign of v), along axis k; the two
- * axes after k in cyclic order are u and v, a set bit is the positive side hull  as its tables say (convex.h)
+ *                                                      axes after k in cyclic order are u and v, a set bit is the
+ *                                                      positive side
+ *   hull  as its tables say (convex.h)
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POLYTOPE_H
 #define TANDEM_SHARED_NARROWPHASE_POLYTOPE_H

@@ -13,10 +13,8 @@
  * square as each other the lowest index wins, so that noise does not move the choice.
  *
  *       .-- * --.       A cap has one corner where the rim lies farthest in the direction, so that a tilted cylinder
- * keeps
- *      *    |    *      its deepest point. Below CAP_LEAST_TILT the corners stay with the body instead, as the tilt of
- * a
- *      *    o    *      cylinder at rest is noise; that costs at most 0.08 tilt of the radius.
+ *      *    |    *      keeps its deepest point. Below CAP_LEAST_TILT the corners stay with the body instead, as the
+ *      *    o    *      tilt of a cylinder at rest is noise; that costs at most 0.08 tilt of the radius.
  *       '-- * --'
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SUPPORT_FACE_H

@@ -1,13 +1,11 @@
 /* time_of_impact.h - a contact ahead of touching is made only where the motion of the step would touch.
  *
  *        v -->                         Seen from the start of the step, the closest points of the ball and the edge
- * have a
- *      .--.                            slanted normal, and a contact there is an endless plane: it would stop a ball
- * that ( a  )  \  n                     passes the edge. So the bodies are followed along their motion. A pair that
- * touches
- *      '--'    \                       keeps its contacts; if it moves far, they are those of the moment of impact. A
- * pair
- *               +---------             that misses loses the points that its own motion would run into.
+ *      .--.                            have a slanted normal, and a contact there is an endless plane: it would stop a
+ *     ( a  )  \  n                     ball that passes the edge. So the bodies are followed along their motion. A pair
+ *      '--'    \                       that touches keeps its contacts; if it moves far, they are those of the moment
+ *               +---------             of impact. A pair that misses loses the points that its own motion would run
+ *                                      into.
  *               | b
  *
  * The pair is advanced again and again by the time in which it cannot touch, the longer of two: gap / closing speed
@@ -16,10 +14,9 @@
  * acceleration lets it:
  *
  *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it
- * passes is
- *       |`- .  chord                 known to miss in a few rounds, also where it rolls along with hardly a gap, and
- * one that hits |  . ` - . _                 is found by steps that shorten as the square root of the gap. Of bodies
- * that do not turn the |    `-.....` - o            gap along a normal is the chord itself.
+ *       |`- .  chord                 passes is known to miss in a few rounds, also where it rolls along with hardly a
+ *       |  . ` - . _                 gap, and one that hits is found by steps that shorten as the square root of the
+ *       |    `-.....` - o            gap. Of bodies that do not turn the gap along a normal is the chord itself.
  *       +------------------> time
  *
  * At rest nothing of this runs: touching points, and gaps that a slow pair does not close, are left as they are.

@@ -2,12 +2,13 @@
  * own.
  *
  *        .---.              Flat: the box slides over the seam of two triangles. Deep in one of them its shortest way
- * out is | b |  -->         sideways (x), which would catch it. A normal may lean over an edge only as far as the
- * neighbour's
- *    ----'-x-'----          does, and over a flat or concave edge not at all: then the triangle's own normal holds.
+ *        | b |  -->         out is sideways (x), which would catch it. A normal may lean over an edge only as far as
+ *    ----'-x-'----          the neighbour's does, and over a flat or concave edge not at all: then the triangle's own
+ *                           normal holds.
  *      A  |  B
  *                  t   out  n2      convex: out lies between t and the neighbour's n2        out of that wedge: t
- * instead \  |  /
+ *                                                                                            instead
+ *                   \  |  /
  *                 ___\_|_/          concave or flat: no wedge                                t instead
  *                     A\B\
  *

@@ -4,10 +4,11 @@
  * docs/contact-problems.md defines them and says why so. Each contact writes its term and a fixed tree adds them
  * (shared/parallel/reduce.h).
  *
- * natural           | r - P_K(r - rho (u + mu |u_T| n)) |^2
- * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),   o =
- * Jordan product of the second-order cone (Fukushima, Luo and Tseng 2002) violation         how far r lies outside its
- * cone, as a friction impulse
+ * natural             | r - P_K(r - rho (u + mu |u_T| n)) |^2
+ * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),
+ *                     o = Jordan product
+ *                     of the second-order cone (Fukushima, Luo and Tseng 2002)
+ * violation           how far r lies outside its cone, as a friction impulse
  */
 #ifndef TANDEM_SHARED_PROBLEM_RESIDUAL_H
 #define TANDEM_SHARED_PROBLEM_RESIDUAL_H

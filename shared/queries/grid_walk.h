@@ -1,11 +1,11 @@
 /* grid_walk.h - the bodies along a way, layer by layer, from the uniform grid of broadphase/grid.h.
  *
  *        |   |   |###|###|   |       Layers lie across the axis that the way follows most. A body of layer L has its
- * centre there, and |   |   |#_-|###|   |       its box, no larger than a cell, may reach half a cell beyond: it is
- * touched, if at all, while the |   |###|###|   |   |       way is between layers L-1 and L+1. Where the way is
- * meanwhile along the other two axes, widened |   |#_-|###|   |   |       by what goes along it and by half a body, is
- * a rectangle of cells; its rows along x are one o -     L             - ->  stretch of the sorted list each. Every
- * cell is in one layer, so every body comes once.
+ *        |   |   |#_-|###|   |       centre there, and its box, no larger than a cell, may reach half a cell beyond: it
+ *        |   |###|###|   |   |       is touched, if at all, while the way is between layers L-1 and L+1. Where the way
+ *        |   |#_-|###|   |   |       is meanwhile along the other two axes, widened by what goes along it and by half a
+ *        o -     L             - ->  body, is a rectangle of cells; its rows along x are one stretch of the sorted list
+ *                                    each. Every cell is in one layer, so every body comes once.
  *
  * A place on the way becomes a cell by the very rounding that a body's centre did: what lies between two places then
  * lies between their cells, also in border cells, where whatever rounding moved across the border is filed. The half

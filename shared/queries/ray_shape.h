@@ -1,8 +1,8 @@
 /* ray_shape.h - where a line enters and leaves a shape, in closed form where there is one.
  *
  *            enter         leave       The line is o + s u in the shape's axes, u of length 1, o near the shape: the
- * caller o-------->(#############)--->    starts it at the point nearest to the shape's middle, so that the numbers
- * that are squared are no larger than the shape, however far away the ray began.
+ *     o-------->(#############)--->    caller starts it at the point nearest to the shape's middle, so that the numbers
+ *                                      that are squared are no larger than the shape, however far away the ray began.
  *
  *   sphere             a quadratic
  *   cylinder, cone     the slab between the caps, and a quadratic for the side

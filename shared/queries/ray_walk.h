@@ -1,7 +1,7 @@
 /* ray_walk.h - the bodies along a ray, near ones first, from the hierarchy of broadphase/hierarchy.h.
  *
  *        ray  - - ->  [ near ]   [ far ]       Both children of a node are tested; the nearer one comes next, and where
- * the other is hit too, it waits on a stack.
+ *                                              the other is hit too, it waits on a stack.
  *
  * A waiting node is not asked again whether something nearer has been hit since: to remember where the ray enters it
  * costs more than the two boxes that such a node is good for (docs/departures.md).

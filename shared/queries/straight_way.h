@@ -1,7 +1,7 @@
 /* straight_way.h - what every structure of bodies tests its boxes against: a ray, or a box that goes straight.
  *
  *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own
- * half extents |  |- - - ->  [   ]     (Minkowski). One that stands still goes a way of length 0.
+ *       |  |- - - ->  [   ]     half extents (Minkowski). One that stands still goes a way of length 0.
  *       +--+
  *
  * Boxes are in the world's coordinates, of which the way has a float and what that float lost: boxes are widened by as

@@ -5,7 +5,7 @@
  * listed is refused, too: a new folder needs a row.
  *
  * Usage: include_directions ROOT              lists file:line: include; exit status 1 if there is any that the table
- * does not allow include_directions --self-test DIR   plants what it must find in a tree under DIR
+ *        include_directions --self-test DIR   does not allow plants what it must find in a tree under DIR
  */
 #include <algorithm>
 #include <filesystem>

@@ -3,10 +3,11 @@
  *
  *   frames of 1/30 s     0 ....... 1 ....... 2 .... T       at each the states of all bodies
  *   closed form          where there is one it replaces the simulated positions, and the reference is measured against
- * it refinement           r / 4, r / 2 and r steps for each 1/60 s: how far the truth itself is known, and its order
+ *                        it
+ *   refinement           r / 4, r / 2 and r steps for each 1/60 s: how far the truth itself is known, and its order
  *   horizon              two runs whose starts differ in one coordinate of one body by 1e-9 m, or by one ulp where
- * floats are coarser: past the time at which some body is 1000 times as far apart, trajectories of the scene are
- *                        chaotic (Lyapunov) and not compared, only statistics are
+ *                        floats are coarser: past the time at which some body is 1000 times as far apart, trajectories
+ *                        of the scene are chaotic (Lyapunov) and not compared, only statistics are
  */
 #pragma once
 

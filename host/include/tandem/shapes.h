@@ -38,11 +38,16 @@ struct Compound;
  *   sphere      size[0]: radius
  *   box         size: half extents
  *   half_space  all points with y <= 0 (its outward normal is +Y); size is ignored; never dynamic, without a pose of
- * its own capsule     hull of two spheres on the Y axis. size: radius of the lower, half the distance of the centres,
- * radius of the upper cylinder    along Y, between -size[1] and +size[1]; size[0]: radius of the lower end, size[2]: of
- * the upper. One may be 0: a cone hull        `hull`; size is ignored mesh        the surface `mesh`, solid on the side
- * from which its triangles are seen clockwise: contacts push out on the other. Size is ignored. A dynamic one should be
- * closed (warnings_of): else its mass is that of a solid that it is not compound    `compound`; size is ignored */
+ *               its own
+ *   capsule     hull of two spheres on the Y axis. size: radius of the lower, half the distance of the centres, radius
+ *               of the upper
+ *   cylinder    along Y, between -size[1] and +size[1]; size[0]: radius of the lower end, size[2]: of the upper. One
+ *               may be 0: a cone
+ *   hull        `hull`; size is ignored
+ *   mesh        the surface `mesh`, solid on the side from which its triangles are seen clockwise: contacts push out on
+ *               the other. Size is ignored. A dynamic one should be closed (warnings_of): else its mass is that of a
+ *               solid that it is not
+ *   compound    `compound`; size is ignored */
 struct Shape {
   ShapeType type = ShapeType::box;
   Vec3 size{0.5f, 0.5f, 0.5f};
