@@ -95,14 +95,15 @@ SHARED real share_of_slide(motion a, motion b)
   return choose(a.inverse_mass == R(0.0), (real)R(1.0), choose(b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
 }
 
-/* What manifold_normal keeps beside the normal: the moment of the contacts, s of the step; below 0 where the bodies
- * pass each other: arms that followed them would turn the plane of the contact into what it was to leave alone. */
+/* What manifold_normal keeps beside the normal: the moment of the contacts, s of the step; below 0 where arms that
+ * followed the bodies would turn the plane of the contact into what it was to leave alone. */
 #define LEAST_MOMENT R(1e-12)
-SHARED real packed_moment(real time, mask passing)
+SHARED real packed_moment(real time, mask arms_stay)
 {
-  return choose(passing, R(0.0) - maximum(time, LEAST_MOMENT), time);
+  return choose(arms_stay, R(0.0) - maximum(time, LEAST_MOMENT), time);
 }
 SHARED real moment_of(real packed) { return magnitude(packed); }
+SHARED mask keeps_arms(real packed) { return packed < R(0.0); }
 
 SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
 {

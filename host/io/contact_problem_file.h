@@ -9,8 +9,8 @@
  *   3nc 3nc                rows and columns of W
  *   0:  3nc 3nc, then W column by column
  *   1:  blocks, block rows, block columns, the ends 3 6 .. 3nc of both, lengths of the two index arrays, the index
- *       arrays (where the blocks of each row start; the column of each block), then every block: its number, its 9
- *       values by column
+ *       arrays (where the blocks of each row start; the column of each block), then every block: its number, its
+ *       9 values by column
  *   q                      3nc values: free velocity, m/s
  *   mu                     nc coefficients of friction
  *

@@ -42,12 +42,12 @@ double mean_of_diagonal(const ContactProblem &problem)
   return sum;
 }
 
-Units units_of(const ContactProblem &problem)
+Units units_of(const ContactProblem &problem, double mean)
 {
   double fastest = 0;
   for (const std::array<double, 3> &velocity : problem.free_velocity)
     for (const double component : velocity) fastest = std::max(fastest, std::abs(component));
-  return {power_near(mean_of_diagonal(problem)), power_near(fastest)};
+  return {power_near(mean), power_near(fastest)};
 }
 
 ContactProblem in_units(ContactProblem problem, const Units &units)
@@ -61,11 +61,10 @@ ContactProblem in_units(ContactProblem problem, const Units &units)
 
 /* Contacts whose own compliances differ by more than floats can be squared in are no problem for them, whatever the
  * units. */
-void check_range(const ContactProblem &problem, const std::string &solver)
+void check_range(const ContactProblem &problem, double mean)
 {
   constexpr double widest = 1e18;
-  const double mean = mean_of_diagonal(problem);
-  for (size_t i = 0; i < problem.contacts && solver != "nsgs"; ++i)
+  for (size_t i = 0; i < problem.contacts; ++i)
     for (const size_t k : {0, 4, 8})
       if (const double own = std::abs(problem.blocks[problem.start[i]][k]); own > 0 && own * widest < mean)
         throw InputError(
@@ -252,8 +251,9 @@ ContactSolution solve_contact_problem(const ContactProblem &problem, const Conta
   const auto &names = contact_solver_names();
   if (std::find(names.begin(), names.end(), settings.solver) == names.end())
     throw InputError(fmt::format("--solver '{}' is unknown; use {}", settings.solver, fmt::join(names, ", ")));
-  check_range(problem, settings.solver);
-  const Units units = units_of(problem);
+  const double mean = mean_of_diagonal(problem);
+  if (settings.solver != "nsgs") check_range(problem, mean);
+  const Units units = units_of(problem, mean);
   Solver solver(in_units(problem, units), backend);
   ContactSolution solution;
   backend.finish();

@@ -40,8 +40,8 @@ namespace {
 /* Each repetition fixes one cause; many in one step means that something is wrong. */
 constexpr size_t most_repetitions = 64;
 
-/* So many bodies of a step that stop being finite are taken out by a repetition each, so that none takes another with
- * it; where there are more, all that are not finite by then. */
+/* So many bodies of a step that stop being finite are taken out by a repetition each, so that what one of them would
+ * have infected in another pass stays; where there are more, all that are not finite by then. */
 constexpr size_t taken_one_by_one = 32;
 
 /* A body's number shares a word with the stage that it failed in (COUNT_NONFINITE). */
@@ -433,6 +433,7 @@ struct World::Implementation {
     if (taken_out.size() > taken_one_by_one)
       for (const uint32_t body : bodies_not_finite(memory, plan.bodies))
         if (body != first) quarantine(body, stage);
+    forget_kept(memory);
   }
 
   void quarantine(uint32_t index, uint32_t stage)
@@ -441,11 +442,9 @@ struct World::Implementation {
     const uint32_t body = special.order[index];
     quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
     ++statistics.nonfinite;
-    taken_out.reserve(taken_out.size() + 1);
-    const BodyRecord record = read_body(memory, index);
+    taken_out.emplace_back(index,
+                           read_body(memory, index)); /* first: a body that stays as it is can be restored, too */
     quarantine_body(memory, index);
-    taken_out.emplace_back(index, record);
-    forget_kept(memory);
   }
 
   /* Kernels of queries are built when they are first asked for, then kept. */

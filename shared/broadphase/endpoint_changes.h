@@ -6,9 +6,8 @@
  * old list and the new list:
  *
  *     place     4  5  6  7
- *     old   ..  l  x  u  y  ..        l goes from place 4 to 6: it meets x and u, in either list; u alone is an upper
- *                                     end that l
- *     new   ..  u  x  l  y  ..        stood before and stands behind, so the two bodies may have parted
+ *     old   ..  l  x  u  y  ..        l goes from place 4 to 6: it meets x and u, in either list; u alone is an
+ *     new   ..  u  x  l  y  ..        upper end that l stood before and stands behind, so the two may have parted
  *
  * One of the two meets the other. Let l stand before u at first, at a < b, and behind it afterwards, at a' > b'. If b,
  * u's place in the old list, is not on l's way, it lies behind a' too, and if b' is not on that way, it lies before a

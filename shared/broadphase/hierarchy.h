@@ -5,13 +5,15 @@
  * k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h); every node holds a stretch of the
  * list and splits it where the codes first differ, so that it also splits space. Each node finds its stretch by itself:
  *
- *     code   00001 00010 00100 00101 10011 11000        stretch of inner node i: it starts or ends at place i, as far
- *                                                       as codes share
- *     place    0     1     2     3     4     5          more with code i than the neighbour on the other side does
- *     inner  [0------------------------------5]         children of a node split between s and s + 1: whatever ends at
- *            [------- 3 -------]      [--4---]          s, and whatever starts at s + 1: leaf or inner node of that
- *                                                       number
+ *     code   00001 00010 00100 00101 10011 11000
+ *     place    0     1     2     3     4     5
+ *     inner  [0------------------------------5]
+ *            [------- 3 -------]      [--4---]
  *            [--1--]     [--2--]
+ *
+ * The stretch of inner node i starts or ends at place i, and goes on as far as codes share more with code i than the
+ * neighbour on the other side does. Children of a node split between s and s + 1 are whatever ends at s and whatever
+ * starts at s + 1: the leaf or inner node of that number.
  *
  * Leaf i stands in slot 2 i, inner node i in slot 2 i + 1: neighbours on the curve are neighbours in memory. Links of a
  * slot: its children, the slot after its subtree (the second child of whom it is the first child of), its parent.

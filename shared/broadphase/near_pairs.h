@@ -1,9 +1,8 @@
 /* near_pairs.h - the pairs whose fat boxes overlap, kept from step to step, and those of them whose bounds do: the
  * list.
  *
- *     kept list  (neither of the two left its box)  +  what those who left find in both trees  ->  the other side of
- *     kept list  (bounds overlap)                                                              ->  the kept list
- *                                                                                                  pair_a, pair_b
+ *     kept list (neither of the two left its box)  +  what those who left find in both trees  ->  its other side
+ *     kept list (bounds overlap)                                                              ->  pair_a, pair_b
  *
  * Steps in which no body left do the second line alone. The kept list has two sides that change places; each owner's
  * stretch is sorted, as that of the pair list is. Of two who both left, the one with the higher number finds the pair.

@@ -4,10 +4,10 @@
  *     +-------+ affine       The fast bound of bounds.h turns the box that stands around the shape in its own axes: six
  *     | +---+ |              products. It holds the shape, and corners that the shape does not have. Here the farthest
  *     | | o | | tight        point along each axis of the world is asked for, both ways (2013 talk): fewer pairs, for
- *                            six searches a body.
- *     | +---+ |
- *     +-------+              `--bounds tight`. Spheres and boxes are tight as they are; meshes and compounds keep the
- *                            fast bound.
+ *     | +---+ |              six searches a body.
+ *     +-------+
+ *
+ * Spheres and boxes are tight as they are; meshes and compounds keep the fast bound under `--bounds tight`, too.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H
 #define TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H

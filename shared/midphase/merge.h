@@ -35,7 +35,7 @@ SHARED mask press_alike(GLOBAL const Parameters *parameters, vec4 first, vec4 se
   real nearer = magnitude(inner(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
   return inner(xyz(first), xyz(second)) >= SAME_DIRECTION &&
          nearer <= maximum(SAME_APPROACH * parameters->slop, R(1e-5)) &&
-         magnitude(first.w - second.w) <= SAME_MOMENT * parameters->step && (first.w < R(0.0)) == (second.w < R(0.0));
+         magnitude(first.w - second.w) <= SAME_MOMENT * parameters->step && keeps_arms(first.w) == keeps_arms(second.w);
 }
 
 SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_leaf, uint i, uint j)

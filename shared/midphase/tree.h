@@ -2,8 +2,7 @@
  *
  *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the
  *       /   \           word:  -7  -3   a   b  -3   c   d       tree's frame, and the number of a leaf, or minus the
- *                                                               nodes of the subtree.
- *      1     4
+ *      1     4                                                  nodes of the subtree.
  *     / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is missed is passed
  *    a   b c   d        over (by the size of its subtree). Built by host/geometry/bvh.h; after Bullet's btQuantizedBvh
  *                       and Ericson, "Real-Time Collision Detection", 2005, chapter 6.

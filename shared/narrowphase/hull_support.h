@@ -6,8 +6,7 @@
  *
  *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex
  *      | 3 | 3 | 7 |     farthest in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans,
- *                        2012, 2013.)
- *      +---+---+---+
+ *      +---+---+---+     2012, 2013.)
  *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are
  *      '---+---+---'     the corners of all faces around a vertex, so that a face may be a little uneven. Heights
  *                        within rounding of each other (a face or edge square to the direction) are no proof: then all

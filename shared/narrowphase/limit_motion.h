@@ -3,10 +3,9 @@
  *
  *     start  o - - - .          The contacts of a step are those of the straight ways. A body that one of them turns
  *                 /   \         aside, or sets spinning, comes where no contact was made: a second wall in a corner,
- *                               its own other end
- *      deflected o  |  x end    after an edge has hit. So its motion from start to end is followed once more, against
- *                   |wall       what no impulse moves, and cut where it would pass; its velocity stays, for the contact
- *                               of the next step.
+ *      deflected o  |  x end    its own other end after an edge has hit. So its motion from start to end is followed
+ *                   |wall       once more, against what no impulse moves, and cut where it would pass; its velocity
+ *                               stays, for the contact of the next step.
  *
  * Twice, as in Box2D 3 (Catto, 2024): with the whole shape, if it starts free. One that starts touching has its
  * contacts already, and would be held by every graze; of it a ball in its middle must not pass.

@@ -5,10 +5,10 @@
  *            | reference |            corner of their overlap is an end of an edge of the moving outline cut by all the
  *        .---x-----.     |            sides of the reference (x; M. Cyrus, J. Beck, "Generalized two- and
  *         \  |      \    |            three-dimensional clipping", 1978), or a corner of the reference inside the
- *                                     moving outline (+).
- *          \ x-------x---+
- *           `---------`              The points are not collected: reduce_step() is told of one after the other. So no
- *                                    outline has too many corners.
+ *          \ x-------x---+            moving outline (+).
+ *           `---------`
+ *
+ * The points are not collected: reduce_step() is told of one after the other. So no outline has too many corners.
  *
  * A segment is an outline of one edge; between two segments the stream holds the ends of the stretch along which they
  * run together, or the one point where they cross.

@@ -212,11 +212,11 @@ SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real l
   return fastest * parameters->step > FAR_SHARE * least;
 }
 
-/* How fast the points of a manifold come nearer, m/s, and which of them are met within the step: by their own motion,
- * or also by that of arms which follow. */
+/* How fast the points of a manifold come nearer, m/s, by themselves and by arms which follow, and which of them the
+ * points themselves meet within the step. */
 typedef struct {
   real closing[4];
-  mask reached[4], reached_by_slide[4];
+  mask reached[4];
   slide_closing by_slide;
 } approaching_points;
 
@@ -231,16 +231,22 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
     points.closing[slot] = maximum(
         inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
     points.reached[slot] = m.kept[slot] & (points.closing[slot] * parameters->step >= m.point[slot].w);
-    points.reached_by_slide[slot] =
-        m.kept[slot] & ((points.closing[slot] + points.by_slide.either_way) * parameters->step >= m.point[slot].w);
   }
   return points;
+}
+/* turning: what arms that follow close beside the points, m/s. */
+SHARED mask reaches_point(GLOBAL const Parameters *parameters, manifold m, approaching_points points, int slot,
+                          real turning)
+{
+  return m.kept[slot] & ((points.closing[slot] + turning) * parameters->step >= m.point[slot].w);
 }
 SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
   approaching_points points = approach_of_points(parameters, m, offset, moves);
-  return points.reached_by_slide[0] | points.reached_by_slide[1] | points.reached_by_slide[2] |
-         points.reached_by_slide[3];
+  mask any = reaches_point(parameters, m, points, 0, points.by_slide.either_way);
+  for (int slot = 1; slot < 4; ++slot)
+    any = any | reaches_point(parameters, m, points, slot, points.by_slide.either_way);
+  return any;
 }
 
 /* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that
@@ -342,8 +348,7 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
   real toward = choose(met.at_impact, either_way, points.by_slide.toward);
   for (int slot = 0; slot < 4; ++slot) {
     m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
-    turned_into = turned_into | (m.kept[slot] & met.passing &
-                                 ((points.closing[slot] + either_way) * parameters->step >= m.point[slot].w));
+    turned_into = turned_into | (met.passing & reaches_point(parameters, m, points, slot, either_way));
   }
   mask arms_stay = turned_into & (either_way * parameters->step > met.room);
   for (int slot = 0; slot < 4; ++slot) {

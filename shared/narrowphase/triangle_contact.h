@@ -4,12 +4,11 @@
  *        .---.              Flat: the box slides over the seam of two triangles. Deep in one of them its shortest way
  *        | b |  -->         out is sideways (x), which would catch it. A normal may lean over an edge only as far as
  *    ----'-x-'----          the neighbour's does, and over a flat or concave edge not at all: then the triangle's own
- *                           normal holds.
- *      A  |  B
- *                  t   out  n2      convex: out lies between t and the neighbour's n2        out of that wedge: t
- *                                                                                            instead
+ *      A  |  B              normal holds.
+ *
+ *                  t   out  n2      convex: out lies between t and the neighbour's n2, or t is taken instead
  *                   \  |  /
- *                 ___\_|_/          concave or flat: no wedge                                t instead
+ *                 ___\_|_/          concave or flat: no wedge, t is taken
  *                     A\B\
  *
  * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. Two triangles that face

@@ -2,8 +2,7 @@
  *
  *        from o- - - - - - ->  way        Tree walks are those of midphase/tree.h; a box counts as near unless one of
  *                 +----+                  the axes of box and way separates them (Ericson, "Real-Time Collision
- *                                         Detection", 2005, section 5.3.3).
- *                 |    |
+ *                 |    |                  Detection", 2005, section 5.3.3).
  */
 #ifndef TANDEM_SHARED_QUERIES_BODY_PARTS_H
 #define TANDEM_SHARED_QUERIES_BODY_PARTS_H

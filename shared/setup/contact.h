@@ -227,7 +227,7 @@ SHARED void prepare_contacts_item(
    * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
   real size = size_between(body_shape, bodies.a, bodies.b);
-  mask arms_stay = (manifold.w < R(0.0)) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
+  mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));

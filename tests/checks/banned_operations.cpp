@@ -5,8 +5,8 @@
  *
  *   shared/ cl/ minicl/            calls of banned functions, float atomics, fused and approximate intrinsics
  *   host/                          functions of the C library whose last bit differs between machines, where results
- *                                  hang on it, and roundings to float that a compiler may leave out compiler and OpenCL
- *   these, host/, tools/, CMake    options that relax arithmetic, also within strings
+ *                                  hang on it, and roundings to float that a compiler may leave out
+ *   these, host/, tools/, CMake    compiler and OpenCL options that relax arithmetic, also within strings
  *
  * Usage: banned_operations ROOT              lists file:line: operation; exit status 1 if there is any
  *        banned_operations --self-test DIR   plants each operation in a tree under DIR and must find every one

@@ -2,7 +2,8 @@
  * (tests/sanitizers/tests.cmake), and a fault that passes in silence fails a test.
  *
  *   planted overrun BUFFER BACKEND   a step of a world of which one buffer is one element too short; `exact` for
- *   planted race | no-race           `overrun`: not so launches of two backends in two threads, on one buffer or on two
+ *                                    `overrun`: not so
+ *   planted race | no-race           launches of two backends in two threads, on one buffer or on two
  */
 #include <atomic>
 #include <cstdio>
