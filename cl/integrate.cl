@@ -17,11 +17,11 @@ __kernel void prepare_bodies(__global const row *body_mass, __global const row *
                              __global const row *body_orientation, __global const row *body_velocity,
                              __global uint *counts, __global row *solver_velocity, __global row *solver_delta,
                              __global row *solver_push, __global row *solver_inertia, __global row *solver_orientation,
-                             __global uint *body_colors, __global uint *body_bid, RANGE)
+                             __global uint *body_colors, __global uint *body_bid, __global uint *body_falls, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
   prepare_bodies_item(body_mass, body_position, body_orientation, body_velocity, counts, solver_velocity, solver_delta,
-                      solver_push, solver_inertia, solver_orientation, body_colors, body_bid, i);
+                      solver_push, solver_inertia, solver_orientation, body_colors, body_bid, body_falls, i);
 }
 
 __kernel void integrate_velocities(__global const Parameters *parameters, __global const row *body_mass,
@@ -33,13 +33,13 @@ __kernel void integrate_velocities(__global const Parameters *parameters, __glob
 }
 
 __kernel void integrate_positions(__global const Parameters *parameters, __global const row *body_mass,
-                                  __global const uint *body_colors, __global row *solver_velocity,
-                                  __global row *solver_delta, __global row *solver_inertia,
-                                  __global row *solver_orientation, RANGE)
+                                  __global const uint *body_falls, __global const row *solver_push,
+                                  __global row *solver_velocity, __global row *solver_delta,
+                                  __global row *solver_inertia, __global row *solver_orientation, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  integrate_positions_item(parameters, body_mass, body_colors, solver_velocity, solver_delta, solver_inertia,
-                           solver_orientation, i);
+  integrate_positions_item(parameters, body_mass, body_falls, solver_push, solver_velocity, solver_delta,
+                           solver_inertia, solver_orientation, i);
 }
 
 __kernel void check_bodies(__global const row *body_position, __global const row *solver_velocity,

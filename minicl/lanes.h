@@ -119,6 +119,11 @@ SHARED void atomic_min_if(mask m, uint *to, uint at, natural value)
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
 }
+SHARED void atomic_clear_if(mask m, uint *to, natural at)
+{
+  for (int lane = 0; lane < width; ++lane)
+    if (m.v[lane]) atomic_min_uint(to + at.v[lane], 0u);
+}
 
 SHARED real load_real(const memory_real *from, item_index i)
 {

@@ -66,6 +66,10 @@ SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, natural value)
 {
   if (m) ATOMIC_MIN(to + at, value);
 }
+SHARED void atomic_clear_if(mask m, GLOBAL uint *to, natural at)
+{
+  if (m) ATOMIC_MIN(to + at, 0u);
+}
 
 SHARED vec4 load_row(GLOBAL const row *from, natural i)
 {

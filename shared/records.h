@@ -110,11 +110,11 @@ SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
   return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
 }
 
-/* The velocity that gravity adds over the substeps of a step, on average. first, second: rows of body_velocity. */
+/* The velocity that gravity adds over a step, on average. first, second: rows of body_velocity. */
 SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 second)
 {
   real factor = choose(first.w > R(0.0), second.w, (real)R(0.0));
-  return scale(gravity_of(parameters), factor * R(0.5) * (parameters->step + parameters->substep));
+  return scale(gravity_of(parameters), factor * R(0.5) * parameters->step);
 }
 SHARED void store_motion(GLOBAL row *velocity, natural body, motion m)
 {

@@ -1,8 +1,9 @@
 /* positions.h - moves and turns bodies over one substep.
  *
- * Translation is accumulated apart from the position, which may be far from the origin. A body that no
- * constraint touches moves on the exact parabola; others on the symplectic Euler step that the solver
- * assumes.
+ * Translation is accumulated apart from the position, which may be far from the origin. A body whose constraints are
+ * out of reach within the step, and which none pushes for all that, moves on the exact parabola; others on the
+ * symplectic Euler step that the solver assumes: at rest one would rise by half of what gravity makes it fall in a
+ * substep.
  *
  * Rotation keeps the angular momentum L, not the angular velocity, constant. With the middle one m of the inverse
  * moments d the energy of spin is a sum of parts, each of which alone is an exact rotation:
@@ -78,17 +79,28 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   return s;
 }
 
+/* Of its weight: constraints that bear less push no body. */
+#define WEIGHTLESS R(1e-3)
+
+/* by_forces: what the forces alone make of velocity times gravity (integrate_velocities). */
+SHARED mask is_left_alone(GLOBAL const Parameters *parameters, motion m, real by_forces)
+{
+  vec3 gravity = gravity_of(parameters);
+  real borne = magnitude(inner(gravity, m.linear) - by_forces);
+  return borne <= WEIGHTLESS * parameters->substep * length_squared(gravity);
+}
+
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                                     GLOBAL const uint *body_colors, GLOBAL row *solver_velocity,
-                                     GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
+                                     GLOBAL const uint *body_falls, GLOBAL const row *solver_push,
+                                     GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
                                      GLOBAL row *solver_orientation, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;
   vec4 mass = load_row(body_mass, i * 2u);
-  mask free =
-      ((load_natural(body_colors, i * 2u) | load_natural(body_colors, i * 2u + 1u)) == 0u) & (m.inverse_mass > R(0.0));
-  real ahead = choose(free, R(-0.5) * h * h * mass.w, (real)R(0.0));
+  mask falls = (load_natural(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
+               is_left_alone(parameters, m, load_row(solver_push, i * 2u).w);
+  real ahead = choose(falls, R(-0.5) * h * h * mass.w, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
 
   vec3 translation = xyz(load_row(solver_delta, i * 2u)), rotation = xyz(load_row(solver_delta, i * 2u + 1u));

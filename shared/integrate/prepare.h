@@ -21,7 +21,7 @@ SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *b
                                 GLOBAL const row *body_orientation, GLOBAL const row *body_velocity,
                                 GLOBAL uint *counts, GLOBAL row *solver_velocity, GLOBAL row *solver_delta,
                                 GLOBAL row *solver_push, GLOBAL row *solver_inertia, GLOBAL row *solver_orientation,
-                                GLOBAL uint *body_colors, GLOBAL uint *body_bid, item_index i)
+                                GLOBAL uint *body_colors, GLOBAL uint *body_bid, GLOBAL uint *body_falls, item_index i)
 {
   motion m = load_motion(body_velocity, i);
   vec4 orientation = load_row(body_orientation, i);
@@ -42,6 +42,7 @@ SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *b
   store_natural(body_colors, i * 2u + 1u, 0u);
   store_natural(body_bid, i * 2u, 0u);
   store_natural(body_bid, i * 2u + 1u, 0u);
+  store_natural(body_falls, i, 1u);
 }
 
 #endif

@@ -63,8 +63,18 @@ SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const P
   return m;
 }
 
-/* A body without a contact falls on the exact parabola, one with a contact nearly (integrate/positions.h), so contacts
- * are made no earlier for gravity: the speculative distance is enough. */
+/* How much faster than on average gravity may close a gap along a unit normal from a to b, m/s. A body falls on the
+ * exact parabola (integrate/positions.h), but a contact looks ahead along the symplectic Euler step, which in the last
+ * substep falls further by half of what gravity makes of that one; and where gravity parts two, they were nearer
+ * before. */
+SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
+{
+  real closing = inner(m.fall, normal), last_substep = parameters->substep / parameters->step;
+  return maximum(closing, R(0.0)) * (R(1.0) + last_substep * last_substep) - closing;
+}
+
+/* Bodies fall on the exact parabola (integrate/positions.h), so contacts are made no earlier for gravity: the
+ * speculative distance is enough. */
 SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   motion a = m.a;
@@ -212,10 +222,10 @@ SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real l
   return fastest * parameters->step > FAR_SHARE * least;
 }
 
-/* How fast the points of a manifold come nearer, m/s, by themselves and by arms which follow, and which of them the
- * points themselves meet within the step. */
+/* How fast the points of a manifold come nearer, m/s: on average, at most, and by arms which follow; and which of them
+ * the points themselves may meet within the step. */
 typedef struct {
-  real closing[4];
+  real closing[4], fastest[4];
   mask reached[4];
   slide_closing by_slide;
 } approaching_points;
@@ -225,12 +235,14 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
                                              pair_motion moves)
 {
   approaching_points points;
+  real beyond_mean = closing_beyond_mean(parameters, moves, m.normal);
   points.by_slide = closing_by_slide(parameters, moves, m.normal);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
-    points.closing[slot] = maximum(
-        inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset)))), R(0.0));
-    points.reached[slot] = m.kept[slot] & (points.closing[slot] * parameters->step >= m.point[slot].w);
+    real closing = inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset))));
+    points.closing[slot] = maximum(closing, R(0.0));
+    points.fastest[slot] = maximum(closing + beyond_mean, R(0.0));
+    points.reached[slot] = m.kept[slot] & (points.fastest[slot] * parameters->step >= m.point[slot].w);
   }
   return points;
 }
@@ -238,7 +250,7 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
 SHARED mask reaches_point(GLOBAL const Parameters *parameters, manifold m, approaching_points points, int slot,
                           real turning)
 {
-  return m.kept[slot] & ((points.closing[slot] + turning) * parameters->step >= m.point[slot].w);
+  return m.kept[slot] & ((points.fastest[slot] + turning) * parameters->step >= m.point[slot].w);
 }
 SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves)
 {
@@ -270,9 +282,9 @@ SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold 
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
   mask ahead = has_points(m) & (gap > way.touching);
-  s.reached = ahead & ((closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).either_way) *
-                           parameters->step >
-                       gap);
+  real closing = closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).either_way +
+                 closing_beyond_mean(parameters, moves, m.normal);
+  s.reached = ahead & (closing * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
   if (any_of(s.asked & (!way.far))) {
     s.asked = s.asked & (way.far | reaches_any_point(parameters, m, offset, moves));
@@ -328,12 +340,12 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
 /* So much more than what comes nearer keeps rounding from making it touch. */
 #define CLEARLY R(1.01)
 
-/* From the moment of the impact back to the start of the step: points were as far apart again as they close until then.
- * A point that parts was not nearer before: what turns does not move on a line. Bodies that miss each other keep, of
- * the contacts at the start, those that their own motion does not reach, if they do not swing: others may push them.
- * A point into which only arms that follow would turn its plane is put clear of it, so that what others push through it
- * keeps angular momentum, though they may push the bodies as far into each other. Where there is no room for that the
- * arms do not follow.
+/* From the moment of the impact back to the start of the step: points were as far apart again as they close until then;
+ * of bodies that miss each other as they may close within the whole of it. A point that parts was not nearer before:
+ * what turns does not move on a line. Bodies that miss each other keep, of the contacts at the start, those that their
+ * own motion does not reach, if they do not swing: others may push them. A point into which only arms that follow would
+ * turn its plane is put clear of it, so that what others push through it keeps angular momentum, though they may push
+ * the bodies as far into each other. Where there is no room for that the arms do not follow.
  * offset: centre of b from that of a, at the moment of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset,
                                    pair_motion moves)
@@ -352,9 +364,11 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
   }
   mask arms_stay = turned_into & (either_way * parameters->step > met.room);
   for (int slot = 0; slot < 4; ++slot) {
-    real clear = CLEARLY * (points.closing[slot] + toward) * parameters->step;
+    real closed = choose(met.passing, points.fastest[slot] * maximum(met.time, parameters->step),
+                         points.closing[slot] * met.time);
+    real clear = CLEARLY * (points.fastest[slot] + toward) * parameters->step;
     mask unclear = turned_into & (!arms_stay) & (m.point[slot].w < clear);
-    m.point[slot].w = choose(met.at_impact, m.point[slot].w + points.closing[slot] * met.time, m.point[slot].w);
+    m.point[slot].w = choose(met.at_impact, m.point[slot].w + closed, m.point[slot].w);
     m.point[slot].w = choose(unclear, maximum(m.point[slot].w, clear), m.point[slot].w);
   }
   m.impact_time = packed_moment(choose(met.at_impact, met.time, (real)R(0.0)), arms_stay);

@@ -143,6 +143,15 @@ SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - 
  * of the bodies. */
 #define FOLLOWED_SHARE R(1.0)
 
+/* How far a gap may close within the step, m: gravity, where it parts the two, does so only later. It is counted as a
+ * contact looks ahead, along the symplectic Euler step (closing_beyond_mean of narrowphase/time_of_impact.h). speed,
+ * pull: of b against a along the normal. */
+SHARED real farthest_closed(GLOBAL const Parameters *parameters, real speed, real pull)
+{
+  real fall = R(0.5) * (parameters->step * parameters->step + parameters->substep * parameters->substep);
+  return maximum(R(0.0) - pull, R(0.0)) * fall - speed * parameters->step;
+}
+
 /* What two bodies have slid past each other moves their arms. */
 typedef struct {
   vec3 a, b;
@@ -153,6 +162,13 @@ SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
   real share = share_of_slide(motion_a, motion_b);
   arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
   return s;
+}
+
+/* A ball that cannot be pushed and spins moves its surface along itself, so its arm does not follow what slides over
+ * it: the plane of the contact would turn with it into the other body. */
+SHARED mask is_driven_ball(GLOBAL const uint *body_traits, natural body, motion m)
+{
+  return (m.inverse_mass == R(0.0)) & (shape_of(load_natural(body_traits, body)) == (natural)(uint)SHAPE_SPHERE);
 }
 
 /* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist.
@@ -216,7 +232,7 @@ SHARED void prepare_contacts_item(
     GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b, GLOBAL row *constraint_normal,
     GLOBAL row *constraint_points, GLOBAL row *constraint_center, GLOBAL row *constraint_normal_impulse,
     GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL memory_real *constraint_slop,
-    item_index i)
+    GLOBAL uint *body_falls, item_index i)
 {
   natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
@@ -227,7 +243,9 @@ SHARED void prepare_contacts_item(
    * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
   real size = size_between(body_shape, bodies.a, bodies.b);
-  mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size);
+  mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size) |
+                   is_driven_ball(body_traits, bodies.a, bodies.motion_a) |
+                   is_driven_ball(body_traits, bodies.b, bodies.motion_b);
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
@@ -245,6 +263,7 @@ SHARED void prepare_contacts_item(
   vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
 
   real impulse[4], wished[4], deepest = R(0.0);
+  mask acts = bodies.a == bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     mask used = points > (natural)k;
@@ -254,11 +273,12 @@ SHARED void prepare_contacts_item(
     deepest = choose(used, minimum(deepest, point.w), deepest);
     store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
-    wished[k] = choose(used,
-                       wished_speed(parameters, between.restitution,
-                                    inner(normal, relative_velocity(bodies, arm_a, arm_b)), pull, point.w),
-                       (real)R(-1.0));
+    real speed = inner(normal, relative_velocity(bodies, arm_a, arm_b));
+    wished[k] = choose(used, wished_speed(parameters, between.restitution, speed, pull, point.w), (real)R(-1.0));
+    acts = acts | (used & (point.w <= farthest_closed(parameters, speed, pull)));
   }
+  atomic_clear_if(acts & (bodies.motion_a.inverse_mass > R(0.0)), body_falls, bodies.a);
+  atomic_clear_if(acts & (bodies.motion_b.inverse_mass > R(0.0)), body_falls, bodies.b);
 
   friction_patch patch = patch_of(manifold_points, pair, stride, points, parameters->speculative_distance);
   vec3 center = patch.center;

@@ -7,15 +7,16 @@ using namespace tandem::physics_tests;
 
 namespace {
 
-/* A column, a sliding box and a turning ball on a block; `origin` is no multiple of anything. */
-Scene yard(const Point &origin)
+/* A column, a sliding box that falls from a height and a turning ball on a block; `origin` is no multiple of anything.
+ */
+Scene yard(const Point &origin, double height)
 {
   Scene scene = empty_scene();
   const auto at = [&](double x, double y, double z) { return Point{origin[0] + x, origin[1] + y, origin[2] + z}; };
   add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
   for (int i = 0; i < 4; ++i)
     add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0.1 * i, 0.5 + i, 0.03 * i));
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.4f), at(-8.3, 0.27, 3.1)).linear_velocity = {5, 0, 0.3f};
+  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.4f), at(-8.3, height, 3.1)).linear_velocity = {5, 0, 0.3f};
   add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(-8.7, 0.913, -3.3)).angular_velocity = {0, 2, -7};
   return scene;
 }
@@ -31,17 +32,24 @@ double farthest_apart(World &far, World &near, const Point &origin)
 
 } // namespace
 
+/* They start apart by what two 24-bit numbers lose, 4 nm at most; then speeds of 3 m/s are rounded otherwise, 0.2 um/s
+ * at a time. Where the box lands just as a substep ends, that decides in which it is braked. */
 TEST_CASE("far from the origin everything moves as at the origin", "[physics]")
 {
   for (const double distance : {1234.5678, 20000.123, 1000000.777}) {
     const Point origin{distance, -0.31 * distance, 0.7 * distance};
-    World near(yard({0, 0, 0})), far(yard(origin));
-    run(near, 120);
-    run(far, 120);
+    std::vector<double> apart;
+    for (int k = 0; k <= 20; ++k) {
+      const double height = 0.26 + 0.001 * k;
+      World near(yard({0, 0, 0}, height)), far(yard(origin, height));
+      run(near, 120);
+      run(far, 120);
+      apart.push_back(farthest_apart(far, near, origin));
+    }
+    std::sort(apart.begin(), apart.end());
     INFO(distance << " m away");
-    /* They start apart by what two 24-bit numbers lose, 4 nm at most; then speeds of 3 m/s are rounded otherwise, 0.2
-     * um/s at a time. */
-    CHECK(farthest_apart(far, near, origin) < 1e-5);
+    CHECK(apart[10] < 5e-6);
+    CHECK(apart[20] < 5e-5);
   }
 }
 
