@@ -26,19 +26,19 @@ __kernel void prepare_bodies(__global const row *body_mass, __global const row *
 
 __kernel void integrate_velocities(__global const Parameters *parameters, __global const row *body_mass,
                                    __global const row *solver_inertia, __global row *solver_velocity,
-                                   __global row *solver_push, RANGE)
+                                   __global row *solver_push, __global float *solver_unpushed, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  integrate_velocities_item(parameters, body_mass, solver_inertia, solver_velocity, solver_push, i);
+  integrate_velocities_item(parameters, body_mass, solver_inertia, solver_velocity, solver_push, solver_unpushed, i);
 }
 
 __kernel void integrate_positions(__global const Parameters *parameters, __global const row *body_mass,
-                                  __global const uint *body_falls, __global const row *solver_push,
+                                  __global const uint *body_falls, __global const float *solver_unpushed,
                                   __global row *solver_velocity, __global row *solver_delta,
                                   __global row *solver_inertia, __global row *solver_orientation, RANGE)
 {
   FOR_EACH_IN_RANGE(i)
-  integrate_positions_item(parameters, body_mass, body_falls, solver_push, solver_velocity, solver_delta,
+  integrate_positions_item(parameters, body_mass, body_falls, solver_unpushed, solver_velocity, solver_delta,
                            solver_inertia, solver_orientation, i);
 }
 

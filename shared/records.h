@@ -110,6 +110,9 @@ SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
   return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
 }
 
+/* Of its weight: constraints that bear less leave a body to fall (integrate/positions.h). */
+#define WEIGHTLESS R(1e-3)
+
 /* The velocity that gravity adds over a step, on average. first, second: rows of body_velocity. */
 SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 second)
 {

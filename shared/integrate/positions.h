@@ -79,19 +79,16 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   return s;
 }
 
-/* Of its weight: constraints that bear less push no body. */
-#define WEIGHTLESS R(1e-3)
-
-/* by_forces: what the forces alone make of velocity times gravity (integrate_velocities). */
-SHARED mask is_left_alone(GLOBAL const Parameters *parameters, motion m, real by_forces)
+/* unpushed: velocity times gravity as the forces alone make it (integrate_velocities). */
+SHARED mask is_left_alone(GLOBAL const Parameters *parameters, motion m, real unpushed)
 {
   vec3 gravity = gravity_of(parameters);
-  real borne = magnitude(inner(gravity, m.linear) - by_forces);
+  real borne = magnitude(inner(gravity, m.linear) - unpushed);
   return borne <= WEIGHTLESS * parameters->substep * length_squared(gravity);
 }
 
 SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                                     GLOBAL const uint *body_falls, GLOBAL const row *solver_push,
+                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_unpushed,
                                      GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
                                      GLOBAL row *solver_orientation, item_index i)
 {
@@ -99,7 +96,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   real h = parameters->substep;
   vec4 mass = load_row(body_mass, i * 2u);
   mask falls = (load_natural(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
-               is_left_alone(parameters, m, load_row(solver_push, i * 2u).w);
+               is_left_alone(parameters, m, load_real(solver_unpushed, i));
   real ahead = choose(falls, R(-0.5) * h * h * mass.w, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
 

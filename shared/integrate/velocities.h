@@ -5,11 +5,10 @@
 #include "shared/records.h"
 
 /* solver_push: what the constraints of the last substep pushed the body by, 0 in the first; taken here, and cleared.
- * Beside it stays what the forces alone make of the velocity along gravity, by which integrate_positions sees whether
- * constraints push. */
+ * solver_unpushed: by it integrate_positions sees whether constraints push. */
 SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
                                       GLOBAL const row *solver_inertia, GLOBAL row *solver_velocity,
-                                      GLOBAL row *solver_push, item_index i)
+                                      GLOBAL row *solver_push, GLOBAL memory_real *solver_unpushed, item_index i)
 {
   motion m = load_motion(solver_velocity, i);
   real h = parameters->substep;
@@ -21,12 +20,14 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
     m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));
   }
-  real by_forces = inner(gravity_of(parameters), m.linear);
+  real unpushed = inner(gravity_of(parameters), m.linear);
   m.linear = add_scaled(m.linear, xyz(load_row(solver_push, i * 2u)), m.inverse_mass);
   m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), xyz(load_row(solver_push, i * 2u + 1u))));
   store_motion_if(moves, solver_velocity, i, m);
-  store_row(solver_push, i * 2u, make_vec4(R(0.0), R(0.0), R(0.0), by_forces));
-  store_row(solver_push, i * 2u + 1u, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
+  store_row(solver_push, i * 2u, zero);
+  store_row(solver_push, i * 2u + 1u, zero);
+  store_real(solver_unpushed, i, unpushed);
 }
 
 #endif

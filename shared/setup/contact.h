@@ -152,6 +152,13 @@ SHARED real farthest_closed(GLOBAL const Parameters *parameters, real speed, rea
   return maximum(R(0.0) - pull, R(0.0)) * fall - speed * parameters->step;
 }
 
+/* By its normal force alone a contact bears at most the square of the cosine between normal and gravity. */
+SHARED mask bears_weight(vec3 gravity, vec3 normal)
+{
+  real along = inner(gravity, normal);
+  return along * along > WEIGHTLESS * length_squared(gravity);
+}
+
 /* What two bodies have slid past each other moves their arms. */
 typedef struct {
   vec3 a, b;
@@ -166,9 +173,9 @@ SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
 
 /* A ball that cannot be pushed and spins moves its surface along itself, so its arm does not follow what slides over
  * it: the plane of the contact would turn with it into the other body. */
-SHARED mask is_driven_ball(GLOBAL const uint *body_traits, natural body, motion m)
+SHARED mask is_driven_ball(natural traits, motion m)
 {
-  return (m.inverse_mass == R(0.0)) & (shape_of(load_natural(body_traits, body)) == (natural)(uint)SHAPE_SPHERE);
+  return (m.inverse_mass == R(0.0)) & (shape_of(traits) == (natural)(uint)SHAPE_SPHERE);
 }
 
 /* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist.
@@ -243,17 +250,17 @@ SHARED void prepare_contacts_item(
    * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
   real size = size_between(body_shape, bodies.a, bodies.b);
+  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a),
+          shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
+  natural traits_a = load_natural(body_traits, shape_a), traits_b = load_natural(body_traits, shape_b);
+  surface between = surface_between(material, material_of(traits_a), material_of(traits_b));
   mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size) |
-                   is_driven_ball(body_traits, bodies.a, bodies.motion_a) |
-                   is_driven_ball(body_traits, bodies.b, bodies.motion_b);
+                   ((shape_a == bodies.a) & is_driven_ball(traits_a, bodies.motion_a)) |
+                   ((shape_b == bodies.b) & is_driven_ball(traits_b, bodies.motion_b));
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
   natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
-  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a),
-          shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
-  surface between = surface_between(material, material_of(load_natural(body_traits, shape_a)),
-                                    material_of(load_natural(body_traits, shape_b)));
   real pull = relative_pull(parameters, body_mass, bodies, normal);
 
   natural cached = load_natural(pair_cached, pair);
@@ -263,7 +270,7 @@ SHARED void prepare_contacts_item(
   vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
 
   real impulse[4], wished[4], deepest = R(0.0);
-  mask acts = bodies.a == bodies.b; /* none yet */
+  mask near = bodies.a == bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k) {
     vec4 point = load_row(manifold_points, stride * k + pair);
     mask used = points > (natural)k;
@@ -275,10 +282,11 @@ SHARED void prepare_contacts_item(
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
     real speed = inner(normal, relative_velocity(bodies, arm_a, arm_b));
     wished[k] = choose(used, wished_speed(parameters, between.restitution, speed, pull, point.w), (real)R(-1.0));
-    acts = acts | (used & (point.w <= farthest_closed(parameters, speed, pull)));
+    near = near | (used & (point.w <= farthest_closed(parameters, speed, pull)));
   }
-  atomic_clear_if(acts & (bodies.motion_a.inverse_mass > R(0.0)), body_falls, bodies.a);
-  atomic_clear_if(acts & (bodies.motion_b.inverse_mass > R(0.0)), body_falls, bodies.b);
+  near = near & bears_weight(gravity_of(parameters), normal);
+  atomic_clear_if(near & (bodies.motion_a.inverse_mass > R(0.0)), body_falls, bodies.a);
+  atomic_clear_if(near & (bodies.motion_b.inverse_mass > R(0.0)), body_falls, bodies.b);
 
   friction_patch patch = patch_of(manifold_points, pair, stride, points, parameters->speculative_distance);
   vec3 center = patch.center;

@@ -184,3 +184,25 @@ TEST_CASE("what hits without friction feels no spin: balls that graze balls whic
   }
   CHECK(turned_aside > 150);
 }
+
+/* A wall without friction bears nothing: what slides down it keeps its distance from what falls freely below it. */
+TEST_CASE("what misses goes on: boxes that fall below one another, one of them along a wall, in every solver",
+          "[physics]")
+{
+  const std::string solver = GENERATE(from_range(solver_names()));
+  for (double gap : {0.0001, 0.001, 0.005}) {
+    Scene scene = empty_scene();
+    scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
+    add_body(scene, Motion::fixed, box_shape(1, 200, 1), {-1.5, 0, 0});
+    add_solid(scene, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0});
+    add_solid(scene, box_shape(0.4f, 0.5f, 0.4f), {0.05, -1 - gap, 0});
+    World world(scene, settings_for(solver));
+    for (int step = 0; step < 60; ++step) {
+      world.step();
+      const std::vector<BodyState> states = world.bodies();
+      CAPTURE(solver, gap, step);
+      CHECK(states[1].position[1] - states[2].position[1] - 1 == Approx(gap).margin(1e-5));
+    }
+    CHECK(world.bodies()[2].linear_velocity[1] == Approx(-10).epsilon(1e-5));
+  }
+}
