@@ -11,6 +11,7 @@
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
 
+#include "host/base/printable.h"
 #include "host/io/input_file.h"
 
 namespace tandem {
@@ -58,8 +59,10 @@ private:
     const char *last = std::find_if(first, end, [](char c) { return std::isspace(static_cast<unsigned char>(c)); });
     T value{};
     const auto [stop, error] = std::from_chars(first, last, value);
-    if (error != std::errc{} || stop != last)
-      refuse(fmt::format("{} should be {}, not '{}'", what, kind, std::string(first, std::min(last, first + 40))));
+    const std::string word = printable(std::string(first, std::min(last, first + 40)));
+    if (error == std::errc::result_out_of_range && stop == last)
+      refuse(fmt::format("{} is '{}', too large or too small for 64 bits", what, word));
+    if (error != std::errc{} || stop != last) refuse(fmt::format("{} should be {}, not '{}'", what, kind, word));
     at_ += static_cast<size_t>(last - first);
     return value;
   }

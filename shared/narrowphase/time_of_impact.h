@@ -73,8 +73,8 @@ SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion
   return maximum(closing, R(0.0)) * (R(1.0) + last_substep * last_substep) - closing;
 }
 
-/* Bodies fall on the exact parabola (integrate/positions.h), so contacts are made no earlier for gravity: the
- * speculative distance is enough. */
+/* Bodies that no contact bears fall on the exact parabola (integrate/positions.h), others nearly, so contacts are made
+ * no earlier for gravity: the speculative distance is enough. */
 SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   motion a = m.a;

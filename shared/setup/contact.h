@@ -171,7 +171,7 @@ SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
   return s;
 }
 
-/* A ball that cannot be pushed and spins moves its surface along itself, so its arm does not follow what slides over
+/* A ball that cannot be pushed moves its surface along itself, if it spins, so its arm does not follow what slides over
  * it: the plane of the contact would turn with it into the other body. */
 SHARED mask is_driven_ball(natural traits, motion m)
 {

@@ -45,6 +45,12 @@ std::string with_what(const Outcome &outcome)
                      failed.what);
 }
 
+std::string ratio_text(const CheckResult &check)
+{
+  if (!std::isnan(check.ratio())) return fmt::format("{:.3g}", check.ratio());
+  return check.passed ? "exact" : "none";
+}
+
 std::string bounds_text(const Results &results)
 {
   std::string text;
@@ -52,9 +58,8 @@ std::string bounds_text(const Results &results)
     for (const CheckResult &check : result.outcome.checks)
       text += fmt::format("{:28} {:10} {:36} {:>12} of {:>12}  ratio {:<9} {}{}\n", result.outcome.name,
                           result.outcome.solver, check.what, with_unit(check.figure, check.unit),
-                          with_unit(check.bound.value, check.unit),
-                          std::isnan(check.ratio()) ? "exact" : fmt::format("{:.3g}", check.ratio()),
-                          check.loose() ? "LOOSE " : "", check.passed ? check.bound.derivation : "FAIL");
+                          with_unit(check.bound.value, check.unit), ratio_text(check), check.loose() ? "LOOSE " : "",
+                          check.passed ? check.bound.derivation : "FAIL");
   return text;
 }
 

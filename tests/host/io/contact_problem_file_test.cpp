@@ -87,6 +87,9 @@ TEST_CASE("contact problem file: anything wrong is refused with its line")
              ContainsSubstring("line 6: the number of columns of W is 4, it must be 3"));
   CHECK_THAT(complaint(with(dense, "5", "nan")), ContainsSubstring("line 8: W[1][1] is not finite"));
   CHECK_THAT(complaint(with(dense, "5", "five")), ContainsSubstring("line 8: W[1][1] should be a number, not 'five'"));
+  CHECK_THAT(complaint(with(dense, "5", "1e-400")), ContainsSubstring("is '1e-400', too large or too small for 64"));
+  CHECK_THAT(complaint(with(dense, "5", std::string("5\0x", 3))), ContainsSubstring("should be a number, not '5"));
+  CHECK_THAT(complaint(with(dense, "5", std::string("5\0x", 3))), ContainsSubstring("x'"));
   CHECK_THAT(complaint(with(dense, "5", "0")), ContainsSubstring("W[1][1] must be positive"));
   CHECK_THAT(complaint(with(dense, "0.5\n", "")),
              ContainsSubstring("line 11: the file ends where the friction coefficient of contact 0"));
