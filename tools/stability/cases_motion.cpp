@@ -65,7 +65,7 @@ Trial elastic_trial(Length length)
   add_body(trial.scene, Motion::dynamic, sphere_shape(0.25f), {0, 2.25f, 0}).material = add_material(trial.scene, 0, 1);
   const double energy = g * 2;
   const Figure gain = energy_gain(); /* the centre lies a radius above the ground */
-  trial.checks.push_back(check("drift of energy", "", 5e-3,
+  trial.checks.push_back(check("drift of energy", "", 1.5e-5,
                                [gain, energy](const Moment &moment) { return std::abs(gain(moment)) / energy; }));
   return trial;
 }
