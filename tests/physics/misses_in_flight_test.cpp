@@ -8,6 +8,7 @@
  *       clearance`--'
  */
 #include "tests/catch.h"
+#include "tests/physics/free_fall.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -115,24 +116,6 @@ Scene thrown(uint64_t seed, double step, const Throws &throws)
   return scene;
 }
 
-/* The largest share of its speed by which a body's velocity is not what gravity alone makes of it. */
-double farthest_from_free_fall(const Scene &scene, Settings settings, double step)
-{
-  settings.step = float(step);
-  World world(scene, settings, {"tbb", {}});
-  run(world, steps);
-  const std::vector<BodyState> states = world.bodies();
-  double farthest = 0;
-  for (size_t i = 0; i < states.size(); ++i) {
-    if (scene.bodies[i].motion != Motion::dynamic) continue;
-    const Vector before = vector_of(scene.bodies[i].linear_velocity),
-                 fallen = before + steps * step * vector_of(scene.gravity);
-    farthest =
-        std::max(farthest, (vector_of(states[i].linear_velocity) - fallen).norm() / std::max(before.norm(), 1.0));
-  }
-  return farthest;
-}
-
 } // namespace
 
 TEST_CASE("what misses goes on: in flight past what stands, spins or falls beside it, in every solver", "[physics]")
@@ -141,7 +124,7 @@ TEST_CASE("what misses goes on: in flight past what stands, spins or falls besid
   for (double step : {1.0 / 60, 1.0 / 120})
     for (const Throws &throws : {Throws{}, Throws{true}, Throws{false, 30}}) {
       CAPTURE(solver, step, throws.is_free, throws.spin);
-      CHECK(farthest_from_free_fall(thrown(11, step, throws), settings_for(solver), step) < 5e-4);
+      CHECK(farthest_from_free_fall(thrown(11, step, throws), settings_for(solver), step, steps) < 5e-4);
     }
 }
 
@@ -150,7 +133,7 @@ TEST_CASE("what misses goes on: in flight in steps of a thirtieth of a second, b
 {
   const std::string solver = GENERATE(from_range(solver_names()));
   CAPTURE(solver);
-  CHECK(farthest_from_free_fall(thrown(12, 1.0 / 30, {false, 0, 0.002}), settings_for(solver), 1.0 / 30) < 5e-4);
+  CHECK(farthest_from_free_fall(thrown(12, 1.0 / 30, {false, 0, 0.002}), settings_for(solver), 1.0 / 30, steps) < 5e-4);
 }
 
 TEST_CASE("what hits without friction feels no spin: balls that graze balls which something turns", "[physics]")

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tests/catch.h"
+#include "tests/physics/free_fall.h"
 #include "tests/physics/solids.h"
 
 using namespace tandem;
@@ -224,24 +225,6 @@ Scene falls(uint64_t seed, double step)
     body.linear_velocity = {0, float(-speed), 0};
   }
   return scene;
-}
-
-/* Of all bodies that move freely: how far a velocity is, in parts of itself, from what gravity alone makes of it. */
-double farthest_from_free_fall(const Scene &scene, Settings settings, double step, int steps)
-{
-  settings.step = float(step);
-  World world(scene, settings, {"tbb", {}});
-  run(world, steps);
-  const std::vector<BodyState> after = world.bodies();
-  double farthest = 0;
-  for (size_t i = 0; i < after.size(); ++i) {
-    const Body &body = scene.bodies[i];
-    if (body.motion != Motion::dynamic) continue;
-    const Vector expected = vector_of(body.linear_velocity) + steps * step * vector_of(scene.gravity);
-    const double scale = std::max(expected.norm(), 0.1);
-    farthest = std::max(farthest, (vector_of(after[i].linear_velocity) - expected).norm() / scale);
-  }
-  return farthest;
 }
 
 /* A body spins beside another that is free, too, and slides past it: the sphere around the one never touches the
