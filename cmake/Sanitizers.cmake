@@ -1,9 +1,9 @@
 # What a sanitizer tree (presets asan and tsan) watches, and what it need not compile.
 #
-# The library is instrumented whole, with the loaders; of the command what a hostile input passes through. Other tools
-# and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a tree without sanitizers, of the same
-# source and compiler, and take no time. The library is linked before them, so that of inline functions in both, its are
-# taken.
+# The library is instrumented whole, with the loaders; of the command what a hostile input passes through, where addresses
+# are watched. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a tree without
+# sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that of inline
+# functions in both, its are taken.
 set(TANDEM_OBJECTS_FROM "" CACHE PATH
   "Build folder without sanitizers, whose tools and tests are linked, not compiled again")
 
@@ -20,14 +20,26 @@ if(TANDEM_SANITIZE MATCHES address)
     set_property(SOURCE ${same_kernels} APPEND PROPERTY COMPILE_OPTIONS
       "--param=asan-stack=0;--param=asan-instrumentation-with-call-threshold=0")
   endif()
-elseif(TANDEM_SANITIZE MATCHES thread) # threads share the rows of lanes4.cpp as they do those of the wider two
-  set_property(SOURCE minicl/lanes8.cpp minicl/lanes16.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
+elseif(TANDEM_SANITIZE MATCHES thread)
+  # Threads share the rows of lanes4.cpp and scalar.cpp as they do those of the others.
+  set(unwatched_kernels minicl/lanes8.cpp minicl/lanes16.cpp minicl/backward.cpp minicl/reference.cpp)
+  if(TANDEM_OBJECTS_FROM)
+    get_target_property(library_sources tandem SOURCES)
+    list(FILTER library_sources EXCLUDE REGEX "minicl/(lanes8|lanes16|backward|reference)[.]cpp$")
+    set_property(TARGET tandem PROPERTY SOURCES ${library_sources})
+    target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>) # what is missing, and no more
+  else()
+    set_property(SOURCE ${unwatched_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
+  endif()
 endif()
 # Eigen's solver: as long
 set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
 
-set(watched_tools tools/contact_problem.cpp tools/diff.cpp tools/image.cpp tools/output.cpp tools/plan.cpp
-  tools/run.cpp tools/scene_options.cpp)
+set(watched_tools tools/output.cpp)
+if(TANDEM_SANITIZE MATCHES address) # the command has one thread of its own
+  list(APPEND watched_tools tools/contact_problem.cpp tools/diff.cpp tools/image.cpp tools/plan.cpp tools/run.cpp
+    tools/scene_options.cpp)
+endif()
 set_source_files_properties(${watched_tools} tools/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 set(borrowed_tools)
 if(TANDEM_OBJECTS_FROM)

@@ -5,9 +5,11 @@
  * world that goes on with the bits of one that nothing ever happened to. */
 #include <array>
 #include <atomic>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -20,6 +22,15 @@ using namespace tandem;
 using namespace tandem::fault_scenes;
 
 namespace {
+
+/* Of the places that are struck elsewhere every `share`-th is struck here: a sanitizer takes thirty times as long, and
+ * sees the same code at each (tests/sanitizers/tests.cmake). */
+uint64_t share_of_faults()
+{
+  const char *text = std::getenv("TANDEM_TEST_SHARE_OF_FAULTS");
+  return text ? std::stoull(text) : 1;
+}
+const uint64_t share = share_of_faults();
 
 /* Which of the places fails that are asked, counted from 0; `once`: that one alone, else all from there on. only:
  * places of one kind. */
@@ -90,7 +101,7 @@ void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const
 {
   const std::vector<uint64_t> undisturbed = hashes_of(scene, settings, placement, at + 3);
   uint64_t failures = 0;
-  for (uint64_t nth = 0;; nth += stride) {
+  for (uint64_t nth = 0;; nth += stride * share) {
     CAPTURE(scene.name, settings.solver, settings.broadphase, placement.on, at, nth, once);
     World world(scene, settings, placement);
     for (int k = 0; k < at; ++k) world.step();
@@ -134,7 +145,7 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
   };
   uint64_t failures = 0;
   for (const auto &[name, call] : calls)
-    for (uint64_t nth = 0;; nth += stride) {
+    for (uint64_t nth = 0;; nth += stride * share) {
       CAPTURE(scene.name, placement.on, name, nth);
       World world(scene, settings, placement);
       world.step();
@@ -158,7 +169,7 @@ void fail_everywhere_in_creation(const Scene &scene, const Settings &settings, c
 {
   const uint64_t expected = hashes_of(scene, settings, placement, 2).back();
   uint64_t failures = 0;
-  for (uint64_t nth = 0;; nth += stride) {
+  for (uint64_t nth = 0;; nth += stride * share) {
     CAPTURE(scene.name, placement.on, nth);
     const Outcome outcome = attempt(nth, true, [&] { World world(scene, settings, placement); });
     if (!outcome.struck) break;
