@@ -1,7 +1,11 @@
-/* solve.cl - entries: the contact solvers, a file for each family of rows. */
-#include "cl/solve/contact.cl"
-#include "cl/solve/mass_split.cl"
-#include "cl/solve/pgs.cl"
-#include "cl/solve/xpbd.cl"
-#include "cl/solve/avbd.cl"
-#include "cl/solve/rolling.cl"
+/* solve.cl - entries: the contact solvers. */
+#include "cl/entry.h"
+#include "shared/solve/contact.h"
+#include "shared/solve/mass_split_sum.h"
+#include "shared/solve/pgs.h"
+#include "shared/solve/nncg.h"
+#include "shared/solve/xpbd_tail.h"
+#include "shared/solve/avbd_bodies.h"
+#include "shared/solve/rolling_tail.h"
+
+ENTRIES(solve)

@@ -1,27 +1,42 @@
 /* kernel_range.h - turns a shared function of one item into a function over a range.
  *
- * The argument types are read from the shared function itself, so kernels.def needs none. Included
+ * The argument types are read from the shared function itself, so the tables need none. Included
  * inside the namespace of a width, after its shared headers.
  */
 #pragma once
 
-template <class T> static inline T argument_as(void *pointer)
+/* A buffer, a value of 4 bytes, or a struct of buffers (shared/argument_groups.h), which takes one argument for each. */
+template <class T> static inline T argument_as(void *const *arguments)
 {
-  if constexpr (std::is_pointer_v<T>) return static_cast<T>(pointer);
-  else return *static_cast<const T *>(pointer);
+  if constexpr (std::is_pointer_v<T>) return static_cast<T>(arguments[0]);
+  else if constexpr (!std::is_class_v<T>) return *static_cast<const T *>(arguments[0]);
+  else {
+    T group;
+    __builtin_memcpy(&group, arguments, sizeof group);
+    return group;
+  }
 }
+
+template <class T> static constexpr size_t arguments_of = std::is_class_v<T> ? sizeof(T) / sizeof(void *) : 1;
 
 template <class T> struct Signature;
 template <class... Arguments> struct Signature<void (*)(Arguments...)> {
   static constexpr size_t count = sizeof...(Arguments);
   template <size_t k> using type = std::tuple_element_t<k, std::tuple<Arguments...>>;
+  static constexpr size_t place_of(size_t k)
+  {
+    const size_t sizes[] = {arguments_of<Arguments>...};
+    size_t place = 0;
+    for (size_t i = 0; i < k; ++i) place += sizes[i];
+    return place;
+  }
 };
 
 template <auto function, class Body, size_t... k>
 static inline void with_arguments(void *const *arguments, Body body, std::index_sequence<k...>)
 {
   using Types = Signature<decltype(function)>;
-  body(argument_as<typename Types::template type<k>>(arguments[k])...);
+  body(argument_as<typename Types::template type<k>>(arguments + Types::place_of(k))...);
 }
 
 /* The last parameter of an item function is the item. */

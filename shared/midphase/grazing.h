@@ -21,8 +21,7 @@
 
 /* Buffers of manifolds, and what counts as thin. */
 typedef struct {
-  GLOBAL const row *normals, *points;
-  GLOBAL const uint *counts_of_points;
+  read_manifolds manifolds;
   uint stride;
   real thickness;
 } manifold_list;
@@ -30,51 +29,48 @@ typedef struct {
 /* All points of manifold i lie near the plane of manifold j. */
 SHARED mask lies_in_plane_of(const manifold_list *list, uint i, uint j)
 {
-  vec3 normal = xyz(load_row(list->normals, j)), origin = xyz(load_row(list->points, j));
-  for (uint k = 0u; k < list->counts_of_points[i]; ++k)
-    if (magnitude(inner(subtract(xyz(load_row(list->points, list->stride * k + i)), origin), normal)) > list->thickness)
+  vec3 normal = xyz(load_row(list->manifolds.normal, j)), origin = xyz(load_row(list->manifolds.points, j));
+  for (uint k = 0u; k < list->manifolds.count[i]; ++k)
+    if (magnitude(inner(subtract(xyz(load_row(list->manifolds.points, list->stride * k + i)), origin), normal)) >
+        list->thickness)
       return 0;
   return 1;
 }
 
 SHARED mask presses(const manifold_list *list, uint j)
 {
-  for (uint k = 0u; k < list->counts_of_points[j]; ++k)
-    if (load_row(list->points, list->stride * k + j).w < list->thickness) return 1;
+  for (uint k = 0u; k < list->manifolds.count[j]; ++k)
+    if (load_row(list->manifolds.points, list->stride * k + j).w < list->thickness) return 1;
   return 0;
 }
 
 /* Of two that explain each other the earlier one stays. */
 SHARED mask explained_by(const manifold_list *list, uint i, uint j)
 {
-  if (j == i || list->counts_of_points[j] == 0u) return 0;
-  if (inner(xyz(load_row(list->normals, i)), xyz(load_row(list->normals, j))) > ACROSS) return 0;
+  if (j == i || list->manifolds.count[j] == 0u) return 0;
+  if (inner(xyz(load_row(list->manifolds.normal, i)), xyz(load_row(list->manifolds.normal, j))) > ACROSS) return 0;
   if (!presses(list, j) || !lies_in_plane_of(list, i, j)) return 0;
   return j < i || !presses(list, i) || !lies_in_plane_of(list, j, i);
 }
 
-SHARED void find_grazing_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                              GLOBAL const row *shapes, GLOBAL const row *normals, GLOBAL const row *points,
-                              GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *grazing,
-                              uint i)
+SHARED void find_grazing_item(GLOBAL const Parameters *parameters, read_pairs pairs, GLOBAL const row *shapes,
+                              read_manifolds manifolds, GLOBAL const uint *counts, GLOBAL uint *grazing, uint i)
 {
   grazing[i] = 0u;
-  if (counts_of_points[i] == 0u) return;
-  real slop = minimum(parameters->slop, parameters->slop_share * size_between(shapes, pair_a[i], pair_b[i]));
-  manifold_list list = {normals, points, counts_of_points, counts[CAPACITY_PAIRS], slop * GRAZING_SHARE};
-  for (uint j = i; j > 0u && same_bodies(pair_a, pair_b, i, j - 1u); --j)
+  if (manifolds.count[i] == 0u) return;
+  real slop = minimum(parameters->slop, parameters->slop_share * size_between(shapes, pairs.a[i], pairs.b[i]));
+  manifold_list list = {manifolds, counts[CAPACITY_PAIRS], slop * GRAZING_SHARE};
+  for (uint j = i; j > 0u && same_bodies(pairs.a, pairs.b, i, j - 1u); --j)
     if (explained_by(&list, i, j - 1u)) grazing[i] = 1u;
-  for (uint j = i + 1u; j < counts[COUNT_PAIRS] && same_bodies(pair_a, pair_b, i, j); ++j)
+  for (uint j = i + 1u; j < counts[COUNT_PAIRS] && same_bodies(pairs.a, pairs.b, i, j); ++j)
     if (explained_by(&list, i, j)) grazing[i] = 1u;
 }
 
-SHARED void drop_grazing_item(GLOBAL const uint *grazing, GLOBAL const uint *counts, GLOBAL row *normals,
-                              GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void drop_grazing_item(GLOBAL const uint *grazing, GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
   if (grazing[i] == 0u) return;
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_manifold_if(1, single_contact(none, none, R(0.0), 0), counts[CAPACITY_PAIRS], normals, points, counts_of_points,
-                    features, i);
+  store_manifold_if(1, single_contact(none, none, R(0.0), 0), counts[CAPACITY_PAIRS], manifolds, i);
 }
 
 #endif

@@ -26,15 +26,16 @@
  * behind. */
 typedef struct {
   GLOBAL const Parameters *parameters;
-  GLOBAL const uint *traits, *filters, *body_trees;
-  GLOBAL const row *shapes, *poses, *positions, *orientations, *velocities;
+  read_shapes shapes;
+  GLOBAL const uint *filters, *body_trees;
   tree_tables trees;
+  read_bodies bodies;
 } midphase_scene;
 
 /* Where the pairs go; a list of no room only counts. */
 typedef struct {
   mask writes;
-  GLOBAL uint *pair_a, *pair_b, *pair_leaf;
+  write_pairs_of_leaves pairs;
   uint at, end, found;
 } leaf_list;
 
@@ -52,13 +53,14 @@ typedef struct {
 
 SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 offset)
 {
-  quat turned = quat_from(load_row(scene->orientations, body)), own = quat_from(load_row(scene->poses, body * 4u + 1u));
+  quat turned = quat_from(load_row(scene->bodies.orientation, body)),
+       own = quat_from(load_row(scene->shapes.pose, body * 4u + 1u));
   tree_body result;
   result.body = body;
   result.tree_number = scene->body_trees[body * 2u];
   result.first_child = scene->body_trees[body * 2u + 1u];
   result.rotation = rotation_of(quat_multiply(turned, own));
-  result.center = add(offset, rotate(rotation_of(turned), xyz(load_row(scene->poses, body * 4u))));
+  result.center = add(offset, rotate(rotation_of(turned), xyz(load_row(scene->shapes.pose, body * 4u))));
   return result;
 }
 
@@ -73,19 +75,21 @@ SHARED real way_anywhere(const midphase_scene *scene, motion m)
  * manifold.h. */
 SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
 {
-  real radius_a = load_row(scene->shapes, a).w, radius_b = load_row(scene->shapes, b).w;
-  motion motion_a = load_motion(scene->velocities, a), motion_b = load_motion(scene->velocities, b);
+  real radius_a = load_row(scene->shapes.size, a).w, radius_b = load_row(scene->shapes.size, b).w;
+  motion motion_a = load_motion(scene->bodies.velocity, a), motion_b = load_motion(scene->bodies.velocity, b);
   real turn = length_of(motion_a.angular) * radius_a + length_of(motion_b.angular) * radius_b;
   real margin = scene->parameters->speculative_distance + scene->parameters->step * turn +
                 R(1e-6) * (length_of(offset) + radius_a + radius_b);
-  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) || !is_continuous(scene->traits[a] | scene->traits[b]))
+  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) ||
+      !is_continuous(scene->shapes.traits[a] | scene->shapes.traits[b]))
     return margin;
   return margin + way_anywhere(scene, motion_a) + way_anywhere(scene, motion_b);
 }
 SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
 {
-  return scale(subtract(load_motion(scene->velocities, of).linear, load_motion(scene->velocities, from).linear),
-               scene->parameters->step);
+  return scale(
+      subtract(load_motion(scene->bodies.velocity, of).linear, load_motion(scene->bodies.velocity, from).linear),
+      scene->parameters->step);
 }
 
 /* What a tree is asked for, in its axes: a box, or all below a plane. */
@@ -122,17 +126,17 @@ SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion
 SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single,
                                    real margin)
 {
-  mat3 turned = rotation_of(quat_from(load_row(scene->orientations, single)));
+  mat3 turned = rotation_of(quat_from(load_row(scene->bodies.orientation, single)));
   vec3 motion = relative_motion(scene, owner->body, single);
   tree_probe probe;
-  probe.below_plane = shape_of(scene->traits[single]) == (uint)SHAPE_HALF_SPACE;
+  probe.below_plane = shape_of(scene->shapes.traits[single]) == (uint)SHAPE_HALF_SPACE;
   probe.normal = rotate_back(owner->rotation, axis_y(turned));
   probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin +
                  maximum(inner(axis_y(turned), motion), R(0.0));
-  vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->poses, single * 4u + 2u))));
-  probe.box = swept_box(relative_rotation(owner->rotation, turned),
-                        rotate_back(owner->rotation, subtract(middle, owner->center)),
-                        xyz(load_row(scene->poses, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
+  vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->shapes.pose, single * 4u + 2u))));
+  probe.box = swept_box(
+      relative_rotation(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
+      xyz(load_row(scene->shapes.pose, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
   return probe;
 }
 
@@ -154,12 +158,12 @@ SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint bod
   uint place = saturated_sum(list->at, list->found);
   list->found = saturated_sum(list->found, 1u); /* two meshes may have more pairs of triangles than there are numbers */
   if (!list->writes || place >= list->end) return;
-  list->pair_a[place] = body_a;
-  list->pair_b[place] = body_b;
-  list->pair_leaf[place * 4u] = a.shape;
-  list->pair_leaf[place * 4u + 1u] = a.triangle;
-  list->pair_leaf[place * 4u + 2u] = b.shape;
-  list->pair_leaf[place * 4u + 3u] = b.triangle;
+  list->pairs.a[place] = body_a;
+  list->pairs.b[place] = body_b;
+  list->pairs.leaf[place * 4u] = a.shape;
+  list->pairs.leaf[place * 4u + 1u] = a.triangle;
+  list->pairs.leaf[place * 4u + 2u] = b.shape;
+  list->pairs.leaf[place * 4u + 3u] = b.triangle;
 }
 
 /* A pair of a body with a tree and one without. tree_first: the tree is that of the pair's first body. */
@@ -184,7 +188,7 @@ SHARED tree_pair load_tree_pair(const midphase_scene *scene, uint a, uint b)
 
 SHARED tree_probe probe_of_pair(const midphase_scene *scene, uint a, uint b, const tree_pair *pair)
 {
-  vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 offset = offset_between(scene->bodies.position, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
   tree_body owner = load_tree_body(scene, pair->owner, none);
   return probe_for_single(scene, &owner, pair->single, pair->tree_first ? offset : negate(offset),
                           midphase_margin(scene, a, b, offset));
@@ -266,7 +270,7 @@ SHARED void find_without_walk(leaf_list *list, const midphase_scene *scene, uint
     add_leaf_pair(list, scene, a, single_leaf(a), b, single_leaf(b));
     return;
   }
-  vec3 offset = offset_between(scene->positions, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  vec3 offset = offset_between(scene->bodies.position, a, b), none = make_vec3(R(0.0), R(0.0), R(0.0));
   tree_body first = load_tree_body(scene, a, none), second = load_tree_body(scene, b, offset);
   walk_two_trees(list, scene, &first, &second, midphase_margin(scene, a, b, offset));
 }
@@ -279,18 +283,13 @@ SHARED void find_leaf_pairs(leaf_list *list, const midphase_scene *scene, uint a
 
 /* --- kernels ------------------------------------------------------------------------------------------------ */
 
-SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                                  GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *filters,
-                                  GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
-                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
-                                  GLOBAL const uint *leaves, GLOBAL const row *positions,
-                                  GLOBAL const row *orientations, GLOBAL const row *velocities, GLOBAL uint *leaf_start,
-                                  uint i)
+SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
+                                  GLOBAL const uint *filters, read_trees trees, read_bodies bodies,
+                                  GLOBAL uint *leaf_start, uint i)
 {
-  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
-                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
-  leaf_list list = {0, 0, 0, 0, 0u, 0u, 0u};
-  find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
+  midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
+  leaf_list list = {0, {0, 0, 0}, 0u, 0u, 0u};
+  find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
   leaf_start[i] = list.found;
 }
 
@@ -305,19 +304,14 @@ SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint
   if (needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
 }
 
-SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                                  GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const uint *filters,
-                                  GLOBAL const row *shapes, GLOBAL const row *poses, GLOBAL const uint *body_trees,
-                                  GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
-                                  GLOBAL const uint *leaves, GLOBAL const row *positions,
-                                  GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a,
-                                  GLOBAL uint *leaf_pair_b, GLOBAL uint *pair_leaf, uint i)
+SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
+                                  GLOBAL const uint *filters, read_trees trees, read_bodies bodies,
+                                  GLOBAL const uint *leaf_start, GLOBAL const uint *counts, write_pairs_of_leaves found,
+                                  uint i)
 {
-  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
-                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
-  leaf_list list = {1, leaf_pair_a, leaf_pair_b, pair_leaf, leaf_start[i], counts[CAPACITY_PAIRS], 0u};
-  find_leaf_pairs(&list, &scene, pair_a[i], pair_b[i]);
+  midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
+  leaf_list list = {1, found, leaf_start[i], counts[CAPACITY_PAIRS], 0u};
+  find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
 }
 
 /* Where the pairs of each body start, now that they are pairs of leaves. */

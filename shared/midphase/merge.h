@@ -45,22 +45,21 @@ SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_lea
 }
 
 /* The first leaf of a pair of bodies goes through all of them. */
-SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a,
-                                 GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *traits,
-                                 GLOBAL const row *velocities, GLOBAL const row *normals,
-                                 GLOBAL const uint *counts_of_points, GLOBAL const uint *counts, GLOBAL uint *group,
-                                 uint i)
+SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *traits,
+                                 GLOBAL const row *velocities, read_manifolds manifolds, GLOBAL const uint *counts,
+                                 GLOBAL uint *group, uint i)
 {
-  if (i > 0u && same_bodies(pair_a, pair_b, i, i - 1u)) return;
-  vec3 approach = subtract(load_motion(velocities, pair_a[i]).linear, load_motion(velocities, pair_b[i]).linear);
+  if (i > 0u && same_bodies(pairs.a, pairs.b, i, i - 1u)) return;
+  vec3 approach = subtract(load_motion(velocities, pairs.a[i]).linear, load_motion(velocities, pairs.b[i]).linear);
   uint end = counts[COUNT_PAIRS];
-  for (uint j = i; j < end && same_bodies(pair_a, pair_b, i, j); ++j) {
+  for (uint j = i; j < end && same_bodies(pairs.a, pairs.b, i, j); ++j) {
     group[j] = j;
-    if (counts_of_points[j] == 0u) continue;
-    vec4 normal = load_row(normals, j);
+    if (manifolds.count[j] == 0u) continue;
+    vec4 normal = load_row(manifolds.normal, j);
     for (uint k = i; k < j; ++k) {
-      if (group[k] != k || counts_of_points[k] == 0u) continue;
-      if (!press_alike(parameters, load_row(normals, k), normal, approach) || !same_material(traits, pair_leaf, j, k))
+      if (group[k] != k || manifolds.count[k] == 0u) continue;
+      if (!press_alike(parameters, load_row(manifolds.normal, k), normal, approach) ||
+          !same_material(traits, pairs.leaf, j, k))
         continue;
       group[j] = k;
       break;
@@ -115,23 +114,22 @@ SHARED manifold joined_manifold(const manifold_group *group, vec4 first, real si
   return m;
 }
 
-SHARED void merge_manifolds_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes,
-                                 GLOBAL const uint *group, GLOBAL const uint *counts, GLOBAL row *normals,
-                                 GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void merge_manifolds_item(read_pairs pairs, GLOBAL const row *shapes, GLOBAL const uint *group,
+                                 GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
-  if (group[i] != i || counts_of_points[i] == 0u) return;
+  if (group[i] != i || manifolds.count[i] == 0u) return;
   uint stride = counts[CAPACITY_PAIRS], end = i + 1u, members = 0u;
-  for (; end < counts[COUNT_PAIRS] && same_bodies(pair_a, pair_b, i, end); ++end)
+  for (; end < counts[COUNT_PAIRS] && same_bodies(pairs.a, pairs.b, i, end); ++end)
     members = members + (group[end] == i ? 1u : 0u);
   if (members == 0u) return;
-  manifold_group all = {group, counts_of_points, points, stride, i, end};
-  real radius_a = load_row(shapes, pair_a[i]).w, radius_b = load_row(shapes, pair_b[i]).w;
+  manifold_group all = {group, manifolds.count, manifolds.points, stride, i, end};
+  real radius_a = load_row(shapes, pairs.a[i]).w, radius_b = load_row(shapes, pairs.b[i]).w;
   real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
-  manifold m = joined_manifold(&all, load_row(normals, i), size);
+  manifold m = joined_manifold(&all, load_row(manifolds.normal, i), size);
   manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
   for (uint j = i + 1u; j < end; ++j)
-    if (group[j] == i) store_manifold_if(1, nothing, stride, normals, points, counts_of_points, features, j);
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+    if (group[j] == i) store_manifold_if(1, nothing, stride, manifolds, j);
+  store_manifold_if(1, m, stride, manifolds, i);
 }
 
 #endif

@@ -55,11 +55,12 @@
 #define NODES_AT (WANTED_AT + WINDOW)
 #define SUBTREE_LOCAL_WORDS (NODES_AT + 4u * SUBTREE_NODES * WINDOW)
 
-/* What a group works on: pairs first .. first + pairs - 1 of bodies. */
+/* What a group works on: pairs first .. first + count - 1 of bodies. */
 typedef struct {
   midphase_scene scene;
-  GLOBAL const uint *subtrees, *pair_a, *pair_b;
-  uint first, pairs;
+  GLOBAL const uint *subtrees;
+  read_pairs pairs;
+  uint first, count;
   leaf_list list;                /* where the leaves of a pair go; at and found are those of the pair */
   GLOBAL const uint *leaf_start; /* where a list that is written starts */
 } pair_group;
@@ -82,8 +83,8 @@ SHARED uint windows_of_tree(const midphase_scene *scene, uint number)
 /* INDEX_NONE: none, or two. */
 SHARED uint asked_tree(const pair_group *group, uint k)
 {
-  if (k >= group->pairs) return INDEX_NONE;
-  uint a = group->pair_a[group->first + k], b = group->pair_b[group->first + k];
+  if (k >= group->count) return INDEX_NONE;
+  uint a = group->pairs.a[group->first + k], b = group->pairs.b[group->first + k];
   return one_has_tree(&group->scene, a, b) ? load_tree_pair(&group->scene, a, b).tree_number : INDEX_NONE;
 }
 
@@ -140,7 +141,7 @@ SHARED tree_probe load_probe(LOCAL const uint *memory, uint k)
 /* What a pair asks its tree; where there is not just one, all its leaves. */
 SHARED void prepare_pair(const pair_group *group, LOCAL uint *memory, uint k)
 {
-  uint a = group->pair_a[group->first + k], b = group->pair_b[group->first + k];
+  uint a = group->pairs.a[group->first + k], b = group->pairs.b[group->first + k];
   leaf_list list = list_of_pair(group, k, 0u);
   if (memory[ASKED_AT + k] == INDEX_NONE) find_without_walk(&list, &group->scene, a, b);
   else {
@@ -240,7 +241,7 @@ SHARED void walk_window(const pair_group *group, LOCAL uint *memory, uint k)
   uint hits = memory[HITS_AT + k];
   if (hits == 0u) return;
   leaf_list list = list_of_pair(group, k, memory[FOUND_AT + k]);
-  tree_pair pair = load_tree_pair(&group->scene, group->pair_a[group->first + k], group->pair_b[group->first + k]);
+  tree_pair pair = load_tree_pair(&group->scene, group->pairs.a[group->first + k], group->pairs.b[group->first + k]);
   tree_probe probe = load_probe(memory, k);
   tree t = load_tree(group->scene.trees, pair.tree_number);
   for (uint slot = 0u; slot < WINDOW; ++slot)
@@ -256,7 +257,7 @@ SHARED void find_leaf_pairs_of_group(const pair_group *group, LOCAL uint *memory
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[ASKED_AT + k] = asked_tree(group, k);
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[ROUNDS_AT + k] = rounds_of_pair(&group->scene, memory, k);
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[LAST_ROUND_AT + k] = rounds_up_to_pair(memory, k);
-  FOR_EACH_ITEM(k, group->pairs) prepare_pair(group, memory, k);
+  FOR_EACH_ITEM(k, group->count) prepare_pair(group, memory, k);
   FOR_EACH_ITEM(k, GROUP_PAIRS)
   if (memory[ROUNDS_AT + k] > 0u) store_box(memory, REACH_AT, GROUP_PAIRS, k, reach_of_tree(memory, k));
   const uint rounds = memory[LAST_ROUND_AT + GROUP_PAIRS - 1u];
@@ -270,38 +271,31 @@ SHARED void find_leaf_pairs_of_group(const pair_group *group, LOCAL uint *memory
 
 /* --- kernels ------------------------------------------------------------------------------------------------- */
 
-SHARED void count_leaf_pairs_by_subtree_group(
-    GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-    GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses,
-    GLOBAL const uint *body_trees, GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
-    GLOBAL const uint *leaves, GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
-    GLOBAL const row *velocities, GLOBAL const uint *counts, GLOBAL uint *leaf_start, LOCAL uint *local_memory,
-    uint group)
+SHARED void count_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
+                                              GLOBAL const uint *filters, read_trees trees, GLOBAL const uint *subtrees,
+                                              read_bodies bodies, GLOBAL const uint *counts, GLOBAL uint *leaf_start,
+                                              LOCAL uint *local_memory, uint group)
 {
-  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
-                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
-  leaf_list list = {0, 0, 0, 0, 0u, 0u, 0u};
-  const uint first = group * GROUP_PAIRS, pairs = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
-  pair_group work = {scene, subtrees, pair_a, pair_b, first, pairs, list, 0};
-  if (pairs == 0u) return;
+  midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
+  leaf_list list = {0, {0, 0, 0}, 0u, 0u, 0u};
+  const uint first = group * GROUP_PAIRS, count = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
+  pair_group work = {scene, subtrees, pairs, first, count, list, 0};
+  if (count == 0u) return;
   find_leaf_pairs_of_group(&work, local_memory);
-  FOR_EACH_ITEM(k, pairs) leaf_start[first + k] = local_memory[FOUND_AT + k];
+  FOR_EACH_ITEM(k, count) leaf_start[first + k] = local_memory[FOUND_AT + k];
 }
 
-SHARED void write_leaf_pairs_by_subtree_group(
-    GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-    GLOBAL const uint *traits, GLOBAL const uint *filters, GLOBAL const row *shapes, GLOBAL const row *poses,
-    GLOBAL const uint *body_trees, GLOBAL const uint *headers, GLOBAL const row *frames, GLOBAL const uint *nodes,
-    GLOBAL const uint *leaves, GLOBAL const uint *subtrees, GLOBAL const row *positions, GLOBAL const row *orientations,
-    GLOBAL const row *velocities, GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *leaf_pair_a,
-    GLOBAL uint *leaf_pair_b, GLOBAL uint *pair_leaf, LOCAL uint *local_memory, uint group)
+SHARED void write_leaf_pairs_by_subtree_group(GLOBAL const Parameters *parameters, read_pairs pairs, read_shapes shapes,
+                                              GLOBAL const uint *filters, read_trees trees, GLOBAL const uint *subtrees,
+                                              read_bodies bodies, GLOBAL const uint *leaf_start,
+                                              GLOBAL const uint *counts, write_pairs_of_leaves found,
+                                              LOCAL uint *local_memory, uint group)
 {
-  midphase_scene scene = {parameters, traits,    filters,      body_trees, shapes,
-                          poses,      positions, orientations, velocities, {headers, frames, nodes, leaves}};
-  leaf_list list = {1, leaf_pair_a, leaf_pair_b, pair_leaf, 0u, counts[CAPACITY_PAIRS], 0u};
-  const uint pairs = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
-  pair_group work = {scene, subtrees, pair_a, pair_b, group * GROUP_PAIRS, pairs, list, leaf_start};
-  if (pairs == 0u) return;
+  midphase_scene scene = {parameters, shapes, filters, trees.of_body, tables_of_trees(trees), bodies};
+  leaf_list list = {1, found, 0u, counts[CAPACITY_PAIRS], 0u};
+  const uint count = items_in_tile(counts[COUNT_BODY_PAIRS], GROUP_PAIRS, group);
+  pair_group work = {scene, subtrees, pairs, group * GROUP_PAIRS, count, list, leaf_start};
+  if (count == 0u) return;
   find_leaf_pairs_of_group(&work, local_memory);
 }
 

@@ -12,6 +12,7 @@
 #ifndef TANDEM_SHARED_MIDPHASE_TREE_H
 #define TANDEM_SHARED_MIDPHASE_TREE_H
 
+#include "shared/argument_groups.h"
 #include "shared/broadphase/overlap.h"
 
 /* Levels of a tree of fewer than 2^30 leaves: depth_bound of host/geometry/bvh.h. */
@@ -30,6 +31,12 @@ typedef struct {
   GLOBAL const uint
       *leaves; /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
 } tree_tables;
+
+SHARED tree_tables tables_of_trees(read_trees trees)
+{
+  tree_tables tables = {trees.header, trees.frame, trees.node, trees.leaf};
+  return tables;
+}
 
 typedef struct {
   uint first_node, nodes, first_leaf;

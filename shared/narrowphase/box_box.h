@@ -216,15 +216,15 @@ typedef struct {
   real least, rounded; /* the smallest half extent; how much of the edges counts as rounded off */
 } moving_boxes;
 
-SHARED moving_boxes load_boxes(GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
-                               GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a, natural b)
+SHARED moving_boxes load_boxes(GLOBAL const row *shapes, read_bodies bodies, GLOBAL const Parameters *parameters,
+                               natural a, natural b)
 {
   vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
   moving_boxes pair;
-  pair.moves = load_pair_motion(velocities, parameters, a, b, shape_a.w, shape_b.w);
-  pair.boxes.a = oriented_box_of(load_row(orientations, a), xyz(shape_a));
-  pair.boxes.b = oriented_box_of(load_row(orientations, b), xyz(shape_b));
-  pair.boxes.offset = pair.boxes.normal = offset_between(positions, a, b);
+  pair.moves = load_pair_motion(bodies.velocity, parameters, a, b, shape_a.w, shape_b.w);
+  pair.boxes.a = oriented_box_of(load_row(bodies.orientation, a), xyz(shape_a));
+  pair.boxes.b = oriented_box_of(load_row(bodies.orientation, b), xyz(shape_b));
+  pair.boxes.offset = pair.boxes.normal = offset_between(bodies.position, a, b);
   pair.boxes.gap = R(0.0);
   pair.boxes.code = pair.boxes.edges = 0u;
   pair.boxes.edges_lead = pair.boxes.gap > R(0.0);
@@ -257,29 +257,27 @@ SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
   return first & second;
 }
 
-SHARED void collide_box_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                 GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
-                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
+SHARED void collide_box_box_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                                 read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                 write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
   mask mine = both_boxes(traits, a, b);
   if (!any_of(mine)) return;
 
-  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  moving_boxes pair = load_boxes(shapes, bodies, parameters, a, b);
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
   box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, NEARLY_ALONG);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
 
   mask unsure = mine & may_be_followed(m, pair.way);
   if (!any_of(unsure)) return;
   /* Loaded once more, so that a device need not keep them in registers all the while. */
-  pair = load_boxes(shapes, positions, orientations, velocities, parameters, a, b);
+  pair = load_boxes(shapes, bodies, parameters, a, b);
   mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.way, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);
-  mark_to_follow_if(unsure & ahead, m, counts_of_points, i);
+  mark_to_follow_if(unsure & ahead, m, manifolds.count, i);
 }
 
 #endif

@@ -82,14 +82,11 @@ SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3
   return at;
 }
 
-SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                        GLOBAL const row *shapes, GLOBAL const row *positions,
-                                        GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                        GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
-                                        GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                                        GLOBAL uint *features, item_index i)
+SHARED void collide_box_half_space_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                                        read_bodies bodies, GLOBAL const Parameters *parameters,
+                                        GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask box_first = (shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_HALF_SPACE);
   mask mine = box_first | ((shape_a == (uint)SHAPE_HALF_SPACE) & (shape_b == (uint)SHAPE_BOX));
@@ -98,10 +95,10 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
   natural body = choose(box_first, a, b), plane = choose(box_first, b, a);
   vec4 shape = load_row(shapes, body);
   real zero = R(0.0), least = least_of(xyz(shape));
-  box_and_plane pair = {oriented_box_of(load_row(orientations, body), xyz(shape)),
-                        offset_between(positions, plane, body),
-                        axis_y(rotation_of(quat_from(load_row(orientations, plane)))), box_first};
-  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(box_first, shape.w, zero),
+  box_and_plane pair = {oriented_box_of(load_row(bodies.orientation, body), xyz(shape)),
+                        offset_between(bodies.position, plane, body),
+                        axis_y(rotation_of(quat_from(load_row(bodies.orientation, plane)))), box_first};
+  pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(box_first, shape.w, zero),
                                        choose(box_first, zero, shape.w));
   vec3 normal = choose3(box_first, negate(pair.outward), pair.outward);
   real reach = reach_of_pair(parameters, moves, normal);
@@ -119,7 +116,7 @@ SHARED void collide_box_half_space_item(GLOBAL const uint *pair_a, GLOBAL const 
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
 }
 
 #endif

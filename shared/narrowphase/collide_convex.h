@@ -81,33 +81,25 @@ enum { QUERY_OF_OTHERS = 0, QUERY_APART = 1, QUERY_NEAR = 2 };
 
 /* QUERY_APART: not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_
  * in its low byte, SUPPORT_ in the next. */
-SHARED int load_convex_query(convex_query *query, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                             GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-                             GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                             GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
-                             GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                             GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                             GLOBAL const row *orientations, GLOBAL const row *velocities,
-                             GLOBAL const Parameters *parameters, uint method, uint i)
+SHARED int load_convex_query(convex_query *query, read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                             read_bodies bodies, GLOBAL const Parameters *parameters, uint method, uint i)
 {
-  uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
+  uint a = pairs.a[i], b = pairs.b[i], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
   if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER))
     return QUERY_OF_OTHERS;
-  real around_a = load_row(shapes, a).w, around_b = load_row(shapes, b).w;
-  query->moves = load_pair_motion(velocities, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
+  real around_a = load_row(shapes.size, a).w, around_b = load_row(shapes.size, b).w;
+  query->moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
                                   choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
-  query->offset = offset_between(positions, a, b);
+  query->offset = offset_between(bodies.position, a, b);
   real farthest = around_a + around_b + query->reach;
   if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return QUERY_APART;
-  query->thickness = size_between(shapes, a, b);
-  hull_tables tables = {headers, vertices, planes,        face_starts,    corners,     edges,
-                        strips,  links,    mesh_vertices, mesh_triangles, method >> 8u};
-  query->first = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
-                             part_of_pair(parameters, pair_leaf, a, i, 0u));
-  query->second = load_convex(shapes, convexes, poses, orientations, tables, query->offset,
-                              part_of_pair(parameters, pair_leaf, b, i, 1u));
+  query->thickness = size_between(shapes.size, a, b);
+  hull_tables tables = tables_of(surfaces, method >> 8u);
+  query->first = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables,
+                             make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pairs.leaf, a, i, 0u));
+  query->second = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables, query->offset,
+                              part_of_pair(parameters, pairs.leaf, b, i, 1u));
   return QUERY_NEAR;
 }
 
@@ -157,58 +149,42 @@ SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *qu
 }
 
 SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride,
-                        GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features,
-                        uint i)
+                        write_manifolds manifolds, uint i)
 {
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
-  mark_to_follow_if(is_ahead(parameters, query, m), m, counts_of_points, i);
+  store_manifold_if(1, m, stride, manifolds, i);
+  mark_to_follow_if(is_ahead(parameters, query, m), m, manifolds.count, i);
 }
 
-SHARED void collide_convex_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                                GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                                GLOBAL const row *positions, GLOBAL const row *orientations,
-                                GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
+SHARED void collide_convex_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
+                                GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                write_manifolds manifolds, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return; /* nothing then is left for a compiler of devices to do */
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
-                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
-                               positions, orientations, velocities, parameters, method, i);
-  if (near == QUERY_APART) store_no_manifold(stride, normals, points, counts_of_points, features, i);
+  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
+  if (near == QUERY_APART) store_no_manifold(stride, manifolds, i);
   if (near != QUERY_NEAR) return;
-  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, normals, points,
-              counts_of_points, features, i);
+  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, manifolds, i);
 }
 
-SHARED void collide_convex_half_space_item(
-    GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits, GLOBAL const row *shapes,
-    GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-    GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-    GLOBAL const uint *mesh_triangles, GLOBAL const row *positions, GLOBAL const row *orientations,
-    GLOBAL const row *velocities, GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
-    GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void collide_convex_half_space_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                           read_bodies bodies, GLOBAL const Parameters *parameters,
+                                           GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
-  uint a = pair_a[i], b = pair_b[i], shape_a = shape_of(traits[a]), shape_b = shape_of(traits[b]);
+  uint a = pairs.a[i], b = pairs.b[i], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
   if (!HAS_FEATURE(parameters, FEATURE_CONVEX_HALF_SPACE)) return;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
-  hull_tables tables = {headers, vertices,      planes,         face_starts,        corners, edges, strips,
-                        links,   mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
-  convex shape = load_convex(shapes, convexes, poses, orientations, tables, make_vec3(R(0.0), R(0.0), R(0.0)),
-                             part_of_pair(parameters, pair_leaf, body, i, body_first ? 0u : 1u));
-  vec3 up = axis_y(rotation_of(quat_from(load_row(orientations, plane)))),
-       to_plane = offset_between(positions, body, plane);
-  real radius = load_row(shapes, body).w, height = inner(up, to_plane), least = least_size(&shape);
-  pair_motion moves = load_pair_motion(velocities, parameters, body, plane, radius, R(0.0));
+  hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
+  convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables,
+                             make_vec3(R(0.0), R(0.0), R(0.0)),
+                             part_of_pair(parameters, pairs.leaf, body, i, body_first ? 0u : 1u));
+  vec3 up = axis_y(rotation_of(quat_from(load_row(bodies.orientation, plane)))),
+       to_plane = offset_between(bodies.position, body, plane);
+  real radius = load_row(shapes.size, body).w, height = inner(up, to_plane), least = least_size(&shape);
+  pair_motion moves = load_pair_motion(bodies.velocity, parameters, body, plane, radius, R(0.0));
   real reach = reach_of_pair(parameters, moves, negate(up));
   manifold m = convex_on_half_space(&shape, up, height, reach);
 
@@ -226,7 +202,7 @@ SHARED void collide_convex_half_space_item(
     for (int slot = 0; slot < 4; ++slot)
       m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
-  store_manifold_if(1, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(1, m, counts[CAPACITY_PAIRS], manifolds, i);
 }
 
 #endif

@@ -95,17 +95,15 @@ SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const mov
   return m;
 }
 
-SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *shapes,
-                                 GLOBAL const row *positions, GLOBAL const row *orientations,
-                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, uint i)
+SHARED void follow_pair_of_boxes(read_pairs pairs, GLOBAL const row *shapes, read_bodies bodies,
+                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                 write_manifolds manifolds, uint i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  moving_boxes pair = load_boxes(shapes, positions, orientations, velocities, parameters, pair_a[i], pair_b[i]);
-  manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
+  moving_boxes pair = load_boxes(shapes, bodies, parameters, pairs.a[i], pairs.b[i]);
+  manifold start = load_manifold(stride, manifolds, i);
   if (keeps_start(parameters, &pair, start)) {
-    counts_of_points[i] = points_of(start);
+    manifolds.count[i] = points_of(start);
     return;
   }
   speculation s = speculation_of_boxes(parameters, start, &pair);
@@ -116,35 +114,30 @@ SHARED void follow_pair_of_boxes(GLOBAL const uint *pair_a, GLOBAL const uint *p
   met.at_impact = met.at_impact && has_points(m);
   if (met.at_impact && !met.missed) m = with_middle_of_box(m, then, pair.moves);
   m = as_seen_from_start(parameters, met.at_impact ? m : start, met, then.offset, pair.moves);
-  store_manifold_if(1, m, stride, normals, points, counts_of_points, features, i);
+  store_manifold_if(1, m, stride, manifolds, i);
 }
 
-SHARED mask is_marked_box_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                               GLOBAL const uint *counts_of_points, uint i)
+SHARED mask is_marked_box_pair(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const uint *counts_of_points, uint i)
 {
-  return counts_of_points[i] >= TO_FOLLOW && both_boxes(traits, pair_a[i], pair_b[i]);
+  return counts_of_points[i] >= TO_FOLLOW && both_boxes(traits, pairs.a[i], pairs.b[i]);
 }
 
 /* local_memory: how many are marked; their numbers, in any order. */
-SHARED void follow_boxes_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                               GLOBAL const row *shapes, GLOBAL const row *positions, GLOBAL const row *orientations,
-                               GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                               GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                               GLOBAL uint *counts_of_points, GLOBAL uint *features, LOCAL uint *local_memory,
-                               uint group)
+SHARED void follow_boxes_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                               read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                               write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {
-  const uint first = group * FOLLOW_PAIRS, pairs = counts[COUNT_PAIRS];
-  const uint count = first < pairs ? (pairs - first < FOLLOW_PAIRS ? pairs - first : FOLLOW_PAIRS) : 0u;
+  const uint first = group * FOLLOW_PAIRS, end = counts[COUNT_PAIRS];
+  const uint count = first < end ? (end - first < FOLLOW_PAIRS ? end - first : FOLLOW_PAIRS) : 0u;
   FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
   FOR_EACH_ITEM(k, count)
   {
-    if (is_marked_box_pair(pair_a, pair_b, traits, counts_of_points, first + k))
+    if (is_marked_box_pair(pairs, traits, manifolds.count, first + k))
       local_memory[1u + LOCAL_ADD(local_memory, 1u)] = first + k;
   }
   FOR_EACH_ITEM(k, local_memory[0])
   {
-    follow_pair_of_boxes(pair_a, pair_b, shapes, positions, orientations, velocities, parameters, counts, normals,
-                         points, counts_of_points, features, local_memory[1u + k]);
+    follow_pair_of_boxes(pairs, shapes, bodies, parameters, counts, manifolds, local_memory[1u + k]);
   }
 }
 

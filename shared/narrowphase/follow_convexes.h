@@ -69,27 +69,17 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
-SHARED void follow_convexes_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                 GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                 GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                 GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                 GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                                 GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                                 GLOBAL const row *positions, GLOBAL const row *orientations,
-                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                 GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                 GLOBAL uint *counts_of_points, GLOBAL uint *features, uint method, uint i)
+SHARED void follow_convexes_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
+                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                 write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || counts_of_points[i] < TO_FOLLOW) return;
+  if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || manifolds.count[i] < TO_FOLLOW) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
-                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
-                               positions, orientations, velocities, parameters, method, i);
+  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
   if (near != QUERY_NEAR) return;
-  manifold start = load_manifold(stride, normals, points, counts_of_points, features, i);
-  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, normals, points,
-                    counts_of_points, features, i);
+  manifold start = load_manifold(stride, manifolds, i);
+  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, manifolds, i);
 }
 
 #endif

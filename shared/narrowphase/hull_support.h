@@ -15,6 +15,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 
+#include "shared/argument_groups.h"
 #include "shared/body_codes.h"
 #include "shared/features.h"
 #include "shared/math.h"
@@ -40,6 +41,15 @@ typedef struct {
                                         across 0-1, 1-2, 2-0 */
   uint support;                      /* SUPPORT_ */
 } hull_tables;
+
+/* support: SUPPORT_, how the vertex that lies farthest is found. */
+SHARED hull_tables tables_of(read_surfaces surfaces, uint support)
+{
+  hull_tables tables = {surfaces.header,      surfaces.vertex,   surfaces.plane, surfaces.face_start,
+                        surfaces.corner,      surfaces.edge,     surfaces.strip, surfaces.link,
+                        surfaces.mesh_vertex, surfaces.triangle, support};
+  return tables;
+}
 
 typedef struct {
   uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link,

@@ -93,35 +93,30 @@ SHARED moving_convex solved_motion(GLOBAL const row *deltas, const convex *shape
                           radius);
 }
 
-SHARED void limit_motion_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                              GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                              GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-                              GLOBAL const row *planes, GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                              GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
-                              GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                              GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                              GLOBAL const row *orientations, GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
+SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, read_shapes shapes,
+                              read_surfaces surfaces, GLOBAL const row *positions, GLOBAL const row *orientations,
+                              GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) return;
-  uint a = pair_a[i], b = pair_b[i];
-  mask moves_a = motion_of(traits[a]) == (uint)MOTION_DYNAMIC, moves_b = motion_of(traits[b]) == (uint)MOTION_DYNAMIC;
+  uint a = pairs.a[i], b = pairs.b[i];
+  mask moves_a = motion_of(shapes.traits[a]) == (uint)MOTION_DYNAMIC,
+       moves_b = motion_of(shapes.traits[b]) == (uint)MOTION_DYNAMIC;
   uint body = moves_a ? a : b, other = moves_a ? b : a;
-  if ((moves_a && moves_b) || !is_continuous(traits[body])) return;
-  hull_tables tables = {headers, vertices,      planes,         face_starts,        corners, edges, strips,
-                        links,   mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE};
+  if ((moves_a && moves_b) || !is_continuous(shapes.traits[body])) return;
+  hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), offset = offset_between(positions, body, other);
-  convex shape = load_convex(shapes, convexes, poses, orientations, tables, none,
-                             part_of_pair(parameters, pair_leaf, body, i, moves_a ? 0u : 1u));
-  moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes, body).w, body);
+  convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, none,
+                             part_of_pair(parameters, pairs.leaf, body, i, moves_a ? 0u : 1u));
+  moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes.size, body).w, body);
   if (length_of(moving.linear) + fastest_swing(&moving) <= FAR_SHARE * least_size(&shape)) return;
   wall w;
-  w.is_plane = shape_of(traits[other]) == (uint)SHAPE_HALF_SPACE;
+  w.is_plane = shape_of(shapes.traits[other]) == (uint)SHAPE_HALF_SPACE;
   w.up = axis_y(rotation_of(quat_from(load_row(orientations, other))));
   w.linear = xyz(load_row(deltas, other * 2u));
   w.height = inner(w.up, offset);
-  convex of_wall = load_convex(shapes, convexes, poses, orientations, tables, offset,
-                               part_of_pair(parameters, pair_leaf, other, i, moves_a ? 1u : 0u));
-  w.shape = solved_motion(deltas, &of_wall, offset, load_row(shapes, other).w, other);
+  convex of_wall = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, offset,
+                               part_of_pair(parameters, pairs.leaf, other, i, moves_a ? 1u : 0u));
+  w.shape = solved_motion(deltas, &of_wall, offset, load_row(shapes.size, other).w, other);
   if (comes_from_behind(&moving, &w)) return;
   real least = w.is_plane ? least_size(&shape) : minimum(least_size(&shape), least_size(&of_wall));
   real share = free_share(&moving, &w, minimum(parameters->slop, parameters->slop_share * least));

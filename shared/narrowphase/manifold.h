@@ -16,6 +16,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
 #define TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
 
+#include "shared/argument_groups.h"
 #include "shared/records.h"
 
 typedef struct {
@@ -102,8 +103,7 @@ SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_po
 }
 
 /* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
-SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *normals, GLOBAL row *points,
-                              GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
+SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, item_index i)
 {
   vec4 packed[4];
   natural count = 0u, slots = 0u;
@@ -116,25 +116,24 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, GLOBAL row *no
   }
   mask touching = count > 0u;
   vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row_if(mine, normals, i,
+  store_row_if(mine, manifolds.normal, i,
                extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
-  for (int k = 0; k < 4; ++k) store_row_if(mine, points, stride * (uint)k + i, packed[k]);
-  store_natural_if(mine, counts_of_points, i, count);
-  store_natural_if(mine, features, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
+  for (int k = 0; k < 4; ++k) store_row_if(mine, manifolds.points, stride * (uint)k + i, packed[k]);
+  store_natural_if(mine, manifolds.count, i, count);
+  store_natural_if(mine, manifolds.feature, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
 }
 
 /* What was stored. Points without a mask hold zeros. */
-SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL const row *points,
-                              GLOBAL const uint *counts_of_points, GLOBAL const uint *features, item_index i)
+SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index i)
 {
-  vec4 normal = load_row(normals, i);
-  natural count = load_natural(counts_of_points, i) & (TO_FOLLOW - 1u), feature = load_natural(features, i);
+  vec4 normal = load_row(manifolds.normal, i);
+  natural count = load_natural(manifolds.count, i) & (TO_FOLLOW - 1u), feature = load_natural(manifolds.feature, i);
   mask touching = count > 0u;
   manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
   m.impact_time = normal.w;
   m.code = feature >> 8u;
   for (int k = 0; k < 4; ++k) {
-    vec4 point = load_row(points, stride * (uint)k + i);
+    vec4 point = load_row(manifolds.points, stride * (uint)k + i);
     natural slot_of_point = (feature >> ((natural)(uint)k * 2u)) & 3u;
     for (int slot = 0; slot < 4; ++slot) {
       mask here = (count > (natural)(uint)k) & (slot_of_point == (natural)(uint)slot);
@@ -146,15 +145,14 @@ SHARED manifold load_manifold(uint stride, GLOBAL const row *normals, GLOBAL con
 }
 
 /* What the store above leaves of a manifold without points. */
-SHARED void store_no_manifold(uint stride, GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                              GLOBAL uint *features, uint i)
+SHARED void store_no_manifold(uint stride, write_manifolds manifolds, uint i)
 {
   row nothing;
   nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);
-  normals[i] = nothing;
-  for (uint k = 0u; k < 4u; ++k) points[stride * k + i] = nothing;
-  counts_of_points[i] = 0u;
-  features[i] = 0u;
+  manifolds.normal[i] = nothing;
+  for (uint k = 0u; k < 4u; ++k) manifolds.points[stride * k + i] = nothing;
+  manifolds.count[i] = 0u;
+  manifolds.feature[i] = 0u;
 }
 
 #endif

@@ -15,83 +15,54 @@
 
 enum { SPLIT_OF_OTHERS = 0, SPLIT_APART = 1, SPLIT_CLIP = 2, SPLIT_WHOLE = 3 };
 
-/* axes: normal in the axes of the pair, gap along it. states: SPLIT_. */
-SHARED void find_separating_axis_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                      GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                      GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                      GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                                      GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
-                                      GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                                      GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                                      GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                      GLOBAL const Parameters *parameters, GLOBAL row *axes, GLOBAL uint *states,
-                                      uint method, uint i)
+/* Of axes: the normal in the axes of the pair, the gap along it; state: SPLIT_. */
+SHARED void find_separating_axis_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                      read_bodies bodies, GLOBAL const Parameters *parameters,
+                                      write_separating_axes axes, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   convex_query query;
-  int near = load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes,
-                               face_starts, corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles,
-                               positions, orientations, velocities, parameters, method, i);
-  states[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
-  store_row(axes, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
+  axes.state[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
+  store_row(axes.axis, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   if (near != QUERY_NEAR || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
   convex_pair pair = pair_of(&query.first, &query.second);
   core_contact contact =
       separating_hull_axis(&pair.a, &pair.b, lead_of_faces(&pair.a, &pair.b, parameters->slop), query.reach).contact;
-  states[i] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
-  store_row(axes, i, extend(contact.normal, contact.gap));
+  axes.state[i] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
+  store_row(axes.axis, i, extend(contact.normal, contact.gap));
 }
 
 /* faces: of a and b of the pair; INDEX_NONE: none that faces the other. */
-SHARED void find_clipping_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                     GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                     GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                     GLOBAL const uint *face_starts, GLOBAL const uint *corners,
-                                     GLOBAL const uint *edges, GLOBAL const row *strips, GLOBAL const uint *links,
-                                     GLOBAL const uint *pair_leaf, GLOBAL const row *mesh_vertices,
-                                     GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-                                     GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                     GLOBAL const Parameters *parameters, GLOBAL const row *axes,
-                                     GLOBAL const uint *states, GLOBAL uint *faces, uint method, uint i)
+SHARED void find_clipping_faces_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                     read_bodies bodies, GLOBAL const Parameters *parameters, read_separating_axes axes,
+                                     GLOBAL uint *faces, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
   faces[i * 2u] = faces[i * 2u + 1u] = INDEX_NONE;
-  if (states[i] != SPLIT_CLIP) return;
+  if (axes.state[i] != SPLIT_CLIP) return;
   convex_query query;
-  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
-                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
-                        orientations, velocities, parameters, method, i) != QUERY_NEAR)
-    return;
+  if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) return;
   convex_pair pair = pair_of(&query.first, &query.second);
-  vec3 normal = xyz(load_row(axes, i));
+  vec3 normal = xyz(load_row(axes.axis, i));
   support_face face_a = support_face_of(&pair.a, normal), face_b = support_face_of(&pair.b, negate(normal));
   faces[i * 2u] = face_a.corners > 2u ? face_a.feature : INDEX_NONE;
   faces[i * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
 }
 
-/* clipped: u, v, separation and height of b, planes of pairs; clipped_counts: how many, INDEX_NONE if there is no room
- * or no face. */
-SHARED void clip_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                            GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                            GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                            GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                            GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                            GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                            GLOBAL const row *positions, GLOBAL const row *orientations, GLOBAL const row *velocities,
-                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const row *axes,
-                            GLOBAL const uint *states, GLOBAL const uint *faces, GLOBAL row *clipped,
-                            GLOBAL uint *clipped_counts, uint method, uint i)
+/* Of clipped: u, v, separation and height of b, planes of pairs; count: how many, INDEX_NONE if there is no room or no
+ * face. */
+SHARED void clip_faces_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
+                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, read_separating_axes axes,
+                            GLOBAL const uint *faces, write_clipped_points clipped, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
-  clipped_counts[i] = INDEX_NONE;
-  if (states[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
+  clipped.count[i] = INDEX_NONE;
+  if (axes.state[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
-  if (load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
-                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
-                        orientations, velocities, parameters, method, i) != QUERY_NEAR)
-    return;
+  if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) return;
   convex_pair pair = pair_of(&query.first, &query.second);
-  contact_axes plane = contact_axes_of(xyz(load_row(axes, i)));
+  contact_axes plane = contact_axes_of(xyz(load_row(axes.axis, i)));
   support_face face_a = face_of_polytope(&pair.a, faces[i * 2u]),
                face_b = face_of_polytope(&pair.b, faces[i * 2u + 1u]);
   feature_overlap overlap;
@@ -100,10 +71,10 @@ SHARED void clip_faces_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b
   start_reduction(&r, bounding_radius_of(&pair.b), overlap.clip.slack);
   stream_overlap(&r, &overlap.clip);
   if (r.points > STREAM_KEPT) return;
-  clipped_counts[i] = r.points;
+  clipped.count[i] = r.points;
   for (uint k = 0u; k < r.points; ++k) {
     clip_point p = r.kept[k];
-    store_row(clipped, counts[CAPACITY_PAIRS] * k + i,
+    store_row(clipped.point, counts[CAPACITY_PAIRS] * k + i,
               make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &pair.a, &pair.b, p)));
   }
 }
@@ -115,12 +86,13 @@ SHARED clip_point stored_point(vec4 stored)
 }
 
 /* The patch of the points stored. False if they miss the deepest point. */
-SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 axis, GLOBAL const row *clipped,
-                          uint stride, uint count, uint i)
+SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 axis, read_clipped_points clipped,
+                          uint stride, uint i)
 {
+  uint count = clipped.count[i];
   reduction r;
   start_reduction(&r, bounding_radius_of(&pair->b), slack_of_corners(&pair->b));
-  for (uint k = 0u; k < count; ++k) reduce_step(&r, stored_point(load_row(clipped, stride * k + i)));
+  for (uint k = 0u; k < count; ++k) reduce_step(&r, stored_point(load_row(clipped.point, stride * k + i)));
   while (next_pass(&r)) reduce_kept(&r);
   if (misses_deepest(&r, axis.w)) return 0;
   patch->axes = contact_axes_of(xyz(axis));
@@ -128,7 +100,7 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
   for (int slot = 0; slot < 4; ++slot) {
     patch->height[slot] = R(0.0);
     for (uint k = count; k-- > 0u;) {
-      vec4 p = load_row(clipped, stride * k + i);
+      vec4 p = load_row(clipped.point, stride * k + i);
       if (p.x == patch->point[slot].u && p.y == patch->point[slot].v && p.z == patch->point[slot].separation)
         patch->height[slot] = p.w;
     }
@@ -136,38 +108,28 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
   return 1;
 }
 
-SHARED void reduce_contacts_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                 GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                                 GLOBAL const uint *headers, GLOBAL const row *vertices, GLOBAL const row *planes,
-                                 GLOBAL const uint *face_starts, GLOBAL const uint *corners, GLOBAL const uint *edges,
-                                 GLOBAL const row *strips, GLOBAL const uint *links, GLOBAL const uint *pair_leaf,
-                                 GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles,
-                                 GLOBAL const row *positions, GLOBAL const row *orientations,
-                                 GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                 GLOBAL const uint *counts, GLOBAL const row *axes, GLOBAL const uint *states,
-                                 GLOBAL const uint *faces, GLOBAL const row *clipped, GLOBAL const uint *clipped_counts,
-                                 GLOBAL row *normals, GLOBAL row *points, GLOBAL uint *counts_of_points,
-                                 GLOBAL uint *features, uint method, uint i)
+SHARED void reduce_contacts_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
+                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                 read_separating_axes axes, GLOBAL const uint *faces, read_clipped_points clipped,
+                                 write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT) || states[i] == SPLIT_OF_OTHERS) return;
+  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT) || axes.state[i] == SPLIT_OF_OTHERS) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  if (states[i] == SPLIT_APART ||
-      load_convex_query(&query, pair_a, pair_b, traits, shapes, convexes, poses, headers, vertices, planes, face_starts,
-                        corners, edges, strips, links, pair_leaf, mesh_vertices, mesh_triangles, positions,
-                        orientations, velocities, parameters, method, i) != QUERY_NEAR) {
-    store_no_manifold(stride, normals, points, counts_of_points, features, i);
+  if (axes.state[i] == SPLIT_APART ||
+      load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) {
+    store_no_manifold(stride, manifolds, i);
     return;
   }
   convex_pair pair = pair_of(&query.first, &query.second);
   contact_patch patch;
   patch.code = code_of_features(faces[i * 2u], faces[i * 2u + 1u]);
-  mask reduced = clipped_counts[i] != INDEX_NONE &&
-                 reduced_patch(&patch, &pair, load_row(axes, i), clipped, stride, clipped_counts[i], i);
+  mask reduced =
+      clipped.count[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes.axis, i), clipped, stride, i);
   manifold m;
   if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&pair, &patch), query.reach));
   else m = contact_of_query(parameters, &query, method & 255u);
-  store_start(parameters, &query, m, stride, normals, points, counts_of_points, features, i);
+  store_start(parameters, &query, m, stride, manifolds, i);
 }
 
 #endif

@@ -95,14 +95,11 @@ SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pa
   return at;
 }
 
-SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                    GLOBAL const row *shapes, GLOBAL const row *positions,
-                                    GLOBAL const row *orientations, GLOBAL const row *velocities,
-                                    GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL row *normals,
-                                    GLOBAL row *points, GLOBAL uint *counts_of_points, GLOBAL uint *features,
-                                    item_index i)
+SHARED void collide_sphere_box_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                                    read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                                    write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask sphere_first = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_BOX);
   mask mine = sphere_first | ((shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_SPHERE));
@@ -111,9 +108,9 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
   natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
   vec4 shape = load_row(shapes, box);
   real zero = R(0.0), radius = load_row(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
-  sphere_and_box pair = {offset_between(positions, box, sphere), xyz(shape), radius,
-                         rotation_of(quat_from(load_row(orientations, box))), sphere_first};
-  pair_motion moves = load_pair_motion(velocities, parameters, a, b, choose(sphere_first, zero, shape.w),
+  sphere_and_box pair = {offset_between(bodies.position, box, sphere), xyz(shape), radius,
+                         rotation_of(quat_from(load_row(bodies.orientation, box))), sphere_first};
+  pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(sphere_first, zero, shape.w),
                                        choose(sphere_first, shape.w, zero));
   manifold m = sphere_box_contact(pair);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
@@ -129,7 +126,7 @@ SHARED void collide_sphere_box_item(GLOBAL const uint *pair_a, GLOBAL const uint
     m = choose_manifold(met.at_impact, later, m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
 }
 
 #endif

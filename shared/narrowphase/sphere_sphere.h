@@ -57,20 +57,18 @@ SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion m
   return (R(0.25) + unplaced) * length_of(moves.fall) * parameters->step;
 }
 
-SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *traits,
-                                       GLOBAL const row *shapes, GLOBAL const row *positions,
-                                       GLOBAL const row *velocities, GLOBAL const Parameters *parameters,
-                                       GLOBAL const uint *counts, GLOBAL row *normals, GLOBAL row *points,
-                                       GLOBAL uint *counts_of_points, GLOBAL uint *features, item_index i)
+SHARED void collide_sphere_sphere_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+                                       read_bodies bodies, GLOBAL const Parameters *parameters,
+                                       GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pair_a, i), b = load_natural(pair_b, i);
+  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
   natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
   mask mine = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_SPHERE);
   if (!any_of(mine)) return;
 
   real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x, least = minimum(radius_a, radius_b);
-  vec3 between = offset_between(positions, a, b), aside = parting_direction(a, b);
-  pair_motion moves = load_pair_motion(velocities, parameters, a, b, R(0.0), R(0.0));
+  vec3 between = offset_between(bodies.position, a, b), aside = parting_direction(a, b);
+  pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, R(0.0), R(0.0));
   manifold m = spheres_contact(between, radius_a, radius_b, aside);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
@@ -86,7 +84,7 @@ SHARED void collide_sphere_sphere_item(GLOBAL const uint *pair_a, GLOBAL const u
     m = choose_manifold(met.at_impact, there, m);
     m = as_seen_from_start(parameters, m, met, offset, moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], normals, points, counts_of_points, features, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
 }
 
 #endif

@@ -1,10 +1,11 @@
-/* embed_kernels - expands every cl/NAME.cl with its includes into one C++ source.
+/* embed_kernels - makes the OpenCL programs that the library carries: cl/NAME.cl with its includes, and its entries.
  *
- * The .cl files stay real files; the library carries their expansion, so an installed program
- * needs no source tree (inventory A4). Each header is expanded once, where it is first included, and a .def list every
- * time; #line directives keep the compiler's messages on the file and line that people edit.
+ * A line ENTRIES(STAGE) at the end of a file asks for the entry of each kernel of that stage; they are written from
+ * shared/kernels.def (entries.h). An installed program needs no source tree, for the library carries the text. Each
+ * header is expanded once, where it is first included, and a .def list every time; #line directives keep the compiler's
+ * messages on the file and line that people edit. What becomes of each file can be read in FOLDER/NAME.cl.
  *
- * Usage: embed_kernels ROOT OUTPUT.cpp cl/one.cl cl/two.cl ...
+ * Usage: embed_kernels ROOT FOLDER cl/one.cl cl/two.cl ...     writes FOLDER/embedded_kernels.cpp and FOLDER/one.cl ...
  */
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "tools/embed/entries.h"
 
 namespace {
 
@@ -24,51 +27,91 @@ std::string included_name(const std::string &line)
   return open == std::string::npos || close == open ? std::string{} : line.substr(open + 1, close - open - 1);
 }
 
-void expand(const std::string &root, const std::string &name, std::set<std::string> &seen, std::ostream &out)
+/* STAGE of a line ENTRIES(STAGE). */
+std::string stage_wanted(const std::string &line)
+{
+  const std::string wish = "ENTRIES(";
+  return line.starts_with(wish) && line.ends_with(')') ? line.substr(wish.size(), line.size() - wish.size() - 1) : "";
+}
+
+struct Program {
+  std::string name, stage; /* stage: empty where no entries are wanted */
+  std::ostringstream headers;
+  std::set<std::string> seen;
+};
+
+void expand(const std::string &root, const std::string &name, Program &program)
 {
   const bool is_list = name.ends_with(".def"); /* expanded anew wherever it is included */
-  if (!is_list && !seen.insert(name).second) return;
+  if (!is_list && !program.seen.insert(name).second) return;
   std::ifstream in(root + "/" + name);
   if (!in) throw std::runtime_error("cannot read " + root + "/" + name);
-  out << "#line 1 \"" << name << "\"\n";
+  program.headers << "#line 1 \"" << name << "\"\n";
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
-    const std::string included = included_name(line);
-    if (included.empty()) {
-      out << line << '\n';
+    const std::string included = included_name(line), stage = stage_wanted(line);
+    if (!stage.empty()) {
+      program.stage = stage;
+    } else if (included.empty()) {
+      program.headers << line << '\n';
     } else {
-      expand(root, included, seen, out);
-      out << "#line " << number + 1 << " \"" << name << "\"\n";
+      expand(root, included, program);
+      program.headers << "#line " << number + 1 << " \"" << name << "\"\n";
     }
   }
 }
 
 /* String literals have a length limit on some compilers, so the text goes out in pieces. */
-void write_literal(const std::string &text, std::ostream &out)
+std::string literal(const std::string &text)
 {
   const size_t piece = 8000;
-  for (size_t at = 0; at < text.size(); at += piece) out << "R\"tandem(" << text.substr(at, piece) << ")tandem\"\n";
+  std::string written;
+  for (size_t at = 0; at < text.size(); at += piece) written += "R\"tandem(" + text.substr(at, piece) + ")tandem\"\n";
+  return written;
+}
+
+void write_program(const Program &program, const std::vector<embed::KernelRow> &rows, const std::string &folder,
+                   std::ostream &out)
+{
+  std::ofstream readable(folder + "/" + program.name + ".cl");
+  readable << program.headers.str();
+  out << "{\"" << program.name << "\",\n" << literal(program.headers.str()) << ",{\n";
+  size_t entries = 0;
+  for (const embed::KernelRow &row : rows)
+    if (row.stage == program.stage && row.form != "HOST") {
+      const std::string entry = embed::entry_of(row);
+      readable << '\n' << entry;
+      out << "{\"" << row.name << "\",\n" << literal(entry) << "},\n";
+      ++entries;
+    }
+  out << "}},\n";
+  if (!program.stage.empty() && entries == 0)
+    throw std::runtime_error("cl/" + program.name + ".cl: shared/kernels.def has no kernel of stage " + program.stage);
+  if (!readable.flush()) throw std::runtime_error("cannot write " + folder + "/" + program.name + ".cl");
 }
 
 } // namespace
 
 int main(int count, char **arguments)
 try {
-  if (count < 4) throw std::runtime_error("usage: embed_kernels ROOT OUTPUT.cpp cl/NAME.cl ...");
+  if (count < 4) throw std::runtime_error("usage: embed_kernels ROOT FOLDER cl/NAME.cl ...");
+  const std::string root = arguments[1], folder = arguments[2];
+  const std::vector<embed::KernelRow> rows = embed::kernel_rows(root);
   std::ostringstream out;
   out << "/* Generated by tools/embed from cl/ and shared/: do not edit. */\n#include "
          "\"host/runtime/opencl/embedded_kernels.h\"\n"
-         "namespace tandem {\nconst EmbeddedProgram embedded_programs[] = {\n";
+         "namespace tandem {\nconst std::vector<EmbeddedProgram> &embedded_programs()\n{\n"
+         "static const std::vector<EmbeddedProgram> programs = {\n";
   for (int i = 3; i < count; ++i) {
-    std::set<std::string> seen;
-    std::ostringstream source;
-    expand(arguments[1], arguments[i], seen, source);
-    out << "{\"" << std::filesystem::path(arguments[i]).stem().string() << "\",\n";
-    write_literal(source.str(), out);
-    out << "},\n";
+    Program program;
+    program.name = std::filesystem::path(arguments[i]).stem().string();
+    expand(root, arguments[i], program);
+    write_program(program, rows, folder, out);
   }
-  out << "};\nconst unsigned embedded_program_count = " << count - 3 << ";\n} // namespace tandem\n";
-  std::ofstream(arguments[2]) << out.str();
+  out << "};\nreturn programs;\n}\n} // namespace tandem\n";
+  std::ofstream file(folder + "/embedded_kernels.cpp");
+  file << out.str();
+  if (!file.flush()) throw std::runtime_error("cannot write " + folder + "/embedded_kernels.cpp");
 } catch (const std::exception &error) {
   std::cerr << "embed_kernels: " << error.what() << '\n';
   return 1;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "shared/argument_groups.h"
 #include "shared/parameters.h"
 
 namespace tandem {
@@ -10,13 +11,40 @@ namespace {
 
 constexpr uint32_t COUNT_GIVEN = items_given;
 
+constexpr std::array<BufferRow, buffer_count> buffer_rows = {{
+#define BUFFER(name, element, capacity, per_item, feature, fields) \
+  {#name, Element::element, Capacity::capacity, per_item, FEATURE_##feature, fields},
+#include "shared/buffers.def"
+#undef BUFFER
+}};
+
+/* A group (shared/argument_groups.h) and buffers.def agree about types, or this does not compile. */
+constexpr Buffer of_element(Buffer buffer, Element element)
+{
+  return buffer_rows[index_of(buffer)].element == element ? buffer : throw "the group names another type";
+}
+
 #define IN(name) Argument{Argument::Kind::buffer, Access::in, Buffer::name, #name},
 #define OUT(name) Argument{Argument::Kind::buffer, Access::out, Buffer::name, #name},
 #define INOUT(name) Argument{Argument::Kind::buffer, Access::inout, Buffer::name, #name},
-#define SLOT_IN(name) Argument{Argument::Kind::slot, Access::in, {}, #name},
-#define SLOT_OUT(name) Argument{Argument::Kind::slot, Access::out, {}, #name},
-#define SLOT_INOUT(name) Argument{Argument::Kind::slot, Access::inout, {}, #name},
+#define SLOT_IN(element, name) Argument{Argument::Kind::slot, Access::in, {}, #name},
+#define SLOT_OUT(element, name) Argument{Argument::Kind::slot, Access::out, {}, #name},
+#define SLOT_INOUT(element, name) Argument{Argument::Kind::slot, Access::inout, {}, #name},
 #define VALUE(name) Argument{Argument::Kind::value, Access::in, {}, #name},
+#define LOCAL_MEMORY(words) /* no argument of a launch */
+
+#define ELEMENT_row Element::row
+#define ELEMENT_uint Element::uint
+#define ELEMENT_ulong Element::ulong
+#define ELEMENT_memory_real Element::real
+#define MEMBER(access, name, type) \
+  Argument{Argument::Kind::buffer, Access::access, of_element(Buffer::name, ELEMENT_##type), #name},
+#define IN_MEMBER(name, type, member) MEMBER(in, name, type)
+#define OUT_MEMBER(name, type, member) MEMBER(out, name, type)
+#define INOUT_MEMBER(name, type, member) MEMBER(inout, name, type)
+#define IN_GROUP(name) GROUP_##name(IN_MEMBER)
+#define OUT_GROUP(name) GROUP_##name(OUT_MEMBER)
+#define INOUT_GROUP(name) GROUP_##name(INOUT_MEMBER)
 
 #define KERNEL(name, stage, form, items, feature, arguments) constexpr Argument arguments_of_##name[] = {arguments};
 #include "shared/kernels.def"
@@ -31,13 +59,6 @@ constexpr std::array<KernelRow, kernel_count> kernel_rows = {{
   {#name, Stage::stage, FORM_##form, COUNT_##items, FEATURE_##feature, arguments_of_##name},
 #include "shared/kernels.def"
 #undef KERNEL
-}};
-
-constexpr std::array<BufferRow, buffer_count> buffer_rows = {{
-#define BUFFER(name, element, capacity, per_item, feature, fields) \
-  {#name, Element::element, Capacity::capacity, per_item, FEATURE_##feature, fields},
-#include "shared/buffers.def"
-#undef BUFFER
 }};
 
 } // namespace

@@ -124,7 +124,7 @@ size_t size_of(Element element);
 
 inline Kernel kernel_at(size_t index) { return static_cast<Kernel>(index); }
 inline Buffer buffer_at(size_t index) { return static_cast<Buffer>(index); }
-inline size_t index_of(Kernel kernel) { return static_cast<size_t>(kernel); }
-inline size_t index_of(Buffer buffer) { return static_cast<size_t>(buffer); }
+constexpr size_t index_of(Kernel kernel) { return static_cast<size_t>(kernel); }
+constexpr size_t index_of(Buffer buffer) { return static_cast<size_t>(buffer); }
 
 } // namespace tandem

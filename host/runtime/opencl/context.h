@@ -33,6 +33,11 @@ struct DeviceContext {
   std::string options;    /* of every program: the language and the rules of floating point */
 };
 
+inline bool is_pocl(const DeviceContext &context)
+{
+  return context.info.platform_name == "Portable Computing Language";
+}
+
 /* Empty if the device gives the host's bits, else what differs. Runs once a device and process. */
 std::string self_test(const Candidate &candidate);
 

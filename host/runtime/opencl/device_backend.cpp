@@ -83,8 +83,10 @@ public:
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
     const auto start = std::chrono::steady_clock::now();
     current_ = &builds_[features];
+    std::map<Stage, std::vector<Kernel>> missing;
     for (const Kernel kernel : kernels)
-      if (!current_->kernels[index_of(kernel)].kernel()) create_kernel(kernel, features);
+      if (!current_->kernels[index_of(kernel)].kernel()) missing[row_of(kernel).stage].push_back(kernel);
+    for (const auto &[stage, of_stage] : missing) create_kernels(stage, of_stage, features);
     build_milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
   }
 
@@ -129,19 +131,45 @@ private:
                                   context_.info.platform_name, what, row.name, error_name(code)));
   }
 
-  void create_kernel(Kernel kernel, uint32_t features)
+  /* Of the program of a stage only what is asked for is compiled (but see part_to_build). */
+  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, uint32_t features)
   {
-    const KernelRow &row = row_of(kernel);
-    const EmbeddedProgram &embedded = embedded_program(name_of(row.stage));
-    std::optional<uint32_t> &readable = readable_[static_cast<size_t>(row.stage)];
+    const EmbeddedProgram &embedded = embedded_program(name_of(stage));
+    std::optional<uint32_t> &readable = readable_[static_cast<size_t>(stage)];
     if (!readable) readable = features_read(embedded); /* a search through its whole text */
     const uint32_t read = features & *readable;
-    cl::Program &program = programs_[{embedded.name, read}];
+    std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
+    std::vector<Kernel> unbuilt;
+    for (const Kernel kernel : kernels)
+      if (!programs.contains(kernel)) unbuilt.push_back(kernel);
+    if (!unbuilt.empty()) build(embedded, unbuilt, registers_for(stage, read), read, programs);
+    for (const Kernel kernel : kernels) create_kernel(kernel, programs.at(kernel));
+  }
+
+  void build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels, const std::string &options,
+             uint32_t features, std::map<Kernel, cl::Program> &programs)
+  {
+    try {
+      const cl::Program program = build_program(context_, part_to_build(embedded, kernels),
+                                                fmt::format("-D FEATURES={:#x}u", features) + options);
+      for (const Kernel kernel : kernels) programs[kernel] = program;
+    } catch (const cl::Error &error) {
+      fail(row_of(kernels.front()), "creation", error.err());
+    }
+  }
+
+  /* PoCL compiles a kernel when it is launched, so the whole program costs little there; and PoCL 3.1 crashes in LLVM's
+   * inliner where a function of two callers has lost one of them (sort_scatter_pairs without sort_scatter). */
+  EmbeddedProgram part_to_build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels) const
+  {
+    return is_pocl(context_) ? embedded : with_entries_of(embedded, kernels);
+  }
+
+  void create_kernel(Kernel kernel, const cl::Program &program)
+  {
+    const KernelRow &row = row_of(kernel);
     BuiltKernel &built = current_->kernels[index_of(kernel)];
     try {
-      if (!program())
-        program =
-            build_program(context_, embedded, fmt::format("-D FEATURES={:#x}u", read) + registers_for(row.stage, read));
       fail_where_a_test_wants(faults::Site::build, "clCreateKernel");
       cl::Kernel created(program, row.name);
       const size_t wanted = group_size_ ? group_size_ : row.form == Form::group ? items_per_tile : items_per_group;
@@ -248,9 +276,9 @@ private:
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: as each has it */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  std::array<std::optional<uint32_t>, stage_count> readable_;        /* by stage: the features that its program reads */
-  std::map<std::pair<std::string, uint32_t>, cl::Program> programs_; /* by name, and the features it reads */
-  std::map<uint32_t, Build> builds_;                                 /* by features */
+  std::array<std::optional<uint32_t>, stage_count> readable_; /* by stage: the features that its program reads */
+  std::map<std::pair<Stage, uint32_t>, std::map<Kernel, cl::Program>> programs_; /* uint32_t: the features read */
+  std::map<uint32_t, Build> builds_;                                             /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;

@@ -2,14 +2,21 @@
  * Written at build time by tools/embed, with every include expanded. */
 #pragma once
 
+#include <vector>
+
 namespace tandem {
 
-struct EmbeddedProgram {
-  const char *name;   /* "solve" for cl/solve.cl */
-  const char *source; /* OpenCL C, complete */
+struct EmbeddedEntry {
+  const char *kernel; /* its name in shared/kernels.def */
+  const char *source; /* OpenCL C, of this entry alone */
 };
 
-extern const EmbeddedProgram embedded_programs[];
-extern const unsigned embedded_program_count;
+struct EmbeddedProgram {
+  const char *name;                   /* "solve" for cl/solve.cl */
+  const char *headers;                /* OpenCL C before the entries */
+  std::vector<EmbeddedEntry> entries; /* a program of any of them is complete */
+};
+
+const std::vector<EmbeddedProgram> &embedded_programs();
 
 } // namespace tandem

@@ -3,6 +3,7 @@
  * The embedded text keeps #line directives, so a compiler's log names the file and line people edit. */
 #include "host/runtime/opencl/program.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <optional>
@@ -41,7 +42,7 @@ std::optional<cl::Program> build_cached(const DeviceContext &context, const std:
 cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
 {
   fail_where_a_test_wants(faults::Site::build, "clCreateProgramWithSource");
-  cl::Program program(context.context, std::string(embedded.source));
+  cl::Program program(context.context, source_of(embedded));
   const cl_device_id device = context.device();
   const cl_int result = code_of(
       faults::Site::build, [&] { return clBuildProgram(program(), 1, &device, options.c_str(), nullptr, nullptr); });
@@ -49,11 +50,10 @@ cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgra
   std::string log;
   try {
     log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(context.device);
-  } catch (const cl::Error &) {
-    log = "(the driver keeps no log)";
+  } catch (const cl::Error &) { /* the driver keeps none */
   }
-  throw BuildError(fmt::format("cl/{}.cl does not build on {} with '{}': {}\n{}", embedded.name,
-                               context.info.device_name, options, error_name(result), log));
+  throw BuildError(fmt::format("cl/{}.cl does not build on the OpenCL device {} with '{}': {}{}{}", embedded.name,
+                               context.info.device_name, options, error_name(result), log.empty() ? "" : "\n", log));
 }
 
 Binary binary_of(const cl::Program &program)
@@ -71,9 +71,26 @@ Binary binary_of(const cl::Program &program)
 
 const EmbeddedProgram &embedded_program(const std::string &name)
 {
-  for (unsigned i = 0; i < embedded_program_count; ++i)
-    if (name == embedded_programs[i].name) return embedded_programs[i];
+  for (const EmbeddedProgram &program : embedded_programs())
+    if (name == program.name) return program;
   throw std::logic_error(fmt::format("cl/{}.cl is not embedded", name));
+}
+
+EmbeddedProgram with_entries_of(const EmbeddedProgram &program, const std::vector<Kernel> &kernels)
+{
+  EmbeddedProgram part = program;
+  std::erase_if(part.entries, [&](const EmbeddedEntry &entry) {
+    return std::none_of(kernels.begin(), kernels.end(),
+                        [&](Kernel kernel) { return std::strcmp(row_of(kernel).name, entry.kernel) == 0; });
+  });
+  return part;
+}
+
+std::string source_of(const EmbeddedProgram &program)
+{
+  std::string source = program.headers;
+  for (const EmbeddedEntry &entry : program.entries) source += entry.source;
+  return source;
 }
 
 uint32_t features_read(const EmbeddedProgram &program)
@@ -83,7 +100,7 @@ uint32_t features_read(const EmbeddedProgram &program)
 #include "shared/features.def"
 #undef FEATURE
   };
-  const std::string_view source = program.source;
+  const std::string_view source = program.headers;
   const auto is_named = [&](const std::string &name) {
     const auto goes_on = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
     size_t at = source.find(name);
@@ -101,10 +118,19 @@ std::string cache_key(const DeviceContext &context, const EmbeddedProgram &progr
 {
   const DeviceInfo &info = context.info;
   return fmt::format("{}\n{}\n{}\n{}\n{}\n{}", info.platform_name, info.platform_version, info.device_name,
-                     info.driver_version, all_options(context, options), program.source);
+                     info.driver_version, all_options(context, options), source_of(program));
 }
 
+/* PoCL keeps what it compiled by itself, kernel by kernel as they are launched. Asked for a program's binary it compiles
+ * all of its kernels first, for every size of groups: 47 s instead of 5 for a scene of balls and boxes. */
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
+{
+  if (is_pocl(context)) return build_from_source(context, embedded, all_options(context, options));
+  return build_through_cache(context, embedded, options);
+}
+
+cl::Program build_through_cache(const DeviceContext &context, const EmbeddedProgram &embedded,
+                                const std::string &options)
 {
   const std::string all = all_options(context, options);
   const std::string key = cache_key(context, embedded, options);

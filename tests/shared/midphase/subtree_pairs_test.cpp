@@ -41,11 +41,12 @@ struct Buffers {
 
   midphase_scene scene() const
   {
-    return {&parameters,       traits.data(),
-            filters.data(),    body_trees.data(),
-            shapes.data(),     poses.data(),
-            positions.data(),  orientations.data(),
-            velocities.data(), {headers.data(), frames.data(), nodes.data(), leaves.data()}};
+    return {&parameters,
+            {traits.data(), shapes.data(), nullptr, poses.data()},
+            filters.data(),
+            body_trees.data(),
+            {headers.data(), frames.data(), nodes.data(), leaves.data()},
+            {positions.data(), orientations.data(), velocities.data()}};
   }
 };
 
@@ -54,7 +55,7 @@ struct Room {
   std::vector<uint32_t> a, b, leaf;
   leaf_list list;
   explicit Room(uint32_t size)
-      : a(size), b(size), leaf(4 * size_t{size}), list{1, a.data(), b.data(), leaf.data(), 0, size, 0}
+      : a(size), b(size), leaf(4 * size_t{size}), list{1, {a.data(), b.data(), leaf.data()}, 0, size, 0}
   {}
 };
 
@@ -87,7 +88,7 @@ std::vector<Entry> expected_list(const Buffers &before, const std::vector<row> &
   Room room(1u << 20);
   for (uint32_t a = 0; a < bodies; ++a)
     for (uint32_t b = 0; b < a; ++b)
-      if (pair_allowed(scene.parameters, scene.traits, scene.filters, a, b) &&
+      if (pair_allowed(scene.parameters, scene.shapes.traits, scene.filters, a, b) &&
           bounds_overlap(load_bounds(bounds.data(), a), load_bounds(bounds.data(), b)))
         look_at_every_leaf(&room.list, scene, a, b);
   REQUIRE(room.list.found < room.list.end);

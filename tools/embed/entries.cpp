@@ -1,0 +1,63 @@
+/* entries.cpp - writes entries as people would: lines of at most 120 columns, names as in the row. */
+#include "tools/embed/entries.h"
+
+namespace embed {
+namespace {
+
+/* Pieces behind an opening, a comma between them, each line but the first indented. */
+std::string wrapped(const std::string &opening, const std::vector<std::string> &pieces, const std::string &closing)
+{
+  const size_t columns = 120;
+  std::string text = opening, line = opening;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    const std::string piece = pieces[i] + (i + 1 < pieces.size() ? "," : closing);
+    const bool fits = line.size() + 1 + piece.size() <= columns;
+    const std::string between = i == 0 ? "" : fits ? " " : "\n    ";
+    line = fits ? line + between + piece : "    " + piece;
+    text += between + piece;
+  }
+  return text;
+}
+
+std::string declared(const Parameter &parameter)
+{
+  switch (parameter.kind) {
+  case Parameter::Kind::read: return "__global const " + parameter.type + " *" + parameter.name;
+  case Parameter::Kind::written: return "__global " + parameter.type + " *" + parameter.name;
+  case Parameter::Kind::value: break;
+  }
+  return parameter.type + " " + parameter.name;
+}
+
+std::string passed(const FunctionArgument &argument)
+{
+  if (argument.group_type.empty()) return argument.parameters.front().name;
+  std::string text = "(" + argument.group_type + "){";
+  for (size_t i = 0; i < argument.members.size(); ++i)
+    text += (i ? ", ." : ".") + argument.members[i] + " = " + argument.parameters[i].name;
+  return text + "}";
+}
+
+} // namespace
+
+std::string entry_of(const KernelRow &row)
+{
+  std::vector<std::string> parameters, arguments;
+  for (const FunctionArgument &argument : row.arguments) {
+    for (const Parameter &parameter : argument.parameters) parameters.push_back(declared(parameter));
+    arguments.push_back(passed(argument));
+  }
+  parameters.push_back("RANGE");
+  const bool is_group = row.form == "GROUP";
+  if (is_group) arguments.push_back("local_memory");
+  arguments.push_back(is_group ? "GROUP_NUMBER" : "i");
+
+  std::string text = "#line " + std::to_string(row.line) + " \"shared/kernels.def\"\n";
+  text += wrapped("__kernel void " + row.name + "(", parameters, ")\n{\n");
+  if (is_group) text += "  __local uint local_memory[" + row.local_words + "];\n";
+  else text += "  FOR_EACH_IN_RANGE(i)\n";
+  text += wrapped("  " + row.name + (is_group ? "_group(" : "_item("), arguments, ");\n");
+  return text + (is_group ? "  END_GROUP;\n}\n" : "}\n");
+}
+
+} // namespace embed

@@ -1,0 +1,13 @@
+/* entries.h - the entry of a kernel: its parameters, and the call of the shared function for each item or group. */
+#pragma once
+
+#include <string>
+
+#include "tools/embed/list_rows.h"
+
+namespace embed {
+
+/* OpenCL C, behind a #line directive that names the kernel's row. */
+std::string entry_of(const KernelRow &row);
+
+} // namespace embed
