@@ -5,7 +5,8 @@
  */
 #pragma once
 
-/* A buffer, a value of 4 bytes, or a struct of buffers (shared/argument_groups.h), which takes one argument for each. */
+/* A buffer, a value of 4 bytes, or a struct of buffers (shared/argument_groups.h), which takes one argument for
+ * each. */
 template <class T> static inline T argument_as(void *const *arguments)
 {
   if constexpr (std::is_pointer_v<T>) return static_cast<T>(arguments[0]);
