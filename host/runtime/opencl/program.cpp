@@ -121,8 +121,8 @@ std::string cache_key(const DeviceContext &context, const EmbeddedProgram &progr
                      info.driver_version, all_options(context, options), source_of(program));
 }
 
-/* PoCL keeps what it compiled by itself, kernel by kernel as they are launched. Asked for a program's binary it compiles
- * all of its kernels first, for every size of groups: 47 s instead of 5 for a scene of balls and boxes. */
+/* PoCL keeps what it compiled by itself, kernel by kernel as they are launched. Asked for a program's binary it
+ * compiles all of its kernels first, for every size of groups: 47 s instead of 5 for a scene of balls and boxes. */
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
 {
   if (is_pocl(context)) return build_from_source(context, embedded, all_options(context, options));
