@@ -1,9 +1,9 @@
 # What a sanitizer tree (presets asan and tsan) watches, and what it need not compile.
 #
-# The library is instrumented whole, with the loaders; of the command what a hostile input passes through, where addresses
-# are watched. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a tree without
-# sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that of inline
-# functions in both, its are taken.
+# The library is instrumented whole, with the loaders; of the command what a hostile input passes through, where
+# addresses are watched. Other tools and most tests only call it: with TANDEM_OBJECTS_FROM they are the objects of a
+# tree without sanitizers, of the same source and compiler, and take no time. The library is linked before them, so that
+# of inline functions in both, its are taken.
 set(TANDEM_OBJECTS_FROM "" CACHE PATH
   "Build folder without sanitizers, whose tools and tests are linked, not compiled again")
 
@@ -27,7 +27,8 @@ elseif(TANDEM_SANITIZE MATCHES thread)
     get_target_property(library_sources tandem SOURCES)
     list(FILTER library_sources EXCLUDE REGEX "minicl/(lanes8|lanes16|backward|reference)[.]cpp$")
     set_property(TARGET tandem PROPERTY SOURCES ${library_sources})
-    target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>) # what is missing, and no more
+    # which gives what is missing, and no more
+    target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>)
   else()
     set_property(SOURCE ${unwatched_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
   endif()
