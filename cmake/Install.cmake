@@ -1,12 +1,20 @@
-# The find_package(Tandem) package: library, headers and command.
+# The find_package(Tandem) package: libraries, headers and command. Each library has its own list of targets, so that a
+# program that asks for physics alone needs no package of the others.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(TANDEM_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR})
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Tandem)
 install(DIRECTORY host/include/tandem DESTINATION ${TANDEM_INCLUDE_DIR} FILES_MATCHING PATTERN "*.h")
-install(TARGETS tandem EXPORT TandemTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT TandemTargets NAMESPACE Tandem:: DESTINATION ${package_dir})
+foreach(library IN LISTS libraries)
+  set(forms ${library})
+  if(TANDEM_SHARED_LIBRARIES)
+    list(APPEND forms ${library}_shared)
+  endif()
+  install(TARGETS ${forms} EXPORT ${library}_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT ${library}_targets NAMESPACE Tandem:: DESTINATION ${package_dir})
+endforeach()
 if(TARGET tandem_command)
   install(TARGETS tandem_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

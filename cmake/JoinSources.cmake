@@ -3,7 +3,9 @@
 #
 # Most of their time goes into headers that they share. The release tree compiles each by itself, so a source that leans
 # on its neighbours' includes fails there. Within a group a name in an unnamed namespace stands once.
-set_target_properties(tandem PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+foreach(library IN LISTS libraries)
+  set_target_properties(${library}_objects PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+endforeach()
 function(join_sources group pattern)
   set(sources ${HOST_SOURCES})
   list(FILTER sources INCLUDE REGEX "/host/(${pattern})[.]cpp$")
@@ -18,4 +20,5 @@ join_sources(solvers "pipeline/solvers/.*")
 join_sources(opencl "runtime/opencl/.*")
 join_sources(world "world/.*|scene/.*")
 join_sources(runtime "runtime/[^/]*|runtime/interface/.*")
-join_sources(verification "verify/.*|io/(animation.*|contact_problem_file|output_file)")
+join_sources(verification "verify/.*")
+join_sources(written "io/(animation.*|contact_problem_file|output_file)")

@@ -24,9 +24,9 @@ elseif(TANDEM_SANITIZE MATCHES thread)
   # Threads share the rows of lanes4.cpp and scalar.cpp as they do those of the others.
   set(unwatched_kernels minicl/lanes8.cpp minicl/lanes16.cpp minicl/backward.cpp minicl/reference.cpp)
   if(TANDEM_OBJECTS_FROM)
-    get_target_property(library_sources tandem SOURCES)
+    get_target_property(library_sources tandem_objects SOURCES)
     list(FILTER library_sources EXCLUDE REGEX "minicl/(lanes8|lanes16|backward|reference)[.]cpp$")
-    set_property(TARGET tandem PROPERTY SOURCES ${library_sources})
+    set_property(TARGET tandem_objects PROPERTY SOURCES ${library_sources})
     # which gives what is missing, and no more
     target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>)
   else()
@@ -49,5 +49,6 @@ endif()
 
 # The library's objects before all others.
 function(link_watched_library_first target)
-  target_link_options(${target} PRIVATE "SHELL:-Wl,--whole-archive $<TARGET_FILE:tandem> -Wl,--no-whole-archive")
+  set(watched "$<TARGET_FILE:tandem_verify> $<TARGET_FILE:tandem_io> $<TARGET_FILE:tandem>")
+  target_link_options(${target} PRIVATE "SHELL:-Wl,--whole-archive ${watched} -Wl,--no-whole-archive")
 endfunction()

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include <tandem/scene.h>
+#include <tandem/version.h>
 
 #include "host/base/out_of_memory.h"
 #include "host/base/printable.h"
@@ -175,7 +176,7 @@ int parse_and_execute(int count, char **arguments)
 {
   CLI::App parser("Rigid body physics whose every stage is written once and runs on CPU and GPU with the same bits.",
                   "tandem");
-  parser.set_version_flag("--version", "tandem " TANDEM_VERSION);
+  parser.set_version_flag("--version", std::string("tandem ") + version());
   parser.footer("SCENE is a file (.json, .gltf, .glb) or name:key=value,... - `tandem scenes` lists the names.\n"
                 "Exit status: 0 fine; 1 the check failed, or the machine did not suffice: memory, threads, the room "
                 "that --max-pairs allows, a device;\n"

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <tandem/export.h>
+
 namespace tandem {
 
 struct SineCosine {
@@ -12,6 +14,6 @@ struct SineCosine {
 };
 
 /* Angles in radians, of at most 10^6 in size; each wrong by less than 2.3e-16. */
-SineCosine sine_cosine(double angle);
+TANDEM_API SineCosine sine_cosine(double angle);
 
 } // namespace tandem

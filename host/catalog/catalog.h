@@ -11,9 +11,7 @@
 #include <span>
 #include <string>
 
-#include <tandem/scene.h>
-
-#include "host/io/input_file.h"
+#include <tandem/load_scene.h>
 
 namespace tandem {
 
@@ -53,9 +51,5 @@ SceneSpec parse_scene_spec(const std::string &text);
 
 /* Builds and validates; Scene::name is the full specification, with all parameters. */
 Scene build_scene(const SceneSpec &spec);
-
-/* What the command's SCENE argument means: a path that ends in .json, .gltf or .glb is a file, all
- * else a built-in scene. Throws InputError. */
-Scene load_scene(const std::string &spec_or_path, OutsideFiles outside = OutsideFiles::refused);
 
 } // namespace tandem

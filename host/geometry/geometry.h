@@ -13,6 +13,7 @@
 
 #include <span>
 
+#include <tandem/export.h>
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
 
@@ -33,7 +34,7 @@ Bounds bounds_of(std::span<const Vec3> points);
 
 /* The points with their coordinates multiplied axis by axis. A negative factor mirrors: a hull of the points takes no
  * notice, triangles are inside out afterwards. Throws InputError where a factor is zero or not finite. */
-std::vector<Vec3> scaled(std::span<const Vec3> points, const Vec3 &scale, const std::string &where);
+TANDEM_API std::vector<Vec3> scaled(std::span<const Vec3> points, const Vec3 &scale, const std::string &where);
 
 /* The points without repetitions, in the order of their first appearance. Negative zeros become zeros. */
 struct DistinctPoints {

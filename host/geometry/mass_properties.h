@@ -16,6 +16,8 @@
  */
 #pragma once
 
+#include <tandem/export.h>
+
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
 
@@ -41,14 +43,14 @@ MassProperties cylinder_mass(double radius_bottom, double radius_top,
 MassProperties capsule_mass(double radius_bottom, double radius_top,
                             double height); /* height: between the centres of the spheres */
 
-MassProperties hull_mass(const ConvexHull &hull);
+TANDEM_API MassProperties hull_mass(const ConvexHull &hull);
 
 /* Throws InputError where the mesh has no volume (flat), or a negative one (inside out). A mesh with holes counts as
  * closed by cones from them to the centre of its vertices: volume_warning(mesh) says so to the user. */
 MassProperties mesh_mass(const TriangleMesh &mesh, const std::string &where);
 
 /* Of triangles of any closed surface; of an inside-out one, the mass is negative. */
-MassProperties polyhedron_mass(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
+TANDEM_API MassProperties polyhedron_mass(std::span<const Vec3> vertices, std::span<const Triangle> triangles);
 
 /* The same shape of another density. */
 MassProperties with_mass(const MassProperties &shape, double mass);

@@ -6,11 +6,13 @@
  */
 #pragma once
 
+#include <tandem/export.h>
+
 #include "host/geometry/geometry.h"
 
 namespace tandem {
 
 /* The corners in order; the last one is joined to the first. */
-bool crosses_itself(std::span<const Vec3> corners);
+TANDEM_API bool crosses_itself(std::span<const Vec3> corners);
 
 } // namespace tandem

@@ -14,16 +14,18 @@
  */
 #pragma once
 
+#include <tandem/export.h>
+
 #include "host/geometry/mass_properties.h"
 
 namespace tandem {
 
 /* Of a solid of density 1, in the shape's own frame. Not for half-spaces, which have no mass. InputError for a mesh
  * without volume. */
-MassProperties mass_properties_of(const Shape &shape);
+TANDEM_API MassProperties mass_properties_of(const Shape &shape);
 
 /* False for half-spaces, and meshes that are flat or inside out. */
-bool has_volume(const Shape &shape);
+TANDEM_API bool has_volume(const Shape &shape);
 
 /* The frame that take_mass_properties gives a body, in that of its shape, and the moments about its axes for density 1.
  * Where it differs from the shape's own by no more than roundings, it is the shape's own. */
@@ -46,17 +48,17 @@ ShapePlace place_of_shape(const Body &body);
 ShapePlace place_of_child(const Body &body, const Child &child);
 
 /* Turned about the origin, then moved. */
-std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &position, const Quat &orientation);
+TANDEM_API std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &position, const Quat &orientation);
 
 /* Moves the body's frame and leaves the shape where it is. */
-void move_frame(Body &body, const Double3 &position, const Rotation &orientation);
+TANDEM_API void move_frame(Body &body, const Double3 &position, const Rotation &orientation);
 
 /* False where the moments of inertia_of, taken about the body's axes, are not those of the shape as it stands in the
  * body. */
 bool has_principal_axes(const Body &body, const Shape &shape);
 
 /* b first, then a. */
-Rotation product(const Rotation &a, const Rotation &b);
-Double3 turned(const Rotation &rotation, const Double3 &v);
+TANDEM_API Rotation product(const Rotation &a, const Rotation &b);
+TANDEM_API Double3 turned(const Rotation &rotation, const Double3 &v);
 
 } // namespace tandem

@@ -15,6 +15,8 @@
  */
 #pragma once
 
+#include <tandem/export.h>
+
 #include "host/geometry/geometry.h"
 
 namespace tandem {
@@ -67,11 +69,12 @@ struct TriangleMesh {
 
 /* Throws InputError for vertices that are not finite or beyond longest_length, used or not, indices out of range, and
  * no triangle left. */
-TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
-                           const std::string &where);
+TANDEM_API TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const Triangle> triangles,
+                                      const std::string &where);
 
 /* The same from a plain list of indices, three a triangle; refuses a count that is no multiple of three. */
-TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const uint32_t> indices, const std::string &where);
+TANDEM_API TriangleMesh triangle_mesh(std::span<const Vec3> vertices, std::span<const uint32_t> indices,
+                                      const std::string &where);
 
 /* One line that says why the volume of the mesh is not to be trusted, or "". */
 std::string volume_warning(const TriangleMesh &mesh);
@@ -80,7 +83,7 @@ std::string volume_warning(const TriangleMesh &mesh);
 std::string cleaning_note(const TriangleMesh &mesh);
 
 /* The triangles turned round: needed after a mirroring scale (an odd number of negative factors). */
-std::vector<Triangle> turned_round(std::span<const Triangle> triangles);
+TANDEM_API std::vector<Triangle> turned_round(std::span<const Triangle> triangles);
 
 /* One box a triangle, for a bvh. */
 std::vector<Bounds> triangle_bounds(const TriangleMesh &mesh);

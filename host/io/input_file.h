@@ -1,17 +1,16 @@
 /* input_file.h - reading of files that a user names, and of those that a scene names.
  *
- * A scene may come from anywhere, so what it names (a buffer of a glTF file, an OBJ file) lies in its own folder or
- * below it, wherever links and `..` lead; who trusts a scene says so. Only regular files are read: a pipe would hang
- * and a device never end.
+ * Only regular files are read: a pipe would hang and a device never end. What a scene names lies beside it or below
+ * (OutsideFiles).
  */
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace tandem {
+#include <tandem/load_scene.h>
 
-enum class OutsideFiles { refused, allowed };
+namespace tandem {
 
 /* The names of the files that this thread reads while it lives, so that no output takes their place. One at a time. */
 class FilesRead {

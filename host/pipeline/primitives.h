@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <tandem/export.h>
+
 #include "host/runtime/launcher.h"
 
 namespace tandem {
@@ -43,9 +45,9 @@ enum class Reduction : uint32_t { sum, smallest, largest };
  * order on every backend. */
 void reduce(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
             uint32_t capacity);
-void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result, uint32_t length,
-                 uint32_t capacity);
-size_t reduce_partial_words(size_t capacity);
+TANDEM_API void reduce_real(Launcher &launcher, Reduction reduction, Buffer values, Buffer partial, Buffer result,
+                            uint32_t length, uint32_t capacity);
+TANDEM_API size_t reduce_partial_words(size_t capacity);
 
 /* The indices i with flags[i] != 0, ascending; how many goes to counts[found]. offsets: capacity + 1 words of scratch;
  * sums: scan_sum_words(capacity). */

@@ -7,12 +7,14 @@
 #include <functional>
 #include <vector>
 
+#include <tandem/export.h>
+
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 
 namespace tandem {
 
-class Launcher {
+class TANDEM_API Launcher {
 public:
   virtual ~Launcher() = default;
   virtual void launch(const Launch &launch) = 0;
@@ -20,7 +22,7 @@ public:
   virtual void begin_commit() {}
 };
 
-class PlacedLauncher : public Launcher {
+class TANDEM_API PlacedLauncher : public Launcher {
 public:
   using Choice = std::function<Backend &(Kernel)>;
   using Observer = std::function<void(const Launch &)>;

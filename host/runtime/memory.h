@@ -11,12 +11,14 @@
 #include <utility>
 #include <vector>
 
+#include <tandem/export.h>
+
 #include "host/runtime/interface/storage.h"
 
 namespace tandem {
 
 /* Every storage given to acquire must outlive the memory. */
-class Memory {
+class TANDEM_API Memory {
 public:
   Memory();
   ~Memory();

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <tandem/export.h>
 #include <tandem/scene.h>
 
 namespace tandem {
@@ -49,6 +50,6 @@ Filter filter_of(const Body &body, const Child &child);
 Filter filter_of(const Scene &scene, const Body &body);
 
 /* Principal moments: the body's own, or from its shape and mass; 0 where it cannot turn. */
-Vec3 inverse_inertia_of(const Scene &scene, const Body &body);
+TANDEM_API Vec3 inverse_inertia_of(const Scene &scene, const Body &body);
 
 } // namespace tandem

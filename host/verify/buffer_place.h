@@ -1,7 +1,7 @@
 /* buffer_place.h - what one number inside a buffer means: whose it is, which field, which value.
  *
  * Buffers are flat arrays; buffers.def knows how an item lies in them. The comparison of backends
- * (host/verify/compare.h) uses this to turn "word 8193 differs" into "constraint 17, plane 2, separation".
+ * (tandem/compare.h) uses this to turn "word 8193 differs" into "constraint 17, plane 2, separation".
  *
  *   records:  item 0: row 0, row 1 | item 1: row 0, row 1 | ...
  *   planes:   row 0 of items 0 .. capacity - 1 | row 1 of items 0 .. capacity - 1 | ...
@@ -12,6 +12,8 @@
 #include <optional>
 #include <string>
 
+#include <tandem/compare.h>
+
 #include "host/runtime/interface/kernel_list.h"
 
 namespace tandem {
@@ -19,20 +21,10 @@ namespace tandem {
 /* Numbers are counted in scalars: a row is four of them. */
 size_t scalar_bytes(Buffer buffer);
 
-struct BufferPlace {
-  size_t element;    /* index of the row, real, uint or ulong in the buffer */
-  size_t item;       /* body, pair, constraint, cell, ... */
-  uint32_t part;     /* which record row or plane of the item */
-  std::string field; /* "separation", "linear.x"; with the part where the name alone is ambiguous */
-};
-
 /* `capacity`: items there is room for, the stride of planes. */
 BufferPlace place_in(Buffer buffer, size_t scalar, size_t capacity);
 
-/* One number as its bytes say: "0.125" / "0x3e000000", "17" / "0x00000011". */
-struct BufferValue {
-  std::string decimal, bits;
-};
+/* One number as its bytes say. */
 BufferValue value_at(Buffer buffer, const void *scalar);
 
 /* How many floats lie between the two, 0 only for equal bits; nothing for integers and NaN. */

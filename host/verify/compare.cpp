@@ -1,15 +1,17 @@
 /* compare.cpp - backends in lockstep; see compare.h. */
-#include "host/verify/compare.h"
-
 #include <algorithm>
 #include <cstring>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include <tandem/compare.h>
+
+#include "host/pipeline/broadphases/choice.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
+#include "host/verify/buffer_place.h"
 
 namespace tandem {
 std::vector<Buffer> buffers_written(const Launch &launch)
@@ -274,7 +276,8 @@ Comparison compare_backends(const Scene &scene, const ComparisonRequest &request
   ComparisonRequest decided = request;
   decided.settings.broadphase = choice.name;
   Comparison comparison = Lockstep(scene, decided).run();
-  comparison.broadphase = choice;
+  comparison.broadphase = choice.name;
+  comparison.broadphase_why = choice.why;
   return comparison;
 }
 

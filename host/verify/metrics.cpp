@@ -1,10 +1,10 @@
 /* metrics.cpp - see metrics.h. */
-#include "host/verify/metrics.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
+
+#include <tandem/metrics.h>
 
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/memory.h"

@@ -10,13 +10,13 @@
 #include <tuple>
 #include <utility>
 
+#include <tandem/compare.h>
 #include <tandem/round_to_float.h>
 
 #include "host/runtime/launcher.h"
 #include "host/runtime/make_backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/buffer_place.h"
-#include "host/verify/compare.h"
 #include "host/world/carried.h"
 #include "shared/counts.h"
 #include "shared/platform.h"

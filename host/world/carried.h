@@ -7,6 +7,8 @@
 
 #include <span>
 
+#include <tandem/export.h>
+
 #include "host/runtime/memory.h"
 
 namespace tandem {
@@ -17,7 +19,7 @@ struct CarriedBuffer {
 std::span<const CarriedBuffer> carried_buffers();
 bool is_carried(Buffer buffer); /* as its present side */
 
-void turn_carried(Memory &memory) noexcept;
+TANDEM_API void turn_carried(Memory &memory) noexcept;
 
 /* Of all that is carried over, as far as a scene of these features has it. Equal iff the next step will be equal. */
 uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features);

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <tandem/compare.h>
+
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
-#include "host/verify/compare.h"
+#include "host/runtime/interface/kernel_list.h"
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
 #include "tests/host/runtime/opencl/pocl.h"

@@ -28,7 +28,7 @@ endif()
 
 add_executable(tandem_planted sanitizers/planted.cpp)
 target_include_directories(tandem_planted PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(tandem_planted PRIVATE tandem)
+target_link_libraries(tandem_planted PRIVATE tandem_io tandem)
 set_target_properties(tandem_planted PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/build-tools)
 add_dependencies(tandem_tests tandem_planted) # one target builds what the tests run
 

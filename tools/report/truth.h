@@ -14,7 +14,8 @@
 #include <optional>
 #include <vector>
 
-#include "host/verify/metrics.h"
+#include <tandem/metrics.h>
+
 #include "tools/report/cases.h"
 
 namespace tandem {

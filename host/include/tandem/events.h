@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include <tandem/export.h>
 #include <tandem/shapes.h>
 
 namespace tandem {
@@ -20,7 +21,7 @@ struct BatchFault {
       other;            /* bodies of the first pair and of the one it conflicts with, as in Scene::bodies */
   uint32_t constraints; /* how many are at fault in this step */
 };
-std::string describe(const BatchFault &fault); /* one line */
+TANDEM_API std::string describe(const BatchFault &fault); /* one line */
 
 /* Two bodies that touched in the last step, or ceased to. A pair has at most one event a step, however many points or
  * parts touch.
@@ -41,7 +42,7 @@ struct ContactEvent {
                   of the points where there is none */
   Vec3 normal; /* unit, from a to b; of several parts, that of the one that pressed hardest */
 };
-const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */
+TANDEM_API const char *name_of(ContactEvent::Kind kind); /* "begin", "persist", "end" */
 
 /* Two bodies whose bounds overlapped in the last step, or in the one before it; in scenes with meshes and compounds,
  * those of some of their parts. `begin`: they did not before; `end`: they do no more. A pair that persists keeps its

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <tandem/error.h>
+#include <tandem/export.h>
 #include <tandem/shapes.h>
 
 namespace tandem {
@@ -74,19 +75,19 @@ struct Scene {
 /* Throws InputError naming the first body, shape or material that cannot be simulated:
  * non-finite or non-positive sizes and masses, NaN or infinite poses, zero quaternions,
  * indices out of range, dynamic half-spaces. `where` prefixes the message (a file name). */
-void validate(const Scene &scene, const std::string &where);
+TANDEM_API void validate(const Scene &scene, const std::string &where);
 
 /* One line for each body that can be simulated, but hardly as meant: moving meshes that are not closed, whose volume is
  * a guess. */
-std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
+TANDEM_API std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
 
 /* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes
  * that take_mass_properties gives its body. */
-Vec3 inertia_of(const Shape &shape, float mass);
+TANDEM_API Vec3 inertia_of(const Shape &shape, float mass);
 
 /* For a body whose position, orientation and shape pose place its shape: makes the shape's centre of mass and principal
  * axes (of uniform density) the body's own, and leaves the shape where it is in the world. Nothing to do for shapes
  * that are symmetric. */
-void take_mass_properties(const Scene &scene, Body &body);
+TANDEM_API void take_mass_properties(const Scene &scene, Body &body);
 
 } // namespace tandem

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <tandem/export.h>
+
 namespace tandem {
 
 /* Kernels number rows of pairs with 32 bits, in up to 16 planes. */
@@ -41,22 +43,22 @@ struct Settings {
 };
 
 /* The accepted names, default first; --help and error messages list them. */
-std::vector<std::string> solver_names();
-std::vector<std::string> broadphase_names(); /* without auto */
-std::vector<std::string> bounds_names();
-std::vector<std::string> midphase_names();
-std::vector<std::string> narrowphase_names();
-std::vector<std::string> support_names();
+TANDEM_API std::vector<std::string> solver_names();
+TANDEM_API std::vector<std::string> broadphase_names(); /* without auto */
+TANDEM_API std::vector<std::string> bounds_names();
+TANDEM_API std::vector<std::string> midphase_names();
+TANDEM_API std::vector<std::string> narrowphase_names();
+TANDEM_API std::vector<std::string> support_names();
 /* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */
-uint32_t narrowphase_method(const Settings &settings);
-uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
-std::vector<std::string> batching_names();
+TANDEM_API uint32_t narrowphase_method(const Settings &settings);
+TANDEM_API uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
+TANDEM_API std::vector<std::string> batching_names();
 
 /* The defaults with the substeps and iterations that this solver wants. InputError lists the names. */
-Settings settings_for(const std::string &solver);
+TANDEM_API Settings settings_for(const std::string &solver);
 
 /* InputError if a number is out of range or a name unknown. */
-void validate(const Settings &settings);
+TANDEM_API void validate(const Settings &settings);
 
 /* Which backend runs what: one for all, and exceptions by stage ("narrowphase") or kernel name. */
 struct Placement {
@@ -67,6 +69,6 @@ struct Placement {
 
 /* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='
  * too, so its options are told apart by their names). InputError on unknown stages. */
-std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text);
+TANDEM_API std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text);
 
 } // namespace tandem

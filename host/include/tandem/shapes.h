@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <tandem/export.h>
+
 namespace tandem {
 
 using Vec3 = std::array<float, 3>;
@@ -85,15 +87,16 @@ inline Shape cone_shape(float radius, float half_height)
   return {ShapeType::cylinder, {radius, half_height, 0}};
 } /* apex up */
 /* InputError as convex_hull of host/geometry/convex_hull.h. */
-Shape hull_shape(std::span<const Vec3> points, const std::string &where);
+TANDEM_API Shape hull_shape(std::span<const Vec3> points, const std::string &where);
 /* InputError as triangle_mesh of host/geometry/triangle_mesh.h. Indices: three a triangle, counter-clockwise seen from
  * outside. */
-Shape mesh_shape(std::span<const Vec3> vertices, std::span<const uint32_t> indices, const std::string &where);
+TANDEM_API Shape mesh_shape(std::span<const Vec3> vertices, std::span<const uint32_t> indices,
+                            const std::string &where);
 /* A mesh of heights over a grid: heights[z * columns + x] at (x * spacing_x, height, z * spacing_z), centred on the
  * origin across. columns and rows: at least 2 each. InputError otherwise, and for heights that are not finite. */
-Shape height_field_shape(std::span<const float> heights, uint32_t columns, float spacing_x, float spacing_z,
-                         const std::string &where);
-Shape compound_shape(std::vector<Child> children);
+TANDEM_API Shape height_field_shape(std::span<const float> heights, uint32_t columns, float spacing_x, float spacing_z,
+                                    const std::string &where);
+TANDEM_API Shape compound_shape(std::vector<Child> children);
 inline Shape half_space_shape() { return {ShapeType::half_space, {0, 0, 0}}; }
 
 } // namespace tandem

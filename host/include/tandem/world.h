@@ -5,7 +5,7 @@
  *   std::vector<BodyState> bodies = world.bodies();
  *
  * A step either happens whole or not at all: overflow grows the buffers and runs the step again, a
- * non-finite body is quarantined and named (design section 7).
+ * non-finite body is quarantined and named.
  */
 #pragma once
 
@@ -19,6 +19,7 @@
 #include <vector>
 
 #include <tandem/events.h>
+#include <tandem/export.h>
 #include <tandem/queries.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
@@ -28,9 +29,12 @@ namespace tandem {
 /* What runs inside: host/runtime/interface/ says what they are, for those who compare, profile or extend the
  * pipeline. */
 enum class Kernel : uint16_t;
+enum class Buffer : uint16_t;
 class Backend;
 class Memory;
 struct Launch;
+TANDEM_API const char *name_of(Kernel kernel);
+TANDEM_API const char *name_of(Buffer buffer);
 
 struct BodyState {
   Point position;
@@ -73,7 +77,7 @@ struct KernelTime {
   uint64_t launches;
 };
 
-class World {
+class TANDEM_API World {
 public:
   World(const Scene &scene, const Settings &settings = {}, const Placement &placement = {});
   ~World();

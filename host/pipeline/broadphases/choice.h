@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include <tandem/export.h>
 #include <tandem/scene.h>
 
 namespace tandem {
@@ -14,6 +15,6 @@ struct BroadphaseChoice {
 };
 
 /* backend: as in --on. */
-BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend);
+TANDEM_API BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backend);
 
 } // namespace tandem

@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include <tandem/world.h>
+
 #include "shared/argument_groups.h"
 #include "shared/parameters.h"
 
@@ -65,6 +67,9 @@ constexpr std::array<KernelRow, kernel_count> kernel_rows = {{
 
 const KernelRow &row_of(Kernel kernel) { return kernel_rows[index_of(kernel)]; }
 const BufferRow &row_of(Buffer buffer) { return buffer_rows[index_of(buffer)]; }
+
+const char *name_of(Kernel kernel) { return row_of(kernel).name; }
+const char *name_of(Buffer buffer) { return row_of(buffer).name; }
 
 const char *name_of(Stage stage)
 {

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include <tandem/export.h>
+
 #include "shared/counts.h"
 #include "shared/features.h"
 
@@ -117,10 +119,10 @@ struct BufferRow {
   const char *fields; /* names of the scalars of one item, separated by spaces */
 };
 
-const KernelRow &row_of(Kernel kernel);
-const BufferRow &row_of(Buffer buffer);
+TANDEM_API const KernelRow &row_of(Kernel kernel);
+TANDEM_API const BufferRow &row_of(Buffer buffer);
 const char *name_of(Stage stage);
-size_t size_of(Element element);
+TANDEM_API size_t size_of(Element element);
 
 inline Kernel kernel_at(size_t index) { return static_cast<Kernel>(index); }
 inline Buffer buffer_at(size_t index) { return static_cast<Buffer>(index); }

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include <tandem/export.h>
+
 #include "host/runtime/interface/kernel_list.h"
 
 namespace tandem {
@@ -30,6 +32,6 @@ public:
 };
 
 /* Host memory, 64-byte aligned. */
-Storage &host_storage();
+TANDEM_API Storage &host_storage();
 
 } // namespace tandem

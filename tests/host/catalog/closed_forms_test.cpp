@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include <tandem/metrics.h>
+
 #include "host/catalog/closed_forms.h"
-#include "host/verify/metrics.h"
 #include "tests/catch.h"
 
 using namespace tandem;

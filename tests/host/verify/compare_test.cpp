@@ -4,12 +4,14 @@
 #include <fstream>
 #include <sstream>
 
+#include <tandem/compare.h>
+
 #include "host/catalog/catalog.h"
 #include "host/runtime/backend_list.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
-#include "host/verify/compare.h"
+#include "host/verify/buffer_place.h"
 #include "tests/catch.h"
 
 using namespace tandem;

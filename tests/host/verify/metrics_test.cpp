@@ -3,8 +3,9 @@
 #include <cmath>
 #include <memory>
 
+#include <tandem/metrics.h>
+
 #include "host/runtime/memory.h"
-#include "host/verify/metrics.h"
 #include "shared/platform.h"
 #include "tests/catch.h"
 #include "tests/physics/physics.h"

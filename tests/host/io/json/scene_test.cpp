@@ -12,6 +12,7 @@
 #include "host/base/random.h"
 #include "host/catalog/catalog.h"
 #include "host/geometry/shape_mass.h"
+#include "host/io/input_file.h"
 #include "host/io/json/reader.h"
 #include "host/io/json/scene.h"
 #include "tests/catch.h"

@@ -1,4 +1,5 @@
-/* metrics.h - how wrong a simulation is, in numbers: what the report draws and the tests bound.
+/* metrics.h - how wrong a simulation is, in numbers: what the report draws and the tests bound; of the library
+ * Tandem::verify.
  *
  * Everything is computed in double on the host from downloaded buffers, and never inside a step: measuring cannot
  * change what is measured. docs/metrics.md states each formula, its unit and where it comes from.
@@ -8,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include <tandem/export.h>
 #include <tandem/world.h>
 
 namespace tandem {
@@ -15,10 +17,10 @@ namespace tandem {
 using PreciseBodies = std::vector<PreciseBodyState>; /* in the order of Scene::bodies */
 
 /* The angle between two orientations, 0 .. pi rad; exact for small angles too. */
-double angle_between(const std::array<double, 4> &one, const std::array<double, 4> &other);
+TANDEM_API double angle_between(const std::array<double, 4> &one, const std::array<double, 4> &other);
 
 /* Distances from the truth over dynamic bodies, gathered over any number of moments. */
-class TrajectoryError {
+class TANDEM_API TrajectoryError {
 public:
   void add(const Scene &scene, const PreciseBodies &states, const PreciseBodies &truth);
 
@@ -39,10 +41,10 @@ struct Conserved {
 
   double energy() const { return kinetic + potential; }
 };
-Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states);
+TANDEM_API Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states);
 
 /* Mean height (against gravity; y without gravity) of the dynamic bodies, m. */
-double mean_height(const Scene &scene, const PreciseBodies &states);
+TANDEM_API double mean_height(const Scene &scene, const PreciseBodies &states);
 
 /* How far the impulses and velocities at the end of the last step are from solving its contact problem. All relative:
  * to the Euclidean norm of the impulses, the violation to the largest limit of friction. 0 without contacts. */
@@ -51,11 +53,11 @@ struct StepResiduals {
   double fischer_burmeister = 0;
   double cone_violation = 0;
 };
-StepResiduals step_residuals(World &world);
+TANDEM_API StepResiduals step_residuals(World &world);
 
 /* One contact of a problem in impulses: normal p >= 0 and speed u, complementary. Both in N s: `mass_speed` is
  * effective mass x speed. */
-double natural_map_of(double impulse, double mass_speed);
-double fischer_burmeister_of(double impulse, double mass_speed);
+TANDEM_API double natural_map_of(double impulse, double mass_speed);
+TANDEM_API double fischer_burmeister_of(double impulse, double mass_speed);
 
 } // namespace tandem

@@ -1,11 +1,12 @@
-/* compare.h - one scene on several backends in lockstep, every kernel's outputs compared bit for bit.
+/* compare.h - one scene on several backends in lockstep, every kernel's outputs compared bit for bit; of the library
+ * Tandem::verify.
  *
  * Exactness is a claim about every kernel, so it is checked after every launch, not at the end: the
  * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
  * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
  * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
- * two buffers side by side. Two numbers that are both NaN count as the same (buffer_place.h): a body that stops
- * being finite is taken out at the end of the step on every backend.
+ * two buffers side by side. Two numbers that are both NaN count as the same (host/verify/buffer_place.h): a body that
+ * stops being finite is taken out at the end of the step on every backend.
  */
 #pragma once
 
@@ -15,10 +16,8 @@
 #include <string>
 #include <vector>
 
+#include <tandem/export.h>
 #include <tandem/world.h>
-
-#include "host/pipeline/broadphases/choice.h"
-#include "host/verify/buffer_place.h"
 
 namespace tandem {
 
@@ -36,7 +35,7 @@ struct PlantedError {
 };
 /* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the
  * tamper. */
-Tamper plant(const PlantedError &error, std::string *missing = nullptr);
+TANDEM_API Tamper plant(const PlantedError &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
   Settings settings;
@@ -45,6 +44,19 @@ struct ComparisonRequest {
   uint64_t steps = 1;
   Tamper tamper;                                 /* optional */
   std::function<void(uint64_t done)> after_step; /* optional: progress */
+};
+
+/* What one number inside a buffer means. */
+struct BufferPlace {
+  size_t element;    /* index of the row, real, uint or ulong in the buffer */
+  size_t item;       /* body, pair, constraint, cell, ... */
+  uint32_t part;     /* which record row or plane of the item */
+  std::string field; /* "separation", "linear.x"; with the part where the name alone is ambiguous */
+};
+
+/* One number as its bytes say: "0.125" / "0x3e000000", "17" / "0x00000011". */
+struct BufferValue {
+  std::string decimal, bits;
 };
 
 /* The first difference. Without a buffer (has_buffer false) the note alone says what differed. */
@@ -66,8 +78,9 @@ struct Difference {
 
 struct Comparison {
   bool equal = true;
-  BroadphaseChoice broadphase; /* on every backend; `auto` is decided once, for the first */
-  uint64_t steps = 0;          /* run on every backend; the last may have differed */
+  std::string broadphase;     /* on every backend; `auto` is decided once, for the first */
+  std::string broadphase_why; /* the statistics of the scene that led there, in one line */
+  uint64_t steps = 0;         /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;
   std::optional<Difference> first_difference;
@@ -76,9 +89,9 @@ struct Comparison {
 };
 
 /* InputError on fewer than two backends, and as World's constructor. */
-Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
+TANDEM_API Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
 
 /* What a launch writes, slots included, in the order of its kernel's arguments. */
-std::vector<Buffer> buffers_written(const Launch &launch);
+TANDEM_API std::vector<Buffer> buffers_written(const Launch &launch);
 
 } // namespace tandem
