@@ -8,7 +8,7 @@
 #ifndef TANDEM_SHARED_ARGUMENT_GROUPS_H
 #define TANDEM_SHARED_ARGUMENT_GROUPS_H
 
-#include "shared/platform.h"
+#include "shared/real.h"
 
 #define READ_MEMBER(buffer, type, member) GLOBAL const type *member;
 #define WRITE_MEMBER(buffer, type, member) GLOBAL type *member;
@@ -57,9 +57,41 @@ typedef struct {
   BUFFER(body_orientation, row, orientation)                                                                           \
   BUFFER(body_velocity, row, velocity)
 
+/* Of bodies that touch, as their contacts are set up. */
+#define GROUP_touching_bodies(BUFFER)                                                                                  \
+  BUFFER(body_traits, uint, traits)                                                                                    \
+  BUFFER(body_shape, row, shape)                                                                                       \
+  BUFFER(body_mass, row, mass)                                                                                         \
+  BUFFER(body_position, row, position)                                                                                 \
+  BUFFER(solver_velocity, row, velocity)                                                                               \
+  BUFFER(solver_inertia, row, inertia)
+
+/* Of bodies whose velocities a kernel of the solver only reads. */
+#define GROUP_solver_bodies(BUFFER)                                                                                    \
+  BUFFER(solver_velocity, row, velocity)                                                                               \
+  BUFFER(solver_inertia, row, inertia)                                                                                 \
+  BUFFER(solver_delta, row, delta)
+
+/* Of the bodies of solve/avbd_bodies.h, each a block of the descent. */
+#define GROUP_blocks(BUFFER)                                                                                           \
+  BUFFER(body_mass, row, mass)                                                                                         \
+  BUFFER(avbd_target, row, target)                                                                                     \
+  BUFFER(solver_inertia, row, inertia)                                                                                 \
+  BUFFER(solver_delta, row, delta)                                                                                     \
+  BUFFER(solver_orientation, row, orientation)
+
 typedef struct {
   GROUP_bodies(READ_MEMBER)
 } read_bodies;
+typedef struct {
+  GROUP_touching_bodies(READ_MEMBER)
+} read_touching_bodies;
+typedef struct {
+  GROUP_solver_bodies(READ_MEMBER)
+} read_solver_bodies;
+typedef struct {
+  GROUP_blocks(READ_MEMBER)
+} read_blocks;
 
 /* --- pairs and their manifolds ------------------------------------------------------------------------------ */
 #define GROUP_pairs(BUFFER)                                                                                            \
@@ -121,5 +153,94 @@ typedef struct {
 typedef struct {
   GROUP_clipped_points(WRITE_MEMBER)
 } write_clipped_points;
+
+/* --- contacts ----------------------------------------------------------------------------------------------- */
+/* All that setup/contact.h makes of a manifold. */
+#define GROUP_constraints(BUFFER)                                                                                      \
+  BUFFER(constraint_pair, uint, pair)                                                                                  \
+  BUFFER(constraint_a, uint, a)                                                                                        \
+  BUFFER(constraint_b, uint, b)                                                                                        \
+  BUFFER(constraint_normal, row, normal)                                                                               \
+  BUFFER(constraint_points, row, points)                                                                               \
+  BUFFER(constraint_center, row, center)                                                                               \
+  BUFFER(constraint_normal_impulse, row, normal_impulse)                                                               \
+  BUFFER(constraint_friction_impulse, row, friction_impulse)                                                           \
+  BUFFER(constraint_bounce, row, bounce)                                                                               \
+  BUFFER(constraint_slop, memory_real, slop)
+
+#define GROUP_contacts(BUFFER)                                                                                         \
+  BUFFER(constraint_a, uint, a)                                                                                        \
+  BUFFER(constraint_b, uint, b)                                                                                        \
+  BUFFER(constraint_normal, row, normal)
+
+/* Where the bodies of a contact touch, and how deep they may stay in each other. */
+#define GROUP_patches(BUFFER)                                                                                          \
+  BUFFER(constraint_points, row, points)                                                                               \
+  BUFFER(constraint_center, row, center)                                                                               \
+  BUFFER(constraint_slop, memory_real, slop)
+
+#define GROUP_contact_impulses(BUFFER)                                                                                 \
+  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
+  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
+  BUFFER(constraint_bounce, row, bounce)
+
+/* What solve/avbd.h holds contacts with: multipliers and penalties. */
+#define GROUP_duals(BUFFER)                                                                                            \
+  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
+  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
+  BUFFER(constraint_penalty, row, penalty)
+
+/* Between the iterations of solve/mass_split.h. */
+#define GROUP_iterates(BUFFER)                                                                                         \
+  BUFFER(split_pushed, row, pushed)                                                                                    \
+  BUFFER(split_rubbed, row, rubbed)
+
+/* The constraints of each body. */
+#define GROUP_incidence_lists(BUFFER)                                                                                  \
+  BUFFER(incidence_start, uint, start)                                                                                 \
+  BUFFER(incidence, uint, entries)
+
+/* What the last step kept: of pairs, and of those that touched. */
+#define GROUP_cached_pairs(BUFFER)                                                                                     \
+  BUFFER(cached_start, uint, start)                                                                                    \
+  BUFFER(cached_b, uint, b)                                                                                            \
+  BUFFER(cached_normal, row, normal)                                                                                   \
+  BUFFER(cached_color, uint, color)
+
+#define GROUP_cached_contacts(BUFFER)                                                                                  \
+  BUFFER(cached_feature, uint, feature)                                                                                \
+  BUFFER(cached_normal_impulse, row, normal_impulse)                                                                   \
+  BUFFER(cached_friction_impulse, row, friction_impulse)
+
+typedef struct {
+  GROUP_constraints(WRITE_MEMBER)
+} write_constraints;
+typedef struct {
+  GROUP_contacts(READ_MEMBER)
+} read_contacts;
+typedef struct {
+  GROUP_patches(READ_MEMBER)
+} read_patches;
+typedef struct {
+  GROUP_contact_impulses(WRITE_MEMBER)
+} write_contact_impulses;
+typedef struct {
+  GROUP_duals(READ_MEMBER)
+} read_duals;
+typedef struct {
+  GROUP_duals(WRITE_MEMBER)
+} write_duals;
+typedef struct {
+  GROUP_iterates(WRITE_MEMBER)
+} write_iterates;
+typedef struct {
+  GROUP_incidence_lists(READ_MEMBER)
+} read_incidence_lists;
+typedef struct {
+  GROUP_cached_pairs(READ_MEMBER)
+} read_cached_pairs;
+typedef struct {
+  GROUP_cached_contacts(READ_MEMBER)
+} read_cached_contacts;
 
 #endif
