@@ -243,4 +243,52 @@ typedef struct {
   GROUP_cached_contacts(READ_MEMBER)
 } read_cached_contacts;
 
+/* --- queries ---------------------------------------------------------------------------------------------- */
+/* What the broadphase left, to find bodies along a way: the hierarchy, and the boxes and cells of the grid. */
+#define GROUP_search_structures(BUFFER)                                                                                \
+  BUFFER(hierarchy, row, node)                                                                                         \
+  BUFFER(hierarchy_link, uint, link)                                                                                   \
+  BUFFER(leaf_body, uint, leaf_body)                                                                                   \
+  BUFFER(bounds, row, bounds)                                                                                          \
+  BUFFER(grid, row, grid)                                                                                              \
+  BUFFER(sort_value, uint, sorted_body)                                                                                \
+  BUFFER(cell_start, uint, cell_start)                                                                                 \
+  BUFFER(counts, uint, counts)
+
+/* The number and the filter of each body, then what each query is. */
+#define GROUP_queries(BUFFER)                                                                                          \
+  BUFFER(query_body, uint, body)                                                                                       \
+  BUFFER(query_filter, uint, filter)                                                                                   \
+  BUFFER(query_start, row, start)                                                                                      \
+  BUFFER(query_way, row, way)
+
+/* The same of one shape on many ways. */
+#define GROUP_shape_queries(BUFFER)                                                                                    \
+  BUFFER(query_body, uint, body)                                                                                       \
+  BUFFER(query_filter, uint, filter)                                                                                   \
+  BUFFER(query_start, row, start)                                                                                      \
+  BUFFER(query_turn, row, turn)                                                                                        \
+  BUFFER(query_way, row, way)                                                                                          \
+  BUFFER(query_shape, row, shape)                                                                                      \
+  BUFFER(query_vertex, row, vertex)                                                                                    \
+  BUFFER(query_strip, row, strip)
+
+#define GROUP_hits(BUFFER)                                                                                             \
+  BUFFER(query_hit, row, hit)                                                                                          \
+  BUFFER(query_point, row, point)                                                                                      \
+  BUFFER(query_hit_body, uint, body)
+
+typedef struct {
+  GROUP_search_structures(READ_MEMBER)
+} read_search_structures;
+typedef struct {
+  GROUP_queries(READ_MEMBER)
+} read_queries;
+typedef struct {
+  GROUP_shape_queries(READ_MEMBER)
+} read_shape_queries;
+typedef struct {
+  GROUP_hits(WRITE_MEMBER)
+} write_hits;
+
 #endif
