@@ -190,6 +190,17 @@ typedef struct {
   BUFFER(constraint_friction_impulse, row, friction)                                                                   \
   BUFFER(constraint_penalty, row, penalty)
 
+/* Each body's pairs, and which of them touch: in this step, and in the last. */
+#define GROUP_touching_pairs(BUFFER)                                                                                   \
+  BUFFER(pair_start, uint, start)                                                                                      \
+  BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_touching, uint, touching)
+
+#define GROUP_cached_touching_pairs(BUFFER)                                                                            \
+  BUFFER(cached_start, uint, start)                                                                                    \
+  BUFFER(cached_b, uint, b)                                                                                            \
+  BUFFER(cached_touching, uint, touching)
+
 /* Between the iterations of solve/mass_split.h. */
 #define GROUP_iterates(BUFFER)                                                                                         \
   BUFFER(split_pushed, row, pushed)                                                                                    \
@@ -230,6 +241,12 @@ typedef struct {
 typedef struct {
   GROUP_duals(WRITE_MEMBER)
 } write_duals;
+typedef struct {
+  GROUP_touching_pairs(READ_MEMBER)
+} read_touching_pairs;
+typedef struct {
+  GROUP_cached_touching_pairs(READ_MEMBER)
+} read_cached_touching_pairs;
 typedef struct {
   GROUP_iterates(WRITE_MEMBER)
 } write_iterates;
