@@ -93,6 +93,47 @@ typedef struct {
   GROUP_blocks(READ_MEMBER)
 } read_blocks;
 
+/* --- broadphase ------------------------------------------------------------------------------------------- */
+/* Of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
+#define GROUP_hierarchy_nodes(BUFFER)                                                                                  \
+  BUFFER(hierarchy, row, box)                                                                                          \
+  BUFFER(hierarchy_link, uint, link)                                                                                   \
+  BUFFER(leaf_body, uint, leaf_body)
+
+/* Of broadphase/sweep_window.h, in the order of the sweep: boxes, their bodies, where the interval of each ends, and
+ * where the last of each block does. */
+#define GROUP_sweep_intervals(BUFFER)                                                                                  \
+  BUFFER(sweep_bounds, row, bounds)                                                                                    \
+  BUFFER(sort_value, uint, body)                                                                                       \
+  BUFFER(sweep_end, uint, end)                                                                                         \
+  BUFFER(sweep_block, uint, block)
+
+/* Along each axis the ends of boxes in order, and the place of each end; then the same as it was, with the boxes. */
+#define GROUP_box_ends(BUFFER)                                                                                         \
+  BUFFER(axis_order, uint, order)                                                                                      \
+  BUFFER(axis_place, uint, place)
+
+#define GROUP_kept_box_ends(BUFFER)                                                                                    \
+  BUFFER(kept_bounds, row, bounds)                                                                                     \
+  BUFFER(kept_order, uint, order)                                                                                      \
+  BUFFER(kept_place, uint, place)
+
+typedef struct {
+  GROUP_hierarchy_nodes(READ_MEMBER)
+} read_hierarchy_nodes;
+typedef struct {
+  GROUP_sweep_intervals(READ_MEMBER)
+} read_sweep_intervals;
+typedef struct {
+  GROUP_box_ends(READ_MEMBER)
+} read_box_ends;
+typedef struct {
+  GROUP_kept_box_ends(READ_MEMBER)
+} read_kept_box_ends;
+typedef struct {
+  GROUP_kept_box_ends(WRITE_MEMBER)
+} write_kept_box_ends;
+
 /* --- pairs and their manifolds ------------------------------------------------------------------------------ */
 #define GROUP_pairs(BUFFER)                                                                                            \
   BUFFER(pair_a, uint, a)                                                                                              \
@@ -119,6 +160,9 @@ typedef struct {
 typedef struct {
   GROUP_pairs(READ_MEMBER)
 } read_pairs;
+typedef struct {
+  GROUP_pairs(WRITE_MEMBER)
+} write_pairs;
 typedef struct {
   GROUP_part_pairs(READ_MEMBER)
 } read_part_pairs;
