@@ -8,7 +8,7 @@
 #ifndef TANDEM_SHARED_ARGUMENT_GROUPS_H
 #define TANDEM_SHARED_ARGUMENT_GROUPS_H
 
-#include "shared/platform.h"
+#include "shared/real.h"
 
 #define READ_MEMBER(buffer, type, member) GLOBAL const type *member;
 #define WRITE_MEMBER(buffer, type, member) GLOBAL type *member;
@@ -57,9 +57,82 @@ typedef struct {
   BUFFER(body_orientation, row, orientation)                                                                           \
   BUFFER(body_velocity, row, velocity)
 
+/* Of bodies that touch, as their contacts are set up. */
+#define GROUP_touching_bodies(BUFFER)                                                                                  \
+  BUFFER(body_traits, uint, traits)                                                                                    \
+  BUFFER(body_shape, row, shape)                                                                                       \
+  BUFFER(body_mass, row, mass)                                                                                         \
+  BUFFER(body_position, row, position)                                                                                 \
+  BUFFER(solver_velocity, row, velocity)                                                                               \
+  BUFFER(solver_inertia, row, inertia)
+
+/* Of bodies whose velocities a kernel of the solver only reads. */
+#define GROUP_solver_bodies(BUFFER)                                                                                    \
+  BUFFER(solver_velocity, row, velocity)                                                                               \
+  BUFFER(solver_inertia, row, inertia)                                                                                 \
+  BUFFER(solver_delta, row, delta)
+
+/* Of the bodies of solve/avbd_bodies.h, each a block of the descent. */
+#define GROUP_blocks(BUFFER)                                                                                           \
+  BUFFER(body_mass, row, mass)                                                                                         \
+  BUFFER(avbd_target, row, target)                                                                                     \
+  BUFFER(solver_inertia, row, inertia)                                                                                 \
+  BUFFER(solver_delta, row, delta)                                                                                     \
+  BUFFER(solver_orientation, row, orientation)
+
 typedef struct {
   GROUP_bodies(READ_MEMBER)
 } read_bodies;
+typedef struct {
+  GROUP_touching_bodies(READ_MEMBER)
+} read_touching_bodies;
+typedef struct {
+  GROUP_solver_bodies(READ_MEMBER)
+} read_solver_bodies;
+typedef struct {
+  GROUP_blocks(READ_MEMBER)
+} read_blocks;
+
+/* --- broadphase ------------------------------------------------------------------------------------------- */
+/* Of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
+#define GROUP_hierarchy_nodes(BUFFER)                                                                                  \
+  BUFFER(hierarchy, row, box)                                                                                          \
+  BUFFER(hierarchy_link, uint, link)                                                                                   \
+  BUFFER(leaf_body, uint, leaf_body)
+
+/* Of broadphase/sweep_window.h, in the order of the sweep: boxes, their bodies, where the interval of each ends, and
+ * where the last of each block does. */
+#define GROUP_sweep_intervals(BUFFER)                                                                                  \
+  BUFFER(sweep_bounds, row, bounds)                                                                                    \
+  BUFFER(sort_value, uint, body)                                                                                       \
+  BUFFER(sweep_end, uint, end)                                                                                         \
+  BUFFER(sweep_block, uint, block)
+
+/* Along each axis the ends of boxes in order, and the place of each end; then the same as it was, with the boxes. */
+#define GROUP_box_ends(BUFFER)                                                                                         \
+  BUFFER(axis_order, uint, order)                                                                                      \
+  BUFFER(axis_place, uint, place)
+
+#define GROUP_kept_box_ends(BUFFER)                                                                                    \
+  BUFFER(kept_bounds, row, bounds)                                                                                     \
+  BUFFER(kept_order, uint, order)                                                                                      \
+  BUFFER(kept_place, uint, place)
+
+typedef struct {
+  GROUP_hierarchy_nodes(READ_MEMBER)
+} read_hierarchy_nodes;
+typedef struct {
+  GROUP_sweep_intervals(READ_MEMBER)
+} read_sweep_intervals;
+typedef struct {
+  GROUP_box_ends(READ_MEMBER)
+} read_box_ends;
+typedef struct {
+  GROUP_kept_box_ends(READ_MEMBER)
+} read_kept_box_ends;
+typedef struct {
+  GROUP_kept_box_ends(WRITE_MEMBER)
+} write_kept_box_ends;
 
 /* --- pairs and their manifolds ------------------------------------------------------------------------------ */
 #define GROUP_pairs(BUFFER)                                                                                            \
@@ -87,6 +160,9 @@ typedef struct {
 typedef struct {
   GROUP_pairs(READ_MEMBER)
 } read_pairs;
+typedef struct {
+  GROUP_pairs(WRITE_MEMBER)
+} write_pairs;
 typedef struct {
   GROUP_part_pairs(READ_MEMBER)
 } read_part_pairs;
@@ -121,5 +197,159 @@ typedef struct {
 typedef struct {
   GROUP_clipped_points(WRITE_MEMBER)
 } write_clipped_points;
+
+/* --- contacts ----------------------------------------------------------------------------------------------- */
+/* All that setup/contact.h makes of a manifold. */
+#define GROUP_constraints(BUFFER)                                                                                      \
+  BUFFER(constraint_pair, uint, pair)                                                                                  \
+  BUFFER(constraint_a, uint, a)                                                                                        \
+  BUFFER(constraint_b, uint, b)                                                                                        \
+  BUFFER(constraint_normal, row, normal)                                                                               \
+  BUFFER(constraint_points, row, points)                                                                               \
+  BUFFER(constraint_center, row, center)                                                                               \
+  BUFFER(constraint_normal_impulse, row, normal_impulse)                                                               \
+  BUFFER(constraint_friction_impulse, row, friction_impulse)                                                           \
+  BUFFER(constraint_bounce, row, bounce)                                                                               \
+  BUFFER(constraint_slop, memory_real, slop)
+
+#define GROUP_contacts(BUFFER)                                                                                         \
+  BUFFER(constraint_a, uint, a)                                                                                        \
+  BUFFER(constraint_b, uint, b)                                                                                        \
+  BUFFER(constraint_normal, row, normal)
+
+/* Where the bodies of a contact touch, and how deep they may stay in each other. */
+#define GROUP_patches(BUFFER)                                                                                          \
+  BUFFER(constraint_points, row, points)                                                                               \
+  BUFFER(constraint_center, row, center)                                                                               \
+  BUFFER(constraint_slop, memory_real, slop)
+
+#define GROUP_contact_impulses(BUFFER)                                                                                 \
+  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
+  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
+  BUFFER(constraint_bounce, row, bounce)
+
+/* What solve/avbd.h holds contacts with: multipliers and penalties. */
+#define GROUP_duals(BUFFER)                                                                                            \
+  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
+  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
+  BUFFER(constraint_penalty, row, penalty)
+
+/* Each body's pairs, and which of them touch: in this step, and in the last. */
+#define GROUP_touching_pairs(BUFFER)                                                                                   \
+  BUFFER(pair_start, uint, start)                                                                                      \
+  BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_touching, uint, touching)
+
+#define GROUP_cached_touching_pairs(BUFFER)                                                                            \
+  BUFFER(cached_start, uint, start)                                                                                    \
+  BUFFER(cached_b, uint, b)                                                                                            \
+  BUFFER(cached_touching, uint, touching)
+
+/* Between the iterations of solve/mass_split.h. */
+#define GROUP_iterates(BUFFER)                                                                                         \
+  BUFFER(split_pushed, row, pushed)                                                                                    \
+  BUFFER(split_rubbed, row, rubbed)
+
+/* The constraints of each body. */
+#define GROUP_incidence_lists(BUFFER)                                                                                  \
+  BUFFER(incidence_start, uint, start)                                                                                 \
+  BUFFER(incidence, uint, entries)
+
+/* What the last step kept: of pairs, and of those that touched. */
+#define GROUP_cached_pairs(BUFFER)                                                                                     \
+  BUFFER(cached_start, uint, start)                                                                                    \
+  BUFFER(cached_b, uint, b)                                                                                            \
+  BUFFER(cached_normal, row, normal)                                                                                   \
+  BUFFER(cached_color, uint, color)
+
+#define GROUP_cached_contacts(BUFFER)                                                                                  \
+  BUFFER(cached_feature, uint, feature)                                                                                \
+  BUFFER(cached_normal_impulse, row, normal_impulse)                                                                   \
+  BUFFER(cached_friction_impulse, row, friction_impulse)
+
+typedef struct {
+  GROUP_constraints(WRITE_MEMBER)
+} write_constraints;
+typedef struct {
+  GROUP_contacts(READ_MEMBER)
+} read_contacts;
+typedef struct {
+  GROUP_patches(READ_MEMBER)
+} read_patches;
+typedef struct {
+  GROUP_contact_impulses(WRITE_MEMBER)
+} write_contact_impulses;
+typedef struct {
+  GROUP_duals(READ_MEMBER)
+} read_duals;
+typedef struct {
+  GROUP_duals(WRITE_MEMBER)
+} write_duals;
+typedef struct {
+  GROUP_touching_pairs(READ_MEMBER)
+} read_touching_pairs;
+typedef struct {
+  GROUP_cached_touching_pairs(READ_MEMBER)
+} read_cached_touching_pairs;
+typedef struct {
+  GROUP_iterates(WRITE_MEMBER)
+} write_iterates;
+typedef struct {
+  GROUP_incidence_lists(READ_MEMBER)
+} read_incidence_lists;
+typedef struct {
+  GROUP_cached_pairs(READ_MEMBER)
+} read_cached_pairs;
+typedef struct {
+  GROUP_cached_contacts(READ_MEMBER)
+} read_cached_contacts;
+
+/* --- queries ---------------------------------------------------------------------------------------------- */
+/* What the broadphase left, to find bodies along a way: the hierarchy, and the boxes and cells of the grid. */
+#define GROUP_search_structures(BUFFER)                                                                                \
+  BUFFER(hierarchy, row, node)                                                                                         \
+  BUFFER(hierarchy_link, uint, link)                                                                                   \
+  BUFFER(leaf_body, uint, leaf_body)                                                                                   \
+  BUFFER(bounds, row, bounds)                                                                                          \
+  BUFFER(grid, row, grid)                                                                                              \
+  BUFFER(sort_value, uint, sorted_body)                                                                                \
+  BUFFER(cell_start, uint, cell_start)                                                                                 \
+  BUFFER(counts, uint, counts)
+
+/* The number and the filter of each body, then what each query is. */
+#define GROUP_queries(BUFFER)                                                                                          \
+  BUFFER(query_body, uint, body)                                                                                       \
+  BUFFER(query_filter, uint, filter)                                                                                   \
+  BUFFER(query_start, row, start)                                                                                      \
+  BUFFER(query_way, row, way)
+
+/* The same of one shape on many ways. */
+#define GROUP_shape_queries(BUFFER)                                                                                    \
+  BUFFER(query_body, uint, body)                                                                                       \
+  BUFFER(query_filter, uint, filter)                                                                                   \
+  BUFFER(query_start, row, start)                                                                                      \
+  BUFFER(query_turn, row, turn)                                                                                        \
+  BUFFER(query_way, row, way)                                                                                          \
+  BUFFER(query_shape, row, shape)                                                                                      \
+  BUFFER(query_vertex, row, vertex)                                                                                    \
+  BUFFER(query_strip, row, strip)
+
+#define GROUP_hits(BUFFER)                                                                                             \
+  BUFFER(query_hit, row, hit)                                                                                          \
+  BUFFER(query_point, row, point)                                                                                      \
+  BUFFER(query_hit_body, uint, body)
+
+typedef struct {
+  GROUP_search_structures(READ_MEMBER)
+} read_search_structures;
+typedef struct {
+  GROUP_queries(READ_MEMBER)
+} read_queries;
+typedef struct {
+  GROUP_shape_queries(READ_MEMBER)
+} read_shape_queries;
+typedef struct {
+  GROUP_hits(WRITE_MEMBER)
+} write_hits;
 
 #endif

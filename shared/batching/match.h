@@ -14,6 +14,7 @@
 #ifndef TANDEM_SHARED_BATCHING_MATCH_H
 #define TANDEM_SHARED_BATCHING_MATCH_H
 
+#include "shared/argument_groups.h"
 #include "shared/records.h"
 
 /* Cosine of the angle by which a normal may turn in a step and still be the same manifold's. */
@@ -85,19 +86,17 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
   ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u));
 }
 
-SHARED void match_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const row *manifold_normal, GLOBAL const uint *manifold_count,
-                             GLOBAL const uint *body_traits, GLOBAL const uint *cached_start,
-                             GLOBAL const uint *cached_b, GLOBAL const row *cached_normal,
-                             GLOBAL const uint *cached_color, GLOBAL uint *counts, GLOBAL uint *pair_cached,
+SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, GLOBAL const row *manifold_normal,
+                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
+                             read_cached_pairs cached_pairs, GLOBAL uint *counts, GLOBAL uint *pair_cached,
                              GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
 {
-  uint a = pair_a[i], b = pair_b[i];
-  uint cached = find_cached(cached_start, cached_b, a, b);
+  uint a = pairs.a[i], b = pairs.b[i];
+  uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);
   if (HAS_FEATURE(parameters, FEATURE_TREES) && cached != INDEX_NONE && manifold_count[i] > 0u)
-    cached = matching_manifold(manifold_normal, run_of_pair(pair_a, pair_b, counts[COUNT_PAIRS], i), cached_normal,
-                               run_of_cached(cached_start, cached_b, a, cached), i);
-  uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_color[cached];
+    cached = matching_manifold(manifold_normal, run_of_pair(pairs.a, pairs.b, counts[COUNT_PAIRS], i),
+                               cached_pairs.normal, run_of_cached(cached_pairs.start, cached_pairs.b, a, cached), i);
+  uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_pairs.color[cached];
   if (manifold_count[i] == 0u || has_trigger(parameters, body_traits, a, b)) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;

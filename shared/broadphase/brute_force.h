@@ -19,14 +19,13 @@ SHARED void brute_force_count_item(GLOBAL const Parameters *parameters, GLOBAL c
 
 SHARED void brute_force_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                    GLOBAL const uint *body_filter, GLOBAL const row *bounds,
-                                   GLOBAL const uint *pair_start, GLOBAL const uint *counts, GLOBAL uint *pair_a,
-                                   GLOBAL uint *pair_b, uint a)
+                                   GLOBAL const uint *pair_start, GLOBAL const uint *counts, write_pairs pairs, uint a)
 {
   box_bounds own = load_bounds(bounds, a);
   uint used = 0;
   for (uint b = 0; b < a; ++b)
     if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))
-      used = append_pair(pair_a, pair_b, pair_start[a], used, counts[CAPACITY_PAIRS], a, b);
+      used = append_pair(pairs.a, pairs.b, pair_start[a], used, counts[CAPACITY_PAIRS], a, b);
 }
 
 #endif

@@ -132,27 +132,27 @@ SHARED void find_changes(const end_tables *tables, uint is_kept, uint end, key_l
 }
 
 SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const uint *axis_order,
-                               GLOBAL const uint *axis_place, GLOBAL const row *kept_bounds,
-                               GLOBAL const uint *kept_order, GLOBAL const uint *kept_place, GLOBAL const uint *counts,
-                               GLOBAL uint *share_start, uint i)
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, read_box_ends box_ends,
+                               read_kept_box_ends kept_box_ends, GLOBAL const uint *counts, GLOBAL uint *share_start,
+                               uint i)
 {
-  end_tables tables = {parameters, body_traits, body_filter, axis_order,  axis_place,
-                       kept_order, kept_place,  bounds,      kept_bounds, counts[COUNT_BODIES]};
+  end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
+                       box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
+                       kept_box_ends.bounds, counts[COUNT_BODIES]};
   key_list counter = {0, 0u, 0u};
   find_changes(&tables, counts[COUNT_KEPT], i, &counter);
   share_start[i] = counter.at;
 }
 
 SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const uint *axis_order,
-                               GLOBAL const uint *axis_place, GLOBAL const row *kept_bounds,
-                               GLOBAL const uint *kept_order, GLOBAL const uint *kept_place, GLOBAL const uint *counts,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, read_box_ends box_ends,
+                               read_kept_box_ends kept_box_ends, GLOBAL const uint *counts,
                                GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   if (share_start[i] == share_start[i + 1u]) return; /* most ends: they need not walk again */
-  end_tables tables = {parameters, body_traits, body_filter, axis_order,  axis_place,
-                       kept_order, kept_place,  bounds,      kept_bounds, counts[COUNT_BODIES]};
+  end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
+                       box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
+                       kept_box_ends.bounds, counts[COUNT_BODIES]};
   key_list list = {pair_key, share_start[i], counts[CAPACITY_PAIRS]};
   find_changes(&tables, counts[COUNT_KEPT], i, &list);
 }

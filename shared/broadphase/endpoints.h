@@ -15,6 +15,7 @@
 #ifndef TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
 #define TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
 
+#include "shared/argument_groups.h"
 #include "shared/broadphase/sweep.h"
 
 SHARED uint body_of_end(uint end, uint bodies) { return end < bodies ? end : end - bodies; }
@@ -46,15 +47,14 @@ SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *c
 }
 
 /* For the next launch: the orders, and the bounds, of which there are as many rows as ends. */
-SHARED void keep_ends_item(GLOBAL const row *bounds, GLOBAL const uint *axis_order, GLOBAL const uint *axis_place,
-                           GLOBAL const uint *counts, GLOBAL row *kept_bounds, GLOBAL uint *kept_order,
-                           GLOBAL uint *kept_place, uint i)
+SHARED void keep_ends_item(GLOBAL const row *bounds, read_box_ends box_ends, GLOBAL const uint *counts,
+                           write_kept_box_ends kept_box_ends, uint i)
 {
-  store_row(kept_bounds, i, load_row(bounds, i));
+  store_row(kept_box_ends.bounds, i, load_row(bounds, i));
   for (uint axis = 0; axis < 3u; ++axis) {
     uint at = axis * counts[COUNT_HALVES] + i;
-    kept_order[at] = axis_order[at];
-    kept_place[at] = axis_place[at];
+    kept_box_ends.order[at] = box_ends.order[at];
+    kept_box_ends.place[at] = box_ends.place[at];
   }
 }
 

@@ -133,19 +133,18 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                             GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                             GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *finds,
-                            GLOBAL const uint *counts, GLOBAL const uint *pair_start, GLOBAL uint *pair_a,
-                            GLOBAL uint *pair_b, uint i)
+                            GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint i)
 {
   uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first,
        capacity = counts[CAPACITY_PAIRS];
-#define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
+#define VISIT(other) used = append_pair(pairs.a, pairs.b, first, used, capacity, a, other);
   if (found <= FINDS_KEPT) {
     for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
   } else {
     GRID_SEARCH(a, VISIT)
   }
 #undef VISIT
-  sort_stretch(pair_b + first, used);
+  sort_stretch(pairs.b + first, used);
 }
 
 #endif

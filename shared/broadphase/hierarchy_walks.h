@@ -109,38 +109,37 @@ SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777
  * `search`. */
 #define VISIT_LEAVES(a, VISIT, NEXT)                                                \
   for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                         \
-    uint b = leaf_body[leaf / 2u];                                                  \
+    uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                  \
     if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
   }
-#define HIERARCHY_SEARCH(a, walk, VISIT)                                                           \
-  {                                                                                                \
-    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                            \
-    hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(bounds, a), before_body(a)}; \
-    for (uint b = 0u; b < boundless && b < a; ++b)                                                 \
-      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                    \
-          pair_allowed(parameters, body_traits, body_filter, a, b))                                \
-        VISIT(b)                                                                                   \
-    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                        \
-      uint next = root;                                                                            \
-      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                                     \
-    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                                    \
-      slot_stack stack;                                                                            \
-      stack.slot[0] = root;                                                                        \
-      stack.height = 1u;                                                                           \
-      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                                     \
-    } else if (a >= boundless) {                                                                   \
-      history past = {root, 0u, 0u};                                                               \
-      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                      \
-    }                                                                                              \
+#define HIERARCHY_SEARCH(a, walk, VISIT)                                                                           \
+  {                                                                                                                \
+    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                                            \
+    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(bounds, a), before_body(a)}; \
+    for (uint b = 0u; b < boundless && b < a; ++b)                                                                 \
+      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                                    \
+          pair_allowed(parameters, body_traits, body_filter, a, b))                                                \
+        VISIT(b)                                                                                                   \
+    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                                        \
+      uint next = root;                                                                                            \
+      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                                                     \
+    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                                                    \
+      slot_stack stack;                                                                                            \
+      stack.slot[0] = root;                                                                                        \
+      stack.height = 1u;                                                                                           \
+      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                                                     \
+    } else if (a >= boundless) {                                                                                   \
+      history past = {root, 0u, 0u};                                                                               \
+      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                                      \
+    }                                                                                                              \
   }
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *hierarchy,
-                                 GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *counts, GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk,
-                                 uint i)
+                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+                                 read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                                 GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
 {
-  uint a = hierarchy_body(leaf_body, counts, i), found = 0u;
+  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), found = 0u;
 #define VISIT(b) keep_find(finds, i, found++, b);
   HIERARCHY_SEARCH(a, walk, VISIT)
 #undef VISIT
@@ -148,21 +147,21 @@ SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL con
 }
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *hierarchy,
-                                 GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body,
-                                 GLOBAL const uint *finds, GLOBAL const uint *counts, GLOBAL const uint *pair_start,
-                                 GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint walk, uint i)
+                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+                                 read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *finds,
+                                 GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint walk,
+                                 uint i)
 {
-  uint a = hierarchy_body(leaf_body, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first,
-       capacity = counts[CAPACITY_PAIRS];
-#define VISIT(b) used = append_pair(pair_a, pair_b, first, used, capacity, a, b);
+  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), used = 0u, first = pair_start[a],
+       found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
+#define VISIT(other) used = append_pair(pairs.a, pairs.b, first, used, capacity, a, other);
   if (found <= FINDS_KEPT) {
     for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
   } else {
     HIERARCHY_SEARCH(a, walk, VISIT)
   }
 #undef VISIT
-  sort_stretch(pair_b + first, used);
+  sort_stretch(pairs.b + first, used);
 }
 
 #endif

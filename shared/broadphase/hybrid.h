@@ -104,8 +104,8 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
  * the curve. */
 #define LARGE_SEARCH(i, VISIT)                                                                                        \
   {                                                                                                                   \
-    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : leaf_body[i - boundless];                    \
-    hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(bounds, body), BOUNDLESS};                      \
+    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : hierarchy_nodes.leaf_body[i - boundless];    \
+    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(bounds, body), BOUNDLESS};      \
     mask small = is_small(grid, search.box);                                                                          \
     if (!small) search.before = before_body(body);                                                                    \
     for (uint b = 0u; b < boundless && b < body; ++b)                                                                 \
@@ -114,15 +114,14 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
         VISIT(body, b)                                                                                                \
     uint next = i < boundless ? INDEX_NONE : root_slot(counts);                                                       \
     for (uint leaf = next_by_skipping(&search, &next); leaf != INDEX_NONE; leaf = next_by_skipping(&search, &next)) { \
-      uint b = leaf_body[leaf / 2u];                                                                                  \
+      uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                                                  \
       if ((small || b < body) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b)          \
     }                                                                                                                 \
   }
 
 SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                             GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                             GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL uint *large_finds,
+                             read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, GLOBAL uint *large_finds,
                              GLOBAL uint *finds, uint i)
 {
   uint found = 0u;
@@ -134,8 +133,7 @@ SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
 
 SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                             GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                             GLOBAL const uint *leaf_body, GLOBAL const uint *finds, GLOBAL const uint *counts,
+                             read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *finds, GLOBAL const uint *counts,
                              GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i + 1u], end = share_start[2u * i + 2u],
@@ -145,7 +143,8 @@ SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
     if (to < capacity) pair_key[to++] = key_of_pair(body, b); \
   }
   if (end - to <= FINDS_KEPT)
-    write_kept_finds(finds, i, i < boundless ? i : leaf_body[i - boundless], pair_key, to, end, capacity);
+    write_kept_finds(finds, i, i < boundless ? i : hierarchy_nodes.leaf_body[i - boundless], pair_key, to, end,
+                     capacity);
   else LARGE_SEARCH(i, VISIT)
 #undef VISIT
 }

@@ -34,14 +34,14 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
 #define NEAR_SEARCH(i, VISIT)                                                                                         \
   {                                                                                                                   \
     uint large = counts[COUNT_LARGE], looks = body_left[i] != 0u && i >= large ? 1u : 0u;                             \
-    hierarchy_search search = {hierarchy, hierarchy_link, load_bounds(fat_bounds, i), BOUNDLESS};                     \
+    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(fat_bounds, i), BOUNDLESS};     \
     for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)                                                              \
       if (finds_large(body_left, large, i, b) && NEAR_MEETS(b)) VISIT(i, b)                                           \
     for (uint b = 0u; b < looks * counts[COUNT_BOUNDLESS]; ++b)                                                       \
       if (NEAR_MEETS(b)) VISIT(i, b)                                                                                  \
     uint next = looks != 0u ? root_slot(counts) : INDEX_NONE;                                                         \
     for (uint leaf = next_by_skipping(&search, &next); leaf != INDEX_NONE; leaf = next_by_skipping(&search, &next)) { \
-      uint b = leaf_body[leaf / 2u];                                                                                  \
+      uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                                                  \
       mask is_finder = b < i || body_left[b] == 0u;                                                                   \
       if (b != i && is_finder && pair_allowed(parameters, body_traits, body_filter, i, b)) VISIT(i, b)                \
     }                                                                                                                 \
@@ -49,8 +49,8 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
 
 SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                             GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds, GLOBAL const uint *body_left,
-                            GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                            GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+                            read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, GLOBAL uint *sweep_start,
+                            uint i)
 {
   uint finds = 0u;
 #define VISIT(a, b) ++finds;
@@ -61,9 +61,8 @@ SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 
 SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                             GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds, GLOBAL const uint *body_left,
-                            GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-                            GLOBAL const uint *leaf_body, GLOBAL const uint *counts, GLOBAL const uint *sweep_start,
-                            GLOBAL ulong *near_key, uint i)
+                            read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                            GLOBAL const uint *sweep_start, GLOBAL ulong *near_key, uint i)
 {
   uint to = sweep_start[i], capacity = near_capacity(counts);
   if (to == sweep_start[i + 1u]) return; /* most: they need not look again */

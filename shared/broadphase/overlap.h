@@ -6,6 +6,7 @@
 #ifndef TANDEM_SHARED_BROADPHASE_OVERLAP_H
 #define TANDEM_SHARED_BROADPHASE_OVERLAP_H
 
+#include "shared/argument_groups.h"
 #include "shared/records.h"
 
 typedef struct {

@@ -118,32 +118,30 @@ SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uin
 }
 
 SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *sweep_bounds,
-                               GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
-                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts, GLOBAL uint *share_start,
-                               LOCAL uint *local_memory, uint group)
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+                               read_sweep_intervals sweep_intervals, GLOBAL const uint *counts,
+                               GLOBAL uint *share_start, LOCAL uint *local_memory, uint group)
 {
   window_sweep sweep = {parameters,
                         body_traits,
                         body_filter,
                         bounds,
-                        sweep_bounds,
-                        sort_value,
-                        sweep_end,
+                        sweep_intervals.bounds,
+                        sweep_intervals.body,
+                        sweep_intervals.end,
                         counts,
                         0,
                         local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
   uint first = group * SWEEP_BLOCK, bodies = counts[COUNT_BODIES];
   uint shares = first >= bodies ? 0u : (bodies - first < SWEEP_BLOCK ? bodies - first : SWEEP_BLOCK) * SWEEP_SHARES;
-  sweep_group(&sweep, 0, shares > 0u ? sweep_block[group] : 0u, group);
+  sweep_group(&sweep, 0, shares > 0u ? sweep_intervals.block[group] : 0u, group);
   FOR_EACH_ITEM(share, shares) share_start[first * SWEEP_SHARES + share] = sweep.tally[share];
 }
 
 SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *sweep_bounds,
-                               GLOBAL const uint *sort_value, GLOBAL const uint *sweep_end,
-                               GLOBAL const uint *sweep_block, GLOBAL const uint *counts,
+                               GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+                               read_sweep_intervals sweep_intervals, GLOBAL const uint *counts,
                                GLOBAL const uint *share_start, GLOBAL ulong *pair_key, LOCAL uint *local_memory,
                                uint group)
 {
@@ -151,14 +149,15 @@ SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const
                         body_traits,
                         body_filter,
                         bounds,
-                        sweep_bounds,
-                        sort_value,
-                        sweep_end,
+                        sweep_intervals.bounds,
+                        sweep_intervals.body,
+                        sweep_intervals.end,
                         counts,
                         pair_key,
                         local_memory,
                         (LOCAL real *)(local_memory + SWEEP_BLOCK * SWEEP_SHARES)};
-  sweep_group(&sweep, share_start, group * SWEEP_BLOCK < counts[COUNT_BODIES] ? sweep_block[group] : 0u, group);
+  sweep_group(&sweep, share_start, group * SWEEP_BLOCK < counts[COUNT_BODIES] ? sweep_intervals.block[group] : 0u,
+              group);
 }
 
 #endif

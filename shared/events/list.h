@@ -14,6 +14,7 @@
 #ifndef TANDEM_SHARED_EVENTS_LIST_H
 #define TANDEM_SHARED_EVENTS_LIST_H
 
+#include "shared/argument_groups.h"
 #include "shared/events/event_codes.h"
 #include "shared/events/impulses.h"
 
@@ -35,31 +36,30 @@ SHARED pair_walk walk_of(GLOBAL const uint *pair_start, GLOBAL const uint *cache
 
 SHARED int walk_goes_on(const pair_walk *walk) { return walk->now < walk->now_end || walk->before < walk->before_end; }
 
-SHARED pair_change next_change(pair_walk *walk, GLOBAL const uint *pair_b, GLOBAL const uint *pair_touching,
-                               GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching)
+SHARED pair_change next_change(pair_walk *walk, read_touching_pairs touching_pairs,
+                               read_cached_touching_pairs cached_touching_pairs)
 {
-  uint b_now = walk->now < walk->now_end ? pair_b[walk->now] : INDEX_NONE;
-  uint b_before = walk->before < walk->before_end ? cached_b[walk->before] : INDEX_NONE;
+  uint b_now = walk->now < walk->now_end ? touching_pairs.b[walk->now] : INDEX_NONE;
+  uint b_before = walk->before < walk->before_end ? cached_touching_pairs.b[walk->before] : INDEX_NONE;
   pair_change change = {b_now < b_before ? b_now : b_before, walk->now, walk->now, EVENT_NONE};
   uint touches = 0u, touched = 0u;
-  for (; walk->now < walk->now_end && pair_b[walk->now] == change.b; ++walk->now) touches |= pair_touching[walk->now];
-  for (; walk->before < walk->before_end && cached_b[walk->before] == change.b; ++walk->before)
-    touched |= cached_touching[walk->before];
+  for (; walk->now < walk->now_end && touching_pairs.b[walk->now] == change.b; ++walk->now)
+    touches |= touching_pairs.touching[walk->now];
+  for (; walk->before < walk->before_end && cached_touching_pairs.b[walk->before] == change.b; ++walk->before)
+    touched |= cached_touching_pairs.touching[walk->before];
   change.end = walk->now;
   if (touches != 0u) change.kind = touched != 0u ? EVENT_PERSIST : EVENT_BEGIN;
   else if (touched != 0u) change.kind = EVENT_END;
   return change;
 }
 
-SHARED void count_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b,
-                              GLOBAL const uint *pair_touching, GLOBAL const uint *cached_start,
-                              GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching, GLOBAL uint *event_start,
-                              uint a)
+SHARED void count_events_item(read_touching_pairs touching_pairs, read_cached_touching_pairs cached_touching_pairs,
+                              GLOBAL uint *event_start, uint a)
 {
-  pair_walk walk = walk_of(pair_start, cached_start, a);
+  pair_walk walk = walk_of(touching_pairs.start, cached_touching_pairs.start, a);
   uint found = 0u;
   while (walk_goes_on(&walk))
-    if (next_change(&walk, pair_b, pair_touching, cached_b, cached_touching).kind != (uint)EVENT_NONE) ++found;
+    if (next_change(&walk, touching_pairs, cached_touching_pairs).kind != (uint)EVENT_NONE) ++found;
   event_start[a] = found;
 }
 
@@ -72,14 +72,13 @@ typedef struct {
 } contact_sum;
 
 /* velocity: of body a, which has come nearer by the moment of an impact. */
-SHARED void add_manifold(contact_sum *sum, vec3 velocity, GLOBAL const row *manifold_normal,
-                         GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count, uint stride, uint pair,
+SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifolds, uint stride, uint pair,
                          vec4 impulses)
 {
   real impulse = R(0.0), depth = BOUNDLESS;
-  vec4 normal = load_row(manifold_normal, pair);
-  for (uint k = 0; k < manifold_count[pair]; ++k) {
-    vec4 point = load_row(manifold_points, stride * k + pair);
+  vec4 normal = load_row(manifolds.normal, pair);
+  for (uint k = 0; k < manifolds.count[pair]; ++k) {
+    vec4 point = load_row(manifolds.points, stride * k + pair);
     real carried = component(impulses, k);
     if (!point_touches(point, carried)) continue;
     vec3 where = add_scaled(xyz(point), velocity, moment_of(normal.w));
@@ -123,27 +122,24 @@ SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, ui
 
 /* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet
  * when this runs. */
-SHARED void write_events_item(GLOBAL const uint *pair_start, GLOBAL const uint *pair_b, GLOBAL const uint *pair_color,
-                              GLOBAL const uint *pair_touching, GLOBAL const row *pair_impulse,
-                              GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points,
-                              GLOBAL const uint *manifold_count, GLOBAL const uint *cached_start,
-                              GLOBAL const uint *cached_b, GLOBAL const uint *cached_touching,
-                              GLOBAL const row *body_position, GLOBAL const row *body_velocity,
-                              GLOBAL const uint *event_start, GLOBAL const uint *counts, GLOBAL uint *event_bodies,
-                              GLOBAL row *event_contact, uint a)
+SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const uint *pair_color,
+                              GLOBAL const row *pair_impulse, read_manifolds manifolds,
+                              read_cached_touching_pairs cached_touching_pairs, GLOBAL const row *body_position,
+                              GLOBAL const row *body_velocity, GLOBAL const uint *event_start,
+                              GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint a)
 {
-  pair_walk walk = walk_of(pair_start, cached_start, a);
+  pair_walk walk = walk_of(touching_pairs.start, cached_touching_pairs.start, a);
   uint at = event_start[a];
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   while (walk_goes_on(&walk)) {
-    pair_change change = next_change(&walk, pair_b, pair_touching, cached_b, cached_touching);
+    pair_change change = next_change(&walk, touching_pairs, cached_touching_pairs);
     if (change.kind == (uint)EVENT_NONE) continue;
     contact_sum sum = {none, none, none, R(0.0), R(0.0), BOUNDLESS, 0u};
     place where = {none, none};
     if (change.kind != (uint)EVENT_END) {
       for (uint pair = change.first; pair < change.end; ++pair)
-        add_manifold(&sum, load_motion(body_velocity, a).linear, manifold_normal, manifold_points, manifold_count,
-                     counts[CAPACITY_PAIRS], pair, impulse_of_pair(pair_color, pair_impulse, pair));
+        add_manifold(&sum, load_motion(body_velocity, a).linear, manifolds, counts[CAPACITY_PAIRS], pair,
+                     impulse_of_pair(pair_color, pair_impulse, pair));
       where = moved_place(load_place(body_position, a), middle_of_contact(&sum));
     }
     store_event(event_bodies, event_contact, at++, a, change, &sum, where);

@@ -6,6 +6,7 @@
 #ifndef TANDEM_SHARED_INTEGRATE_PREPARE_H
 #define TANDEM_SHARED_INTEGRATE_PREPARE_H
 
+#include "shared/argument_groups.h"
 #include "shared/records.h"
 
 /* Notes the first body, in pipeline order and then by index, that is not finite. */
@@ -17,15 +18,14 @@ SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, natural body, uint 
 
 SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(make_vec3(q.w, q.w, q.w)); }
 
-SHARED void prepare_bodies_item(GLOBAL const row *body_mass, GLOBAL const row *body_position,
-                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity,
-                                GLOBAL uint *counts, GLOBAL row *solver_velocity, GLOBAL row *solver_delta,
-                                GLOBAL row *solver_push, GLOBAL row *solver_inertia, GLOBAL row *solver_orientation,
-                                GLOBAL uint *body_colors, GLOBAL uint *body_bid, GLOBAL uint *body_falls, item_index i)
+SHARED void prepare_bodies_item(GLOBAL const row *body_mass, read_bodies bodies, GLOBAL uint *counts,
+                                GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_push,
+                                GLOBAL row *solver_inertia, GLOBAL row *solver_orientation, GLOBAL uint *body_colors,
+                                GLOBAL uint *body_bid, GLOBAL uint *body_falls, item_index i)
 {
-  motion m = load_motion(body_velocity, i);
-  vec4 orientation = load_row(body_orientation, i);
-  place position = load_place(body_position, i);
+  motion m = load_motion(bodies.velocity, i);
+  vec4 orientation = load_row(bodies.orientation, i);
+  place position = load_place(bodies.position, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) &
                      quaternion_is_finite(orientation),

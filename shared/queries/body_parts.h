@@ -24,6 +24,28 @@ typedef struct {
   GLOBAL const row *query_start, *query_way;
 } query_scene;
 
+SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                                  read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                                  read_queries queries, uint structure)
+{
+  query_scene scene = {parameters,
+                       shapes.traits,
+                       shapes.convex,
+                       trees.of_body,
+                       shapes.size,
+                       shapes.pose,
+                       bodies.position,
+                       bodies.orientation,
+                       tables_of(surfaces, SUPPORT_BRUTE_FORCE),
+                       tables_of_trees(trees),
+                       structure_of(search_structures, structure),
+                       queries.body,
+                       queries.filter,
+                       queries.start,
+                       queries.way};
+  return scene;
+}
+
 /* A way through one body, in the axes of its tree. */
 typedef struct {
   uint body, node, end, first_child; /* nodes from `node` to `end` are still to come; of a body without a tree one */

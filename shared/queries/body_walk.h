@@ -11,15 +11,23 @@
 #ifndef TANDEM_SHARED_QUERIES_BODY_WALK_H
 #define TANDEM_SHARED_QUERIES_BODY_WALK_H
 
+#include "shared/argument_groups.h"
 #include "shared/queries/grid_walk.h"
 #include "shared/queries/ray_walk.h"
 
-/* The structures as kernels are given them; what the chosen one lacks is not looked at. */
+/* The structures of a launch; what the chosen one lacks is not looked at. */
 typedef struct {
   uint structure; /* QUERY_ */
   body_hierarchy hierarchy;
   body_cells cells;
 } body_structure;
+
+SHARED body_structure structure_of(read_search_structures s, uint structure)
+{
+  body_structure bodies = {
+      structure, {s.node, s.link, s.leaf_body, s.counts}, {s.bounds, s.grid, s.sorted_body, s.cell_start, s.counts}};
+  return bodies;
+}
 
 /* Bodies up to `listed` come one by one. The grid keeps its place where the hierarchy keeps the nodes that wait. */
 typedef struct {

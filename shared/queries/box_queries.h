@@ -42,22 +42,19 @@ SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction
   return INDEX_NONE;
 }
 
-#define BOX_SCENE                                                                                                    \
-  {                                                                                                                  \
-    traits, query_body, query_filter,                                                                                \
-        {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
-        query_start, query_way, query_extent                                                                         \
-  }
-#define BOX_SCENE_PARAMETERS                                                                         \
-  GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *hierarchy,                 \
-      GLOBAL const uint *hierarchy_link, GLOBAL const uint *leaf_body, GLOBAL const row *bounds,     \
-      GLOBAL const row *grid, GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,          \
-      GLOBAL const uint *query_body, GLOBAL const uint *query_filter, GLOBAL const row *query_start, \
-      GLOBAL const row *query_way, GLOBAL const row *query_extent
-
-SHARED void count_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL uint *query_found, uint structure, uint i)
+SHARED box_scene box_scene_of(read_search_structures search_structures, GLOBAL const uint *body_traits,
+                              read_queries queries, GLOBAL const row *query_extent, uint structure)
 {
-  box_scene scene = BOX_SCENE;
+  box_scene scene = {body_traits,   queries.body, queries.filter, structure_of(search_structures, structure),
+                     queries.start, queries.way,  query_extent};
+  return scene;
+}
+
+SHARED void count_box_hits_item(read_search_structures search_structures, GLOBAL const uint *body_traits,
+                                read_queries queries, GLOBAL const row *query_extent, GLOBAL uint *query_found,
+                                uint structure, uint i)
+{
+  box_scene scene = box_scene_of(search_structures, body_traits, queries, query_extent, structure);
   box_walk b;
   start_box_walk(&scene, i, &b);
   real fraction;
@@ -66,10 +63,11 @@ SHARED void count_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL uint *query_found, 
   query_found[i] = found;
 }
 
-SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit,
-                                GLOBAL uint *query_hit_body, uint structure, uint i)
+SHARED void write_box_hits_item(read_search_structures search_structures, GLOBAL const uint *body_traits,
+                                read_queries queries, GLOBAL const row *query_extent, GLOBAL const uint *query_found,
+                                GLOBAL row *query_hit, GLOBAL uint *query_hit_body, uint structure, uint i)
 {
-  box_scene scene = BOX_SCENE;
+  box_scene scene = box_scene_of(search_structures, body_traits, queries, query_extent, structure);
   box_walk b;
   start_box_walk(&scene, i, &b);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -78,7 +76,7 @@ SHARED void write_box_hits_item(BOX_SCENE_PARAMETERS, GLOBAL const uint *query_f
   for (uint body = next_body_in_box(&scene, &b, &fraction); body != INDEX_NONE;
        body = next_body_in_box(&scene, &b, &fraction)) {
     store_row(query_hit, at, extend(none, fraction));
-    query_hit_body[at++] = query_body[4u * body];
+    query_hit_body[at++] = queries.body[4u * body];
   }
 }
 

@@ -63,29 +63,12 @@ SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, 
   return nearest;
 }
 
-#define QUERY_SCENE                                                                                                  \
-  {                                                                                                                  \
-    parameters, traits, convexes, body_trees, shapes, poses, positions, orientations,                                \
-        {headers, vertices, planes, 0, 0, 0, 0, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE},              \
-        {tree_headers, tree_frames, tree_nodes, tree_leaves},                                                        \
-        {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}}, \
-        query_body, query_filter, query_start, query_way                                                             \
-  }
-#define QUERY_SCENE_PARAMETERS                                                                                         \
-  GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes, \
-      GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,    \
-      GLOBAL const row *planes, GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers,                        \
-      GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,                    \
-      GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,                 \
-      GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,                  \
-      GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,   \
-      GLOBAL const uint *cell_start, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,                   \
-      GLOBAL const row *query_start, GLOBAL const row *query_way
-
-SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL row *query_point,
-                           GLOBAL uint *query_hit_body, uint structure, uint i)
+SHARED void cast_rays_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                           read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                           read_queries queries, write_hits hits, uint structure, uint i)
 {
-  query_scene scene = QUERY_SCENE;
+  query_scene scene =
+      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
   ray r;
   load_ray(&scene, i, &r);
   first_hit nearest = nothing_hit();
@@ -95,13 +78,16 @@ SHARED void cast_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL row *query_hit, GLOBAL
     nearest = nearer_hit(nearest, hit_of_body(&scene, &r, body, reach));
     if (nearest.body != INDEX_NONE) reach = minimum(r.farthest, nearest.fraction * r.length);
   }
-  store_hit(nearest, query_hit, query_point, query_hit_body, i);
+  store_hit(nearest, hits, i);
 }
 
 /* Whether it hits anything: 1 or 0. */
-SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint structure, uint i)
+SHARED void find_blocked_rays_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                                   read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                                   read_queries queries, GLOBAL uint *query_found, uint structure, uint i)
 {
-  query_scene scene = QUERY_SCENE;
+  query_scene scene =
+      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
   ray r;
   load_ray(&scene, i, &r);
   uint found = 0u;
@@ -112,9 +98,12 @@ SHARED void find_blocked_rays_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_fo
 }
 
 /* All bodies it hits: how many, and after a scan which. */
-SHARED void count_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found, uint structure, uint i)
+SHARED void count_ray_hits_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                                read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                                read_queries queries, GLOBAL uint *query_found, uint structure, uint i)
 {
-  query_scene scene = QUERY_SCENE;
+  query_scene scene =
+      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
   ray r;
   load_ray(&scene, i, &r);
   uint found = 0u;
@@ -124,17 +113,20 @@ SHARED void count_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL uint *query_found
   query_found[i] = found;
 }
 
-SHARED void write_ray_hits_item(QUERY_SCENE_PARAMETERS, GLOBAL const uint *query_found, GLOBAL row *query_hit,
-                                GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint structure, uint i)
+SHARED void write_ray_hits_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                                read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                                read_queries queries, GLOBAL const uint *query_found, write_hits hits, uint structure,
+                                uint i)
 {
-  query_scene scene = QUERY_SCENE;
+  query_scene scene =
+      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
   ray r;
   load_ray(&scene, i, &r);
   uint at = query_found[i];
   for (uint body = next_body_on_ray(&scene, &r, r.farthest); body != INDEX_NONE;
        body = next_body_on_ray(&scene, &r, r.farthest)) {
     first_hit hit = hit_of_body(&scene, &r, body, r.farthest);
-    if (hit.body != INDEX_NONE) store_hit(hit, query_hit, query_point, query_hit_body, at++);
+    if (hit.body != INDEX_NONE) store_hit(hit, hits, at++);
   }
 }
 

@@ -73,11 +73,11 @@ SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes,
                    hull, tables);
 }
 
-SHARED void store_hit(first_hit hit, GLOBAL row *hits, GLOBAL row *points, GLOBAL uint *bodies, uint i)
+SHARED void store_hit(first_hit hit, write_hits hits, uint i)
 {
-  store_row(hits, i, extend(hit.normal, hit.fraction));
-  store_row(points, i, extend(hit.point, R(0.0)));
-  bodies[i] = hit.body;
+  store_row(hits.hit, i, extend(hit.normal, hit.fraction));
+  store_row(hits.point, i, extend(hit.point, R(0.0)));
+  hits.body[i] = hit.body;
 }
 
 #endif

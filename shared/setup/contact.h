@@ -11,6 +11,7 @@
 #ifndef TANDEM_SHARED_SETUP_CONTACT_H
 #define TANDEM_SHARED_SETUP_CONTACT_H
 
+#include "shared/argument_groups.h"
 #include "shared/records.h"
 
 /* Slower sliding than this counts as sticking, where the static coefficient holds. m/s */
@@ -228,31 +229,27 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
   return parameters->push_speed * choose(slop_or_deep < R(0.0), (real)DEEP_PUSH, (real)R(1.0));
 }
 
-SHARED void prepare_contacts_item(
-    GLOBAL const Parameters *parameters, GLOBAL const row *material, GLOBAL const uint *body_traits,
-    GLOBAL const row *body_shape, GLOBAL const row *body_mass, GLOBAL const row *body_position,
-    GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, GLOBAL const uint *pair_a,
-    GLOBAL const uint *pair_b, GLOBAL const uint *pair_leaf, GLOBAL const uint *pair_cached,
-    GLOBAL const row *manifold_normal, GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count,
-    GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_feature, GLOBAL const row *cached_normal_impulse,
-    GLOBAL const row *cached_friction_impulse, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
-    GLOBAL uint *constraint_pair, GLOBAL uint *constraint_a, GLOBAL uint *constraint_b, GLOBAL row *constraint_normal,
-    GLOBAL row *constraint_points, GLOBAL row *constraint_center, GLOBAL row *constraint_normal_impulse,
-    GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_bounce, GLOBAL memory_real *constraint_slop,
-    GLOBAL uint *body_falls, item_index i)
+SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material,
+                                  read_touching_bodies touching_bodies, read_part_pairs part_pairs,
+                                  GLOBAL const uint *pair_cached, read_manifolds manifolds,
+                                  read_cached_contacts cached_contacts, GLOBAL const uint *sort_value,
+                                  GLOBAL const uint *counts, write_constraints constraints, GLOBAL uint *body_falls,
+                                  item_index i)
 {
   natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
-  body_pair bodies = load_body_pair(pair_a, pair_b, body_position, solver_velocity, solver_inertia, pair);
-  vec4 manifold = load_row(manifold_normal, pair);
+  body_pair bodies = load_body_pair(part_pairs.a, part_pairs.b, touching_bodies.position, touching_bodies.velocity,
+                                    touching_bodies.inertia, pair);
+  vec4 manifold = load_row(manifolds.normal, pair);
   vec3 normal = xyz(manifold);
   /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the
    * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
   vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
-  real size = size_between(body_shape, bodies.a, bodies.b);
-  natural shape_a = shape_in_pair(parameters, pair_leaf, pair, 0u, bodies.a),
-          shape_b = shape_in_pair(parameters, pair_leaf, pair, 1u, bodies.b);
-  natural traits_a = load_natural(body_traits, shape_a), traits_b = load_natural(body_traits, shape_b);
+  real size = size_between(touching_bodies.shape, bodies.a, bodies.b);
+  natural shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, bodies.a),
+          shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, bodies.b);
+  natural traits_a = load_natural(touching_bodies.traits, shape_a),
+          traits_b = load_natural(touching_bodies.traits, shape_b);
   surface between = surface_between(material, material_of(traits_a), material_of(traits_b));
   mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size) |
                    ((shape_a == bodies.a) & is_driven_ball(traits_a, bodies.motion_a)) |
@@ -260,25 +257,26 @@ SHARED void prepare_contacts_item(
   bodies.offset = add(bodies.offset, slid);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
-  natural points = load_natural(manifold_count, pair), feature = load_natural(manifold_feature, pair);
-  real pull = relative_pull(parameters, body_mass, bodies, normal);
+  natural points = load_natural(manifolds.count, pair), feature = load_natural(manifolds.feature, pair);
+  real pull = relative_pull(parameters, touching_bodies.mass, bodies, normal);
 
   natural cached = load_natural(pair_cached, pair);
   mask is_cached = cached != (natural)INDEX_NONE;
   natural from = choose(is_cached, cached, (natural)0u);
-  natural old_feature = load_natural(cached_feature, from);
-  vec4 old = load_row(cached_normal_impulse, from), old_friction = load_row(cached_friction_impulse, from);
+  natural old_feature = load_natural(cached_contacts.feature, from);
+  vec4 old = load_row(cached_contacts.normal_impulse, from),
+       old_friction = load_row(cached_contacts.friction_impulse, from);
 
   real impulse[4], wished[4], deepest = R(0.0);
   mask near = bodies.a == bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point = load_row(manifold_points, stride * k + pair);
+    vec4 point = load_row(manifolds.points, stride * k + pair);
     mask used = points > (natural)k;
     vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
     real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
-    store_row(constraint_points, stride * k + i, extend(add(arm_a, back.a), choose(used, point.w, (real)R(0.0))));
+    store_row(constraints.points, stride * k + i, extend(add(arm_a, back.a), choose(used, point.w, (real)R(0.0))));
     deepest = choose(used, minimum(deepest, point.w), deepest);
-    store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
+    store_row(constraints.points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
     impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
     real speed = inner(normal, relative_velocity(bodies, arm_a, arm_b));
     wished[k] = choose(used, wished_speed(parameters, between.restitution, speed, pull, point.w), (real)R(-1.0));
@@ -288,29 +286,29 @@ SHARED void prepare_contacts_item(
   atomic_clear_if(near & (bodies.motion_a.inverse_mass > R(0.0)), body_falls, bodies.a);
   atomic_clear_if(near & (bodies.motion_b.inverse_mass > R(0.0)), body_falls, bodies.b);
 
-  friction_patch patch = patch_of(manifold_points, pair, stride, points, parameters->speculative_distance);
+  friction_patch patch = patch_of(manifolds.points, pair, stride, points, parameters->speculative_distance);
   vec3 center = patch.center;
   vec3 center_b = subtract(center, bodies.offset);
   vec3 slide = relative_velocity(bodies, center, center_b);
   slide = add_scaled(slide, normal, -inner(slide, normal));
   real friction = choose(length_of(slide) < STICKING_SPEED, between.static_friction, between.dynamic_friction);
 
-  store_natural(constraint_pair, i, pair);
-  store_natural(constraint_a, i, bodies.a);
-  store_natural(constraint_b, i, bodies.b);
-  store_row(constraint_normal, i, extend(normal, packed_friction(friction, arms_stay)));
-  store_row(constraint_center, i, extend(add(center, back.a), friction_mass(bodies, center, center_b, normal)));
-  store_row(constraint_center, stride + i, extend(add(center_b, back.b), twist_mass(bodies, normal)));
-  store_row(constraint_normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
+  store_natural(constraints.pair, i, pair);
+  store_natural(constraints.a, i, bodies.a);
+  store_natural(constraints.b, i, bodies.b);
+  store_row(constraints.normal, i, extend(normal, packed_friction(friction, arms_stay)));
+  store_row(constraints.center, i, extend(add(center, back.a), friction_mass(bodies, center, center_b, normal)));
+  store_row(constraints.center, stride + i, extend(add(center_b, back.b), twist_mass(bodies, normal)));
+  store_row(constraints.normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
   tangents t = tangents_of(normal);
   real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
-  store_row(constraint_friction_impulse, i,
+  store_row(constraints.friction_impulse, i,
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second),
                       kept * old_friction.w, patch.radius));
-  store_real(constraint_slop, i, slop_or_deep(parameters, size, deepest));
+  store_real(constraints.slop, i, slop_or_deep(parameters, size, deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    store_row(constraint_bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
-    store_row(constraint_bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+    store_row(constraints.bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
+    store_row(constraints.bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }
 }
 

@@ -27,12 +27,12 @@ SHARED void prepare_rolling_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const row *material, GLOBAL const row *material_rolling,
                                  GLOBAL const uint *body_traits, GLOBAL const uint *pair_cached,
                                  GLOBAL const row *cached_rolling_impulse, GLOBAL const uint *constraint_pair,
-                                 GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                 GLOBAL const uint *counts, GLOBAL row *constraint_rolling, item_index i)
+                                 read_contacts contacts, GLOBAL const uint *counts, GLOBAL row *constraint_rolling,
+                                 item_index i)
 {
   natural pair = load_natural(constraint_pair, i);
-  natural a = shape_in_pair(parameters, pair_leaf, pair, 0u, load_natural(constraint_a, i));
-  natural b = shape_in_pair(parameters, pair_leaf, pair, 1u, load_natural(constraint_b, i));
+  natural a = shape_in_pair(parameters, pair_leaf, pair, 0u, load_natural(contacts.a, i));
+  natural b = shape_in_pair(parameters, pair_leaf, pair, 1u, load_natural(contacts.b, i));
   rolling_resistance r = resistance_between(material, material_rolling, material_of(load_natural(body_traits, a)),
                                             material_of(load_natural(body_traits, b)));
   natural cached = load_natural(pair_cached, pair);

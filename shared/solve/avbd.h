@@ -78,8 +78,8 @@ SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 
 }
 
 /* penalty, second row: those of sliding and of twisting. */
-SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL const row *constraint_points,
-                                GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
+SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patches patches,
+                                GLOBAL const row *constraint_normal_impulse,
                                 GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
                                 GLOBAL const row *solver_delta, uint stride, contact c, item_index i)
 {
@@ -89,16 +89,16 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, GLOBAL cons
   arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = inner(c.normal, moved.translation);
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(constraint_points, stride * k + i);
+    vec4 point_a = load_row(patches.points, stride * k + i);
     f.turn_a[k] = outer(add(xyz(point_a), shift.a), c.normal);
-    f.turn_b[k] = outer(add(xyz(load_row(constraint_points, stride * (k + 4u) + i)), shift.b), c.normal);
+    f.turn_b[k] = outer(add(xyz(load_row(patches.points, stride * (k + 4u) + i)), shift.b), c.normal);
     real separation =
         point_a.w + closed + (inner(f.turn_b[k], moved.rotation_b) - inner(f.turn_a[k], moved.rotation_a));
     f.violation[k] = point_violation(parameters, separation, speed_along(c, c.normal, f.turn_a[k], f.turn_b[k]));
     /* The penalty of an unused point is 0, and so is its multiplier. */
     f.impulse[k] = maximum(component(old, (natural)k) - component(penalty, (natural)k) * f.violation[k], R(0.0));
   }
-  friction_forces(&f, c, shift, load_row(constraint_center, i), load_row(constraint_center, stride + i),
+  friction_forces(&f, c, shift, load_row(patches.center, i), load_row(patches.center, stride + i),
                   load_row(constraint_penalty, i * 2u + 1u), load_row(constraint_friction_impulse, i),
                   (f.impulse[0] + f.impulse[1]) + (f.impulse[2] + f.impulse[3]));
   return f;
@@ -127,8 +127,7 @@ SHARED real kept_penalty(real mass, real old)
 /* Penalties of the same features in the last step; a pair that did not touch then has none. */
 SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
                               GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_color,
-                              GLOBAL const uint *cached_feature, GLOBAL const row *cached_penalty,
-                              GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+                              GLOBAL const uint *cached_feature, GLOBAL const row *cached_penalty, read_patches patches,
                               GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                               GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_penalty, item_index i)
 {
@@ -142,14 +141,14 @@ SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
   vec4 old = load_row(cached_penalty, from * 2u), old_friction = load_row(cached_penalty, from * 2u + 1u);
   real penalty[4];
   for (uint k = 0; k < 4u; ++k)
-    penalty[k] = kept_penalty(load_row(constraint_points, stride * (k + 4u) + i).w,
+    penalty[k] = kept_penalty(load_row(patches.points, stride * (k + 4u) + i).w,
                               choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)));
   store_row(constraint_penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
-  store_row(constraint_penalty, i * 2u + 1u,
-            make_vec4(kept_penalty(load_row(constraint_center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
-                      kept_penalty(load_row(constraint_center, stride + i).w,
-                                   choose(is_cached, old_friction.y, (real)R(0.0))),
-                      R(0.0), R(0.0)));
+  store_row(
+      constraint_penalty, i * 2u + 1u,
+      make_vec4(kept_penalty(load_row(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
+                kept_penalty(load_row(patches.center, stride + i).w, choose(is_cached, old_friction.y, (real)R(0.0))),
+                R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
   vec4 impulse = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
   store_row(constraint_normal_impulse, i,
@@ -165,34 +164,30 @@ SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
   return choose(holds, grown, penalty);
 }
 
-SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                            GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                            GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                            GLOBAL const row *solver_velocity, GLOBAL const uint *counts,
-                            GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                            GLOBAL row *constraint_penalty, GLOBAL row *constraint_bounce, item_index i)
+                            GLOBAL const row *solver_velocity, GLOBAL const uint *counts, write_duals duals,
+                            GLOBAL row *constraint_bounce, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  contact_forces f = forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse,
-                               constraint_friction_impulse, constraint_penalty, solver_delta, stride, c, i);
-  vec4 penalty = load_row(constraint_penalty, i * 2u), friction_penalty = load_row(constraint_penalty, i * 2u + 1u);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  contact_forces f =
+      forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, solver_delta, stride, c, i);
+  vec4 penalty = load_row(duals.penalty, i * 2u), friction_penalty = load_row(duals.penalty, i * 2u + 1u);
   real grown[4];
   for (uint k = 0; k < 4u; ++k)
-    grown[k] = grown_penalty(component(penalty, (natural)k), load_row(constraint_points, stride * (k + 4u) + i).w,
+    grown[k] = grown_penalty(component(penalty, (natural)k), load_row(patches.points, stride * (k + 4u) + i).w,
                              f.violation[k], f.impulse[k] > R(0.0));
-  store_row(constraint_penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
-  store_row(constraint_penalty, i * 2u + 1u,
-            make_vec4(grown_penalty(friction_penalty.x, load_row(constraint_center, i).w, f.slide_speed,
+  store_row(duals.penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
+  store_row(duals.penalty, i * 2u + 1u,
+            make_vec4(grown_penalty(friction_penalty.x, load_row(patches.center, i).w, f.slide_speed,
                                     f.slide_share == R(1.0)),
-                      grown_penalty(friction_penalty.y, load_row(constraint_center, stride + i).w, f.twist_speed,
+                      grown_penalty(friction_penalty.y, load_row(patches.center, stride + i).w, f.twist_speed,
                                     f.twist_share == R(1.0)),
                       R(0.0), R(0.0)));
   vec4 pressed = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
-  store_row(constraint_normal_impulse, i, pressed);
-  store_row(constraint_friction_impulse, i,
-            make_vec4(f.first, f.second, f.twist, load_row(constraint_friction_impulse, i).w));
+  store_row(duals.normal, i, pressed);
+  store_row(duals.friction, i, make_vec4(f.first, f.second, f.twist, load_row(duals.friction, i).w));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
     store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
 }

@@ -116,30 +116,24 @@ SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *co
   add_turning_row(s, frame, c.normal, friction_penalty.y * f.twist_share, f.twist);
 }
 
-SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, GLOBAL const uint *constraint_a,
-                      GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                      GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                      GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                      GLOBAL const row *constraint_penalty, GLOBAL const uint *incidence_start,
-                      GLOBAL const uint *incidence, GLOBAL const row *avbd_target, GLOBAL const row *solver_inertia,
-                      GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation, GLOBAL const uint *counts,
-                      GLOBAL row *solver_velocity, uint body)
+SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
+                      read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
+                      GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint body)
 {
   uint stride = counts[CAPACITY_PAIRS];
   motion m = load_motion(solver_velocity, body);
-  vec3 inverse_moments = xyz(load_row(body_mass, body * 2u));
+  vec3 inverse_moments = xyz(load_row(blocks.mass, body * 2u));
   block_frame frame = {
-      rotation_of(quat_from(load_row(solver_orientation, body))),
+      rotation_of(quat_from(load_row(blocks.orientation, body))),
       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
       square_root(m.inverse_mass), R(1.0)};
-  block_system s = begin_block(frame, m, load_motion(avbd_target, body), load_row(solver_velocity, body * 2u + 1u).w);
-  for (uint k = incidence_start[body]; k < incidence_start[body + 1u]; ++k) {
-    uint entry = incidence[k], i = entry >> 1u;
+  block_system s = begin_block(frame, m, load_motion(blocks.target, body), load_row(solver_velocity, body * 2u + 1u).w);
+  for (uint k = incidence_lists.start[body]; k < incidence_lists.start[body + 1u]; ++k) {
+    uint entry = incidence_lists.entries[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
-    contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-    add_contact(&s, frame, constraint_normal_impulse, constraint_penalty, c,
-                forces_of(parameters, constraint_points, constraint_center, constraint_normal_impulse,
-                          constraint_friction_impulse, constraint_penalty, solver_delta, stride, c, i),
+    contact c = load_contact(contacts, solver_velocity, blocks.inertia, i);
+    add_contact(&s, frame, duals.normal, duals.penalty, c,
+                forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, blocks.delta, stride, c, i),
                 i);
   }
   solve_block(&s);
@@ -150,41 +144,24 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, GLOBAL const row *bod
 }
 
 /* Bodies of one colour, all at once. */
-SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                             GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                             GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                             GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                             GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
-                             GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
-                             GLOBAL const uint *sort_value, GLOBAL const row *avbd_target,
-                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                             GLOBAL const row *solver_orientation, GLOBAL const uint *counts,
-                             GLOBAL row *solver_velocity, uint i)
+SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
+                             read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                             uint i)
 {
-  avbd_body(parameters, body_mass, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
-            constraint_normal_impulse, constraint_friction_impulse, constraint_penalty, incidence_start, incidence,
-            avbd_target, solver_inertia, solver_delta, solver_orientation, counts, solver_velocity, sort_value[i]);
+  avbd_body(parameters, blocks, contacts, patches, duals, incidence_lists, counts, solver_velocity, sort_value[i]);
 }
 
 /* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the tail.
  * Bodies of one colour do not touch, so the result is that of launching each colour. */
-SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                           GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                           GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                           GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                           GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
-                           GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
-                           GLOBAL const uint *sort_value, GLOBAL const row *avbd_target,
-                           GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                           GLOBAL const row *solver_orientation, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
+                           read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
+                           GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
                            uint color, uint only)
 {
   (void)only;
   for (uint i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + COLOR_TAIL + 1u]; ++i)
-    avbd_body(parameters, body_mass, constraint_a, constraint_b, constraint_normal, constraint_points,
-              constraint_center, constraint_normal_impulse, constraint_friction_impulse, constraint_penalty,
-              incidence_start, incidence, avbd_target, solver_inertia, solver_delta, solver_orientation, counts,
-              solver_velocity, sort_value[i]);
+    avbd_body(parameters, blocks, contacts, patches, duals, incidence_lists, counts, solver_velocity, sort_value[i]);
 }
 
 #endif

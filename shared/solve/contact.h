@@ -25,18 +25,17 @@ typedef struct {
                    each other fast */
 } contact;
 
-SHARED contact load_contact(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL const row *constraint_normal, GLOBAL const row *solver_velocity,
-                            GLOBAL const row *solver_inertia, item_index i)
+SHARED contact load_contact(read_contacts contacts, GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
+                            item_index i)
 {
   contact c;
-  c.a = load_natural(constraint_a, i);
-  c.b = load_natural(constraint_b, i);
+  c.a = load_natural(contacts.a, i);
+  c.b = load_natural(contacts.b, i);
   c.motion_a = load_motion(solver_velocity, c.a);
   c.motion_b = load_motion(solver_velocity, c.b);
   c.inertia_a = load_inertia(solver_inertia, c.a);
   c.inertia_b = load_inertia(solver_inertia, c.b);
-  vec4 normal = load_row(constraint_normal, i);
+  vec4 normal = load_row(contacts.normal, i);
   c.normal = xyz(normal);
   c.friction = friction_of(normal.w);
   c.follows = choose(normal.w < R(0.0), (real)R(0.0), (real)R(1.0));
@@ -150,19 +149,17 @@ SHARED wrench wrench_of(contact c, support s, vec3 center_a, vec3 center_b, vec4
 }
 
 /* The first substep of a step: the impulses of the last step. Later ones find theirs in solver_push. */
-SHARED void warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                            GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
+SHARED void warm_start_item(read_contacts contacts, read_patches patches, GLOBAL const row *constraint_normal_impulse,
                             GLOBAL const row *constraint_friction_impulse, GLOBAL const row *solver_inertia,
                             GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
                             item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
-  support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
-       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  support s = load_support(patches.points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
+  vec3 center_a = add(xyz(load_row(patches.center, i)), shift.a),
+       center_b = add(xyz(load_row(patches.center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }
@@ -355,54 +352,46 @@ SHARED vec4 highest_impulses(vec4 highest, vec4 pressed)
 
 /* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the
  * others pay for no register of it. */
-SHARED void settle_impact(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                          GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                          GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                          GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia,
-                          GLOBAL const row *solver_delta, uint stride, GLOBAL row *constraint_normal_impulse,
-                          GLOBAL const row *constraint_friction_impulse, GLOBAL row *constraint_bounce,
-                          GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass, item_index i)
+SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                          GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, uint stride,
+                          write_contact_impulses contact_impulses, GLOBAL row *solver_velocity, GLOBAL row *solver_push,
+                          uint pass, item_index i)
 {
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   mask at_impact = c.follows == R(0.0);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  vec4 before = load_row(constraint_normal_impulse, i);
-  support s = load_support(constraint_points, stride, c, shift, before, i);
-  real slop = load_real(constraint_slop, i);
+  vec4 before = load_row(contact_impulses.normal, i);
+  support s = load_support(patches.points, stride, c, shift, before, i);
+  real slop = load_real(patches.slop, i);
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   for (uint round = 0; round < IMPACT_ROUNDS; ++round)
-    c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
+    c = press_once(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
   vec4 pressed = impulses_of(&s);
-  store_row_if(at_impact, constraint_normal_impulse, i, pressed);
+  store_row_if(at_impact, contact_impulses.normal, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row_if(at_impact, constraint_bounce, stride + i,
-                 highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_row_if(at_impact, contact_impulses.bounce, stride + i,
+                 highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   vec4 changes = make_vec4(pressed.x - before.x, pressed.y - before.y, pressed.z - before.z, pressed.w - before.w);
-  c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  c = load_contact(contacts, solver_velocity, solver_inertia, i);
   c = apply_changes(c, &s, changes);
   store_contact_motion_if(at_impact, solver_velocity, c);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
-       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  vec3 center_a = add(xyz(load_row(patches.center, i)), shift.a),
+       center_b = add(xyz(load_row(patches.center, stride + i)), shift.b);
   if (pass == PASS_RELAXING)
-    add_push_if(at_impact, solver_push, c,
-                wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i)));
+    add_push_if(at_impact, solver_push, c, wrench_of(c, s, center_a, center_b, load_row(contact_impulses.friction, i)));
 }
 
-SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                                GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                                GLOBAL const memory_real *constraint_slop, GLOBAL const row *solver_inertia,
-                                GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, GLOBAL row *solver_push,
-                                uint pass, item_index i)
+SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                                GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+                                GLOBAL const uint *counts, write_contact_impulses contact_impulses,
+                                GLOBAL row *solver_velocity, GLOBAL row *solver_push, uint pass, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   uint biased = pass == PASS_BIASED ? 1u : 0u;
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(contact_impulses.normal, i), friction = load_row(contact_impulses.friction, i);
+  vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
@@ -412,33 +401,32 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, GLOBAL cons
     solved sliding = solve_friction(c, stale, shift, center_a, center_b, friction, pressure);
     c = with_motion_if(rough, c, sliding.c);
     friction = choose4(rough, sliding.impulse, friction);
-    store_row(constraint_friction_impulse, i, friction);
+    store_row(contact_impulses.friction, i, friction);
   }
 
-  real slop = load_real(constraint_slop, i);
-  support s = load_support(constraint_points, stride, c, shift, impulses, i);
-  c = press_once(parameters, c, &s, moved, constraint_points, stride, slop, biased, i);
+  real slop = load_real(patches.slop, i);
+  support s = load_support(patches.points, stride, c, shift, impulses, i);
+  c = press_once(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
   vec4 pressed = impulses_of(&s);
-  store_row(constraint_normal_impulse, i, pressed);
+  store_row(contact_impulses.normal, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_row(contact_impulses.bounce, stride + i,
+              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   store_contact_motion(solver_velocity, c);
   mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)
     add_push_if(!at_impact, solver_push, c,
                 wrench_of(c, s, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), friction));
   if (any_of(at_impact))
-    settle_impact(parameters, constraint_a, constraint_b, constraint_normal, constraint_points, constraint_center,
-                  constraint_slop, solver_inertia, solver_delta, stride, constraint_normal_impulse,
-                  constraint_friction_impulse, constraint_bounce, solver_velocity, solver_push, pass, i);
+    settle_impact(parameters, contacts, patches, solver_inertia, solver_delta, stride, contact_impulses,
+                  solver_velocity, solver_push, pass, i);
 }
 
 /* The points of a manifold are coupled; a few rounds bring all of them to their speeds. */
 #define RESTITUTION_ROUNDS 8u
 
 /* After the last substep: points that were pressed part at their wished speed. */
-SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                   GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
+SHARED void apply_restitution_item(read_contacts contacts, GLOBAL const row *constraint_points,
                                    GLOBAL const row *constraint_bounce, GLOBAL const row *solver_inertia,
                                    GLOBAL const row *solver_delta, GLOBAL const uint *counts,
                                    GLOBAL row *constraint_normal_impulse, GLOBAL row *solver_velocity, item_index i)
@@ -447,7 +435,7 @@ SHARED void apply_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
   mask bounces = (wished.x >= R(0.0)) | (wished.y >= R(0.0)) | (wished.z >= R(0.0)) | (wished.w >= R(0.0));
   if (!any_of(bounces)) return;
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   contact before = c;
   vec4 impulses = load_row(constraint_normal_impulse, i);
   arm_shift shift = load_arm_shift(solver_delta, c);

@@ -58,15 +58,13 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
 }
 
 /* Effective masses between parts, and how many parts there are; once a step. */
-SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                              GLOBAL const row *constraint_center, GLOBAL const row *solver_velocity,
+SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const row *solver_velocity,
                               GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start,
                               GLOBAL const uint *split_supports, GLOBAL const uint *counts, GLOBAL row *split_mass,
                               item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   mask supported = (c.motion_a.inverse_mass == R(0.0)) | (c.motion_b.inverse_mass == R(0.0));
   real parts_a = parts_of(incidence_start, split_supports, c.a, supported),
        parts_b = parts_of(incidence_start, split_supports, c.b, supported);
@@ -74,11 +72,11 @@ SHARED void split_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   body_pair parts = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
-    real whole = response(parts, xyz(load_row(constraint_points, stride * k + i)), xyz(point_b), c.normal, c.normal);
+    vec4 point_b = load_row(patches.points, stride * (k + 4u) + i);
+    real whole = response(parts, xyz(load_row(patches.points, stride * k + i)), xyz(point_b), c.normal, c.normal);
     mass[k] = choose(point_b.w > R(0.0), inverse_or_zero(whole), (real)R(0.0));
   }
-  vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
+  vec3 center_a = xyz(load_row(patches.center, i)), center_b = xyz(load_row(patches.center, stride + i));
   store_row(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
   store_row(
       split_mass, stride + i,
@@ -107,19 +105,17 @@ SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real fi
   return w;
 }
 
-SHARED void split_warm_start_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                  GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                                  GLOBAL const row *constraint_center, GLOBAL const row *constraint_normal_impulse,
-                                  GLOBAL const row *constraint_friction_impulse, GLOBAL const row *solver_velocity,
-                                  GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
+SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
+                                  GLOBAL const row *constraint_normal_impulse,
+                                  GLOBAL const row *constraint_friction_impulse, read_solver_bodies solver_bodies,
                                   GLOBAL const uint *counts, GLOBAL row *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  arm_shift shift = load_arm_shift(solver_delta, c);
-  support s = load_support(constraint_points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
-       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
+  arm_shift shift = load_arm_shift(solver_bodies.delta, c);
+  support s = load_support(patches.points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
+  vec3 center_a = add(xyz(load_row(patches.center, i)), shift.a),
+       center_b = add(xyz(load_row(patches.center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
   store_wrench(split_impulse, stride, i, w);
 }
@@ -172,51 +168,44 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
  * before go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to
  * Accelerate Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above,
  * which is what the method asks for. */
-SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                             GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                             GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
-                             GLOBAL const memory_real *constraint_slop, GLOBAL const row *split_mass,
-                             GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
-                             GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                             GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                             GLOBAL row *constraint_bounce, GLOBAL row *split_pushed, GLOBAL row *split_rubbed,
+SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
+                             GLOBAL const row *split_mass, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
+                             write_contact_impulses contact_impulses, write_iterates iterates,
                              GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
 {
   real share = (real)momentum / ((real)momentum + R(3.0));
   uint stride = counts[CAPACITY_PAIRS];
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
-  contact c =
-      split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i),
-                    other.z, other.w);
-  vec4 impulses = load_row(constraint_normal_impulse, i);
-  drift moved = load_drift(solver_delta, c);
+  contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
+  vec4 impulses = load_row(contact_impulses.normal, i);
+  drift moved = load_drift(solver_bodies.delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
-    vec4 old = load_row(constraint_friction_impulse, i);
+    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
+    vec4 old = load_row(contact_impulses.friction, i);
     mask stale = masses_are_stale(moved, shift, center_a, center_b);
     solved sliding =
         solve_friction(c, stale, shift, extend(xyz(center_a), other.x), extend(xyz(center_b), other.y), old, pressure);
     c = with_motion_if(rough, c, sliding.c);
     vec4 next = sliding.impulse;
-    if (momentum != 0u) next = extrapolated(next, load_row(split_rubbed, i), share);
-    store_row_if(rough, split_rubbed, i, sliding.impulse);
-    store_row_if(rough, constraint_friction_impulse, i, next);
+    if (momentum != 0u) next = extrapolated(next, load_row(iterates.rubbed, i), share);
+    store_row_if(rough, iterates.rubbed, i, sliding.impulse);
+    store_row_if(rough, contact_impulses.friction, i, next);
     rubbed = friction_wrench(c.normal, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), next.x - old.x,
                              next.y - old.y, next.z - old.z);
   }
 
   softness soft = softness_of(parameters, c);
-  real slop = load_real(constraint_slop, i), leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
-  support s = load_split_support(constraint_points, stride, c, shift, impulses, masses, i);
+  real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
+  support s = load_split_support(patches.points, stride, c, shift, impulses, masses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_row(constraint_points, stride * k + i).w,
-         whole = load_row(constraint_points, stride * (k + 4u) + i).w;
+    real started = load_row(patches.points, stride * k + i).w,
+         whole = load_row(patches.points, stride * (k + 4u) + i).w;
     real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
     soft.impulse_scale =
@@ -225,31 +214,29 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, GLOBAL const u
   }
   c = press_together(c, &s, wished);
   vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]), next = pressed;
-  if (momentum != 0u) next = extrapolated_push(pressed, load_row(split_pushed, i), share);
-  store_row(split_pushed, i, pressed);
-  store_row(constraint_normal_impulse, i, next);
+  if (momentum != 0u) next = extrapolated_push(pressed, load_row(iterates.pushed, i), share);
+  store_row(iterates.pushed, i, pressed);
+  store_row(contact_impulses.normal, i, next);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_row(contact_impulses.bounce, stride + i,
+              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   wrench given = wrench_of_points(c, &s, impulses, next);
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 
 /* One round of restitution: points that were pressed towards their wished speed. */
-SHARED void split_restitution_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                   GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                                   GLOBAL const row *constraint_bounce, GLOBAL const row *split_mass,
-                                   GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
-                                   GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                   GLOBAL row *constraint_normal_impulse, GLOBAL row *split_impulse, item_index i)
+SHARED void split_restitution_item(read_contacts contacts, read_patches patches, GLOBAL const row *constraint_bounce,
+                                   GLOBAL const row *split_mass, read_solver_bodies solver_bodies,
+                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
+                                   GLOBAL row *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
-  contact c =
-      split_contact(load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i),
-                    other.z, other.w);
+  contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
   vec4 impulses = load_row(constraint_normal_impulse, i);
-  support s = load_split_support(constraint_points, stride, c, load_arm_shift(solver_delta, c), impulses, masses, i);
+  support s =
+      load_split_support(patches.points, stride, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
   real pressed[4];
   for (uint k = 0; k < 4u; ++k) {
     real target = component(wished, (natural)k);

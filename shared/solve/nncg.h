@@ -82,9 +82,7 @@ SHARED vec4 change_between(vec4 before, vec4 now)
 }
 
 /* Goes on along the direction, with impulses and velocities alike. The twist radius, w of friction, never changes. */
-SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_points,
-                              GLOBAL const row *constraint_center, GLOBAL const row *solver_inertia,
+SHARED void nncg_advance_item(read_contacts contacts, read_patches patches, GLOBAL const row *solver_inertia,
                               GLOBAL const row *solver_delta, GLOBAL const memory_real *nncg_state,
                               GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                               GLOBAL row *constraint_friction_impulse, GLOBAL row *nncg_impulse,
@@ -105,11 +103,11 @@ SHARED void nncg_advance_item(GLOBAL const uint *constraint_a, GLOBAL const uint
   store_row(constraint_normal_impulse, i, pushes);
   store_row(constraint_friction_impulse, i, friction);
 
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   arm_shift shift = load_arm_shift(solver_delta, c);
-  support s = load_support(constraint_points, stride, c, shift, push_step, i);
-  vec3 center_a = add(xyz(load_row(constraint_center, i)), shift.a),
-       center_b = add(xyz(load_row(constraint_center, stride + i)), shift.b);
+  support s = load_support(patches.points, stride, c, shift, push_step, i);
+  vec3 center_a = add(xyz(load_row(patches.center, i)), shift.a),
+       center_b = add(xyz(load_row(patches.center, stride + i)), shift.b);
   wrench w = wrench_of(c, s, center_a, center_b, friction_step);
   store_contact_motion(solver_velocity, apply_impulse(c, w.impulse, w.turn_a, w.turn_b, R(1.0)));
 }

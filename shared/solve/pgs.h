@@ -39,24 +39,21 @@ SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, 
   return biased != 0u ? impulse : choose(ahead & (old == R(0.0)), old, impulse);
 }
 
-SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                             GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                             GLOBAL const row *constraint_points, GLOBAL const memory_real *constraint_slop,
+SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                              GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
                              GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                              GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 old = load_row(constraint_normal_impulse, i);
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   real closed = inner(c.normal, moved.translation);
-  real slop = load_real(constraint_slop, i);
+  real slop = load_real(patches.slop, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(constraint_points, stride * k + i),
-         point_b = load_row(constraint_points, stride * (k + 4u) + i);
+    vec4 point_a = load_row(patches.points, stride * k + i), point_b = load_row(patches.points, stride * (k + 4u) + i);
     vec3 turn_a = outer(add(xyz(point_a), shift.a), c.normal), turn_b = outer(add(xyz(point_b), shift.b), c.normal);
     real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
     real before = component(old, (natural)k);
@@ -71,13 +68,12 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, GLOBAL const u
   store_contact_motion(solver_velocity, c);
 }
 
-SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                              GLOBAL const row *constraint_normal, GLOBAL const row *constraint_center,
+SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const row *constraint_center,
                               GLOBAL const row *constraint_normal_impulse, GLOBAL const row *solver_inertia,
                               GLOBAL const row *solver_delta, GLOBAL const uint *counts,
                               GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
 {
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   mask rough = c.friction > R(0.0);
   if (!any_of(rough)) return;
   vec4 pushes = load_row(constraint_normal_impulse, i);
@@ -92,15 +88,13 @@ SHARED void pgs_friction_item(GLOBAL const uint *constraint_a, GLOBAL const uint
 
 /* Effective masses where the bodies are now. Many sweeps over masses of another place do not converge: where a long
  * body has turned, a row whose mass is more than twice what it should be doubles its error every sweep. */
-SHARED void pgs_masses_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                            GLOBAL const row *constraint_normal, GLOBAL const row *solver_velocity,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta, GLOBAL const uint *counts,
+SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                             GLOBAL row *constraint_points, GLOBAL row *constraint_center, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   body_pair bodies = bodies_of(c);
-  arm_shift shift = load_arm_shift(solver_delta, c);
+  arm_shift shift = load_arm_shift(solver_bodies.delta, c);
   for (uint k = 0; k < 4u; ++k) {
     vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
     vec3 arm_a = add(xyz(load_row(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);

@@ -20,14 +20,13 @@
 
 SHARED mask resists(vec4 resistance) { return (resistance.x > R(0.0)) | (resistance.y > R(0.0)); }
 
-SHARED void warm_start_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                    GLOBAL const row *constraint_normal, GLOBAL const row *constraint_rolling,
+SHARED void warm_start_rolling_item(read_contacts contacts, GLOBAL const row *constraint_rolling,
                                     GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                     GLOBAL row *solver_velocity, item_index i)
 {
   mask wanted = resists(load_row(constraint_rolling, counts[CAPACITY_PAIRS] + i));
   if (!any_of(wanted)) return;
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec3 torque = xyz(load_row(constraint_rolling, i));
   store_contact_motion(solver_velocity, with_motion_if(wanted, c, apply_turn(c, torque, torque, R(1.0))));
 }
@@ -59,15 +58,14 @@ SHARED vec3 onto_disc(vec3 v, real limit)
   return scale(v, choose(outside, limit / square_root(choose(outside, squared, (real)R(1.0))), (real)R(1.0)));
 }
 
-SHARED void solve_rolling_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                               GLOBAL const row *constraint_normal, GLOBAL const row *constraint_normal_impulse,
+SHARED void solve_rolling_item(read_contacts contacts, GLOBAL const row *constraint_normal_impulse,
                                GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                GLOBAL row *constraint_rolling, GLOBAL row *solver_velocity, item_index i)
 {
   vec4 resistance = load_row(constraint_rolling, counts[CAPACITY_PAIRS] + i);
   mask wanted = resists(resistance);
   if (!any_of(wanted)) return;
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 pushes = load_row(constraint_normal_impulse, i);
   real pressure = (pushes.x + pushes.y) + (pushes.z + pushes.w);
   vec3 old = xyz(load_row(constraint_rolling, i)), speed = subtract(c.motion_b.angular, c.motion_a.angular);

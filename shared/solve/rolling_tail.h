@@ -5,26 +5,23 @@
 #include "shared/solve/rolling.h"
 #include "shared/solve/tail.h"
 
-SHARED void warm_start_rolling_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                         GLOBAL const row *constraint_normal, GLOBAL const row *constraint_rolling,
+SHARED void warm_start_rolling_tail_item(read_contacts contacts, GLOBAL const row *constraint_rolling,
                                          GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                          GLOBAL row *solver_velocity, uint only)
 {
   (void)only;
   FOR_EACH_IN_TAIL(i)
-  warm_start_rolling_item(constraint_a, constraint_b, constraint_normal, constraint_rolling, solver_inertia, counts,
-                          solver_velocity, i);
+  warm_start_rolling_item(contacts, constraint_rolling, solver_inertia, counts, solver_velocity, i);
 }
 
-SHARED void solve_rolling_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                    GLOBAL const row *constraint_normal, GLOBAL const row *constraint_normal_impulse,
+SHARED void solve_rolling_tail_item(read_contacts contacts, GLOBAL const row *constraint_normal_impulse,
                                     GLOBAL const row *solver_inertia, GLOBAL const uint *counts,
                                     GLOBAL row *constraint_rolling, GLOBAL row *solver_velocity, uint only)
 {
   (void)only;
   FOR_EACH_IN_TAIL(i)
-  solve_rolling_item(constraint_a, constraint_b, constraint_normal, constraint_normal_impulse, solver_inertia, counts,
-                     constraint_rolling, solver_velocity, i);
+  solve_rolling_item(contacts, constraint_normal_impulse, solver_inertia, counts, constraint_rolling, solver_velocity,
+                     i);
 }
 
 #endif

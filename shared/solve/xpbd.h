@@ -88,30 +88,27 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
 }
 
 /* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
-SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                                GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                 GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia,
                                 GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                GLOBAL row *constraint_normal_impulse, GLOBAL row *constraint_friction_impulse,
-                                GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint first_iteration,
-                                item_index i)
+                                write_contact_impulses contact_impulses, GLOBAL row *solver_velocity,
+                                uint first_iteration, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
+  vec4 impulses = load_row(contact_impulses.normal, i), friction = load_row(contact_impulses.friction, i);
   if (first_iteration != 0u) {
     impulses = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
     friction = make_vec4(R(0.0), R(0.0), R(0.0), friction.w);
-    store_row(constraint_friction_impulse, i, friction);
+    store_row(contact_impulses.friction, i, friction);
   }
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  support s = load_support(constraint_points, stride, c, shift, impulses, i);
+  support s = load_support(patches.points, stride, c, shift, impulses, i);
   real closed = inner(c.normal, moved.translation);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
-    real separation = load_row(constraint_points, stride * k + i).w + closed +
+    real separation = load_row(patches.points, stride * k + i).w + closed +
                       (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
     real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
     wished[k] =
@@ -119,12 +116,13 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
   }
   c = press_together(c, &s, wished);
   vec4 pressed = impulses_of(&s);
-  store_row(constraint_normal_impulse, i, pressed);
+  store_row(contact_impulses.normal, i, pressed);
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_row(contact_impulses.bounce, stride + i,
+              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
-    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
+    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, pressed);
     slipped slip = slip_since(load_row(constraint_slip, i), c, moved, arm_a, arm_b, parameters->inverse_substep);
@@ -132,29 +130,27 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, GLOBAL cons
     held = xpbd_slide(held.c, add(slide_between(held.c, arm_a, arm_b), slip.slide), arm_a, arm_b, center_a.w, limit,
                       held.impulse);
     c = with_motion_if(rough, c, held.c);
-    store_row_if(rough, constraint_friction_impulse, i, held.impulse);
+    store_row_if(rough, contact_impulses.friction, i, held.impulse);
   }
   store_contact_motion(solver_velocity, c);
 }
 
 /* Takes out the speed with which positions were pushed apart, at most all of the impulse that did it, and what sliding
  * the pressure of the whole substep still holds. */
-SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL const uint *constraint_a,
-                                 GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
-                                 GLOBAL const row *constraint_points, GLOBAL const row *constraint_center,
+SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                  GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
                                  GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
                                  GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
+  contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 impulses = load_row(constraint_normal_impulse, i);
   mask pressing = (impulses.x > R(0.0)) | (impulses.y > R(0.0)) | (impulses.z > R(0.0)) | (impulses.w > R(0.0));
   if (!any_of(pressing)) return;
   contact before = c;
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  support s = load_support(constraint_points, stride, c, shift, impulses, i);
+  support s = load_support(patches.points, stride, c, shift, impulses, i);
   real wished[4];
   for (uint k = 0; k < 4u; ++k) {
     real resting = maximum(s.impulse[k] - s.mass[k] * speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]), R(0.0));
@@ -164,7 +160,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
   store_row_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
-    vec4 center_a = load_row(constraint_center, i), center_b = load_row(constraint_center, stride + i);
+    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));
     solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_row(constraint_friction_impulse, i));
@@ -179,16 +175,14 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, GLOBAL con
  * either. */
 #define XPBD_HOLDS R(0.999)
 
-SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *constraint_a,
-                            GLOBAL const uint *constraint_b, GLOBAL const row *constraint_normal,
+SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, read_contacts contacts,
                             GLOBAL const row *constraint_center, GLOBAL const row *constraint_slip,
                             GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia,
-                            GLOBAL const row *solver_delta, GLOBAL const uint *counts, GLOBAL row *cached_slip,
+                            read_solver_bodies solver_bodies, GLOBAL const uint *counts, GLOBAL row *cached_slip,
                             item_index i)
 {
-  contact c = load_contact(constraint_a, constraint_b, constraint_normal, solver_velocity, solver_inertia, i);
-  drift moved = load_drift(solver_delta, c);
+  contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
+  drift moved = load_drift(solver_bodies.delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(load_row(constraint_center, i)), shift.a),
                             add(xyz(load_row(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));

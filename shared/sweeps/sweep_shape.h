@@ -74,44 +74,23 @@ SHARED first_hit sweep_against_body(const query_scene *scene, const moving_conve
   return nearest;
 }
 
-/* vertices: of the swept shape, if it is a hull; its size and bounding radius in query_shape. */
-SHARED void sweep_shape_item(
-    GLOBAL const Parameters *parameters, GLOBAL const uint *counts, GLOBAL const uint *traits, GLOBAL const row *shapes,
-    GLOBAL const uint *convexes, GLOBAL const row *poses, GLOBAL const uint *headers, GLOBAL const row *vertices,
-    GLOBAL const row *strips, GLOBAL const uint *body_trees, GLOBAL const uint *tree_headers,
-    GLOBAL const row *tree_frames, GLOBAL const uint *tree_nodes, GLOBAL const uint *tree_leaves,
-    GLOBAL const row *mesh_vertices, GLOBAL const uint *mesh_triangles, GLOBAL const row *positions,
-    GLOBAL const row *orientations, GLOBAL const row *hierarchy, GLOBAL const uint *hierarchy_link,
-    GLOBAL const uint *leaf_body, GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-    GLOBAL const uint *cell_start, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
-    GLOBAL const row *query_start, GLOBAL const row *query_turn, GLOBAL const row *query_way,
-    GLOBAL const row *query_shape, GLOBAL const row *query_vertex, GLOBAL const row *query_strip, GLOBAL row *query_hit,
-    GLOBAL row *query_point, GLOBAL uint *query_hit_body, uint kind, uint vertices_of_shape, uint structure, uint i)
+/* vertices: of the swept shape, if it is a hull; its size and bounding radius in shape_queries.shape. */
+SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                             read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                             read_shape_queries shape_queries, write_hits hits, uint kind, uint vertices,
+                             uint structure, uint i)
 {
-  query_scene scene = {
-      parameters,
-      traits,
-      convexes,
-      body_trees,
-      shapes,
-      poses,
-      positions,
-      orientations,
-      {headers, vertices, 0, 0, 0, 0, strips, 0, mesh_vertices, mesh_triangles, SUPPORT_BRUTE_FORCE},
-      {tree_headers, tree_frames, tree_nodes, tree_leaves},
-      {structure, {hierarchy, hierarchy_link, leaf_body, counts}, {bounds, grid, sort_value, cell_start, counts}},
-      query_body,
-      query_filter,
-      query_start,
-      query_way};
-  hull_tables own = {0, query_vertex, 0, 0, 0, 0, query_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
-  place start = load_place(query_start, i);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(query_way, i));
-  vec4 size = load_row(query_shape, 0u);
-  mat3 rotation = rotation_of(quat_from(load_row(query_turn, i)));
+  read_queries queries = {shape_queries.body, shape_queries.filter, shape_queries.start, shape_queries.way};
+  query_scene scene =
+      query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
+  hull_tables own = {0, shape_queries.vertex, 0, 0, 0, 0, shape_queries.strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
+  place start = load_place(shape_queries.start, i);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(shape_queries.way, i));
+  vec4 size = load_row(shape_queries.shape, 0u);
+  mat3 rotation = rotation_of(quat_from(load_row(shape_queries.turn, i)));
   convex swept = convex_of(SHAPE_BOX, xyz(size), rotation, none, none, 0u, own);
   swept.kind = kind;
-  swept.hull.vertices = vertices_of_shape;
+  swept.hull.vertices = vertices;
   moving_convex moving = moving_convex_of(&swept, none, way, none, R(0.0));
   first_hit nearest = nothing_hit();
   real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
@@ -122,7 +101,7 @@ SHARED void sweep_shape_item(
     nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
-  store_hit(nearest, query_hit, query_point, query_hit_body, i);
+  store_hit(nearest, hits, i);
 }
 
 #endif

@@ -7,12 +7,12 @@ command -v gdb > /dev/null || { echo "skipped: no gdb"; exit 77; }
 expected=$("$probe" | sed -n 's/^impulse .* bits //p')
 [ -n "$expected" ] && [ "$expected" != 0x0 ] || { echo "the probe names no impulse but '$expected'"; exit 1; }
 
-# Names of arguments, which kernels.def fixes too; names of locals change with the solver.
+# Names of arguments, which kernels.def and argument_groups.h fix too; names of locals change with the solver.
 seen=$(gdb -batch -nx -ex 'set confirm off' \
   -ex 'break tandem::scalar::solve_contacts_item if i == 17 && tandem::step_of_launch == 3' -ex run \
   -ex 'printf "item %u of step %u\n", i, tandem::step_of_launch' \
-  -ex 'set $n = constraint_normal[i]' -ex 'printf "normal length %.6f\n", $n.x * $n.x + $n.y * $n.y + $n.z * $n.z' \
-  -ex 'set $impulses = constraint_normal_impulse' -ex finish \
+  -ex 'set $n = contacts.normal[i]' -ex 'printf "normal length %.6f\n", $n.x * $n.x + $n.y * $n.y + $n.z * $n.z' \
+  -ex 'set $impulses = contact_impulses.normal' -ex finish \
   -ex 'printf "bits 0x%x\n", *(unsigned int *)&$impulses[17].x' -ex kill "$probe" 2>&1) || true
 case $seen in
   *"ptrace: Operation not permitted"* | *"Could not trace the inferior"*)

@@ -235,8 +235,8 @@ void Island::add_row(const Row &row, double bias)
 
 void Island::add_constraint(uint32_t i)
 {
-  const contact c =
-      load_contact(rows_.a.data(), rows_.b.data(), rows_.normal.data(), rows_.velocity.data(), rows_.inertia.data(), i);
+  const contact c = load_contact({rows_.a.data(), rows_.b.data(), rows_.normal.data()}, rows_.velocity.data(),
+                                 rows_.inertia.data(), i);
   const drift moved = load_drift(rows_.delta.data(), c);
   const arm_shift shift = shift_of_contact(c, moved.translation);
   const row old = rows_.normal_impulse[i];

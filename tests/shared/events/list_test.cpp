@@ -79,20 +79,20 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
     for (uint a = 0; a < bodies; ++a) positions[2 * a] = {100.0f * float(a), 0, 0, 0};
     std::vector<uint> counts(COUNT_TOTAL), starts(bodies), codes(4 * (pairs + before.b.size()));
     counts[CAPACITY_PAIRS] = uint(pairs);
+    const read_touching_pairs touching{now.start.data(), now.b.data(), now.touching.data()};
+    const read_cached_touching_pairs touched{before.start.data(), before.b.data(), before.touching.data()};
+    const read_manifolds manifolds{now.normal.data(), points.data(), now.points.data(), nullptr};
     uint total = 0;
     for (uint a = 0; a < bodies; ++a) {
-      count_events_item(now.start.data(), now.b.data(), now.touching.data(), before.start.data(), before.b.data(),
-                        before.touching.data(), starts.data(), a);
+      count_events_item(touching, touched, starts.data(), a);
       const uint found = starts[a];
       starts[a] = total;
       total += found;
     }
     REQUIRE(total == expected.size());
     for (uint a = bodies; a-- > 0;)
-      write_events_item(now.start.data(), now.b.data(), now.color.data(), now.touching.data(), now.impulse.data(),
-                        now.normal.data(), points.data(), now.points.data(), before.start.data(), before.b.data(),
-                        before.touching.data(), positions.data(), velocities.data(), starts.data(), counts.data(),
-                        codes.data(), contacts.data(), a);
+      write_events_item(touching, now.color.data(), now.impulse.data(), manifolds, touched, positions.data(),
+                        velocities.data(), starts.data(), counts.data(), codes.data(), contacts.data(), a);
     uint at = 0;
     for (const auto &[pair, e] : expected) {
       const uint *code = &codes[4 * at];
