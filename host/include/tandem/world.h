@@ -5,7 +5,7 @@
  *   std::vector<BodyState> bodies = world.bodies();
  *
  * A step either happens whole or not at all: overflow grows the buffers and runs the step again, a
- * non-finite body is quarantined and named (design section 7).
+ * non-finite body is quarantined and named.
  */
 #pragma once
 
