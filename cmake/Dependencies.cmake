@@ -1,4 +1,4 @@
-# The libraries that Tandem builds on, all Debian packages; README lists them with their reasons.
+# The libraries that Tandem builds on, all Debian packages; docs/dependencies.md lists them with their reasons.
 find_package(TBB REQUIRED)
 find_package(OpenCL REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)

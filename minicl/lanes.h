@@ -1,7 +1,8 @@
 /* lanes.h - real, natural and mask over TANDEM_LANES = 4, 8 or 16 items of one kernel.
  *
- * The same shared source as shared/real.h serves, at 4 to 16 items an instruction (measured 8 times
- * faster than one at a time, docs/results). Lanes never mix, each operation rounds as the scalar one
+ * The same shared source as shared/real.h serves, at 4 to 16 items an instruction: on one thread of a Xeon
+ * with AVX-512 boxes collide 6 times as fast with 16 lanes as with one (`tandem bench narrowphase --pairs box-box
+ * --on tbb:threads=1,lanes=16`). Lanes never mix, each operation rounds as the scalar one
  * does, so the bits are equal. Included inside a namespace of its width, after platform.h.
  */
 #pragma once

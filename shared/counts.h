@@ -1,7 +1,8 @@
 /* counts.h - every number of things that the device alone knows: one array of uint.
  *
  * Counts stay on the device: a kernel's range is [counts[first], counts[last]), so no stage waits
- * for the host. The host reads the array once, at the end of a step (design section 5). */
+ * for the host. The host reads the array once, at the end of a step: reading after each stage would cost
+ * more than most stages. */
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 

@@ -2,7 +2,7 @@
  *
  * In OpenCL the mask is the compile-time constant FEATURES (-D FEATURES=...), so what a scene does
  * not need costs nothing. MiniCL is compiled ahead, so it reads the mask from the parameters; with
- * every bit set both give the bits of the specialised build (tests/parity/specialise_test.cpp). */
+ * every bit set both give the bits of the specialised build (tests/parity/specialised_test.cpp). */
 #ifndef TANDEM_SHARED_FEATURES_H
 #define TANDEM_SHARED_FEATURES_H
 

@@ -1,6 +1,6 @@
 /* trigonometry.h - sine, cosine, and arc tangent of our own, and the turn by an angle.
  *
- * Built-in ones differ between CPU and GPU by ulps (design section 3), so these use only operations that
+ * Built-in ones differ between CPU and GPU by ulps (docs/exactness.md), so these use only operations that
  * are rounded alike everywhere. Reduction after Cody and Waite, polynomials of the Cephes library's
  * degree. Measured against double over dense sweeps (tests/shared/trigonometry_test.cpp, figures in
  * docs/exactness.md). Branch-free, so they run at any width.

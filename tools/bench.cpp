@@ -208,8 +208,6 @@ void check_options(const BenchOptions &options)
 
 int execute(const BenchOptions &options)
 {
-  if (options.what == "solve")
-    throw InputError(fmt::format("bench solve comes with a later version; use {}", benchmarks));
   check_options(options);
   if (options.what == "broadphase") return execute_broadphase(options);
   if (options.what == "batching") return execute_batching(options);

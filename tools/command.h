@@ -27,7 +27,4 @@ Command report_command(CLI::App &parser);
 Command stability_command(CLI::App &parser);
 Command contact_problem_command(CLI::App &parser);
 
-/* Part of the command's contract, not built yet: each says so and exits with 2. */
-std::vector<Command> later_commands(CLI::App &parser);
-
 } // namespace tandem

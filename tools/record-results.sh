@@ -6,7 +6,8 @@
 # WHAT: parity, shapes, broadphase, narrowphase, times, widths, solvers, batchers, report, stability or all.
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
-# run and commands.txt, which says how each was made. Used for docs/results/.
+# run and commands.txt, which says how each was made. Of these docs/results keeps a page and the small files; those
+# beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
 set -u
 tandem=$1 out=$2 gpu=$3 what=${4:-all}
 mkdir -p "$out"
@@ -127,3 +128,6 @@ if [ "$what" = stability ] || [ "$what" = all ]; then
       "$out/stability-pyramids-nncg"
   record stability-pyramids-direct stability --only $pyramids --solvers direct --out "$out/stability-pyramids-direct"
 fi
+# To be looked at now: the commands make them anew.
+(cd "$out" && find . -type f -size +100k | sed 's|^./||' | sort) > "$out/not-kept.txt"
+[ ! -s "$out/not-kept.txt" ] || { printf 'beyond 100 KB, not to be committed:\n'; cat "$out/not-kept.txt"; }

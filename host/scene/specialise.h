@@ -1,7 +1,7 @@
 /* specialise.h - what a scene needs: features, the order of its bodies, and sizes.
  *
- * The second station of the pipeline: everything after it is built, allocated and launched from this
- * (design section 6).
+ * The second station of the pipeline: everything after it is built, allocated and launched from this,
+ * so a scene pays for nothing that it does not need.
  */
 #pragma once
 

@@ -1,7 +1,8 @@
 /* commit.h - makes a finished step the state, or leaves the state as it was.
  *
  * One item gathers what went wrong into the status. Only if it is 0 do the commit kernels have a range to
- * run over, so a step that overflowed or broke has changed nothing and can be run again (design section 7).
+ * run over, so a step that overflowed or broke has changed nothing and can be run again: it happens whole or not
+ * at all.
  * Where the device itself fails in their midst, the host goes back to the previous side of the state, which
  * they only read (CARRIED in buffers.def).
  */

@@ -1,7 +1,7 @@
 /* prepare.h - a body as the solver works on it: velocity, inverse inertia in world axes, motion so far.
  *
  * The step works on these copies and the commit stage alone writes the state, so a step that overflows
- * or fails leaves the state as it was (design section 7).
+ * or fails leaves the state as it was and can be run again.
  */
 #ifndef TANDEM_SHARED_INTEGRATE_PREPARE_H
 #define TANDEM_SHARED_INTEGRATE_PREPARE_H

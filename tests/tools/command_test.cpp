@@ -134,9 +134,10 @@ TEST_CASE("command: contact problems", "[command]")
                 "truncated.dat: line 8: the file ends where W[0][1] should stand");
 }
 
-TEST_CASE("command: what comes later says so", "[command]")
+TEST_CASE("command: what is unknown is refused by name", "[command]")
 {
-  for (const char *later : {"replay f", "bench solve"}) check_refused(later, "later version");
+  check_refused("replay f", "unknown command 'replay'");
+  check_refused("bench solve", "bench 'solve' is unknown");
 }
 
 TEST_CASE("command: stability writes its contract, and says in its status whether the default solver passes",

@@ -1,5 +1,5 @@
 /* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross
- * (docs/results/). */
+ * (docs/results/2026-11-22-h200-broadphase). */
 #include "host/pipeline/broadphases/choice.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/* island_solver.cpp - see island_solver.h. The one file of the library that uses Eigen.
+/* island_solver.cpp - see island_solver.h. The one file of the simulation that uses Eigen; beside it
+ * host/verify/metrics.cpp, which only measures.
  *
  * Results must be the same on every processor. Eigen's blocked products and factorisations cut their sums by the size
  * of the caches, so only its vectors are used, and elimination goes row by row. Manifolds come in an order in which

@@ -1,6 +1,6 @@
 /* device.h - OpenCL platforms and devices: what is there, what each lacks, which one a text means.
  *
- * A device is trusted when its self-test gives the host's bits (design section 3). What its driver promises
+ * A device is trusted when its self-test gives the host's bits (docs/exactness.md). What its driver promises
  * (denormals, correctly rounded division and square root) chooses the compiler's options and explains a
  * failure, but does not decide: some drivers promise less than they do.
  */

@@ -185,7 +185,7 @@ private:
 
   /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a
    * million boxes takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with
-   * any limit; docs/results. */
+   * any limit (docs/results/2026-11-23-h200-registers). */
   std::string registers_for(Stage stage, uint32_t features) const
   {
     const bool waits = stage == Stage::setup || stage == Stage::integrate ||
@@ -194,9 +194,9 @@ private:
   }
 
   /* Manifolds of hulls of 32 vertices a second on an H200: 34 M in groups of 64, 40 M in 128, 52 M in 256;
-   * docs/results. Warps of one group begin together, and so probably fetch the same code. Items of batching are so
-   * short that starting their groups takes most of the time: a million boxes in groups of 64, 128 and 256 take 0.45,
-   * 0.29 and 0.20 ms. */
+   * Warps of one group begin together, and so probably fetch the same code (docs/results/2026-11-22-h200). Items of
+   * batching are so short that starting their groups takes most of the time: a million boxes in groups of 64, 128 and
+   * 256 take 0.45, 0.29 and 0.20 ms (docs/results/2026-11-23-h200-groups). */
   bool takes_large_groups(const KernelRow &row) const
   {
     const bool gains = row.stage == Stage::narrowphase || row.stage == Stage::batching || row.stage == Stage::parallel;
