@@ -9,17 +9,17 @@
 namespace tandem {
 namespace {
 
-constexpr size_t carried_count = 0
-#define BUFFER(name, element, capacity, per_item, feature, fields)
-#define CARRIED(name, element, capacity, per_item, feature, fields) +1
-#include "shared/buffers.def"
-    ;
-
-constexpr std::array<CarriedBuffer, carried_count> rows = {{
-#define CARRIED(name, element, capacity, per_item, feature, fields) {Buffer::name, Buffer::previous_##name},
-#include "shared/buffers.def"
-#undef BUFFER
-}};
+/* The sides of a buffer stand next to each other. */
+std::vector<CarriedBuffer> rows_of_list()
+{
+  std::vector<CarriedBuffer> rows;
+  for (size_t i = 0; i < buffer_count; ++i)
+    if (is_carried(row_of(buffer_at(i)).lifetime)) {
+      rows.push_back({buffer_at(i), buffer_at(i + 1)});
+      ++i;
+    }
+  return rows;
+}
 
 /* How many items of it the last step left; what lies behind them is of older ones. */
 size_t items_of(Capacity capacity, uint32_t bodies, uint32_t pairs)
@@ -29,23 +29,22 @@ size_t items_of(Capacity capacity, uint32_t bodies, uint32_t pairs)
 
 } // namespace
 
-std::span<const CarriedBuffer> carried_buffers() { return rows; }
-
-bool is_carried(Buffer buffer)
+const std::vector<CarriedBuffer> &carried_buffers()
 {
-  return std::any_of(rows.begin(), rows.end(), [&](const CarriedBuffer &carried) { return carried.now == buffer; });
+  static const std::vector<CarriedBuffer> rows = rows_of_list();
+  return rows;
 }
 
 void turn_carried(Memory &memory) noexcept
 {
-  for (const CarriedBuffer &carried : rows) memory.exchange(carried.now, carried.previous);
+  for (const CarriedBuffer &carried : carried_buffers()) memory.exchange(carried.now, carried.previous);
 }
 
 uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features)
 {
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front();
   uint64_t hash = 0;
-  for (const CarriedBuffer &carried : rows) {
+  for (const CarriedBuffer &carried : carried_buffers()) {
     const BufferRow &row = row_of(carried.now);
     const bool needed = row.feature == 0 || (row.feature & features) != 0;
     if (needed && memory.bytes(carried.now) > 0)

@@ -1,11 +1,11 @@
-/* carried.h - what one step hands to the next: the rows of buffers.def that are CARRIED.
+/* carried.h - what one step hands to the next: the rows of buffers.def whose lifetime is STATE or CACHE.
  *
  * Each has two sides. The commit reads the previous one and writes the other, so the host turns them when it begins,
  * and turns them back when the step fails: then the state is as it was, whatever the commit had written by then.
  */
 #pragma once
 
-#include <span>
+#include <vector>
 
 #include <tandem/export.h>
 
@@ -16,8 +16,8 @@ namespace tandem {
 struct CarriedBuffer {
   Buffer now, previous;
 };
-std::span<const CarriedBuffer> carried_buffers();
-bool is_carried(Buffer buffer); /* as its present side */
+const std::vector<CarriedBuffer> &carried_buffers();
+constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STATE || lifetime == Lifetime::CACHE; }
 
 TANDEM_API void turn_carried(Memory &memory) noexcept;
 

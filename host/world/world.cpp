@@ -183,7 +183,8 @@ struct World::Implementation {
     for (size_t i = 0; i < buffer_count; ++i)
       if (touched[i] || queried[i]) check_size(buffer_at(i), now);
     for (size_t i = 0; i < buffer_count; ++i)
-      if (!is_carried(buffer_at(i))) memory.resize(buffer_at(i), wished(buffer_at(i)));
+      if (!is_carried(row_of(buffer_at(i)).lifetime)) memory.resize(buffer_at(i), wished(buffer_at(i)));
+    for (const CarriedBuffer &carried : carried_buffers()) memory.resize(carried.previous, wished(carried.previous));
     for (const CarriedBuffer &carried : carried_buffers()) memory.grow(carried.now, wished(carried.now));
   }
 

@@ -4,7 +4,7 @@
  * run over, so a step that overflowed or broke has changed nothing and can be run again: it happens whole or not
  * at all.
  * Where the device itself fails in their midst, the host goes back to the previous side of the state, which
- * they only read (CARRIED in buffers.def).
+ * they only read (STATE and CACHE in buffers.def).
  */
 #ifndef TANDEM_SHARED_INTEGRATE_COMMIT_H
 #define TANDEM_SHARED_INTEGRATE_COMMIT_H

@@ -98,10 +98,11 @@ std::map<std::string, std::string> buffer_types(const std::string &root)
 {
   std::map<std::string, std::string> types;
   for (const Call &row : calls_in(without_directives(without_comments(read_file(root + "/shared/buffers.def"))))) {
-    if ((row.name != "BUFFER" && row.name != "CARRIED") || row.arguments.size() != 6)
+    if (row.name != "BUFFER" || row.arguments.size() != 7)
       throw std::runtime_error("shared/buffers.def:" + std::to_string(row.line) + ": not a row of a buffer");
     types[row.arguments[0]] = type_of_element(row.arguments[1]);
-    if (row.name == "CARRIED") types["previous_" + row.arguments[0]] = types[row.arguments[0]];
+    const bool has_two_sides = row.arguments[5] == "STATE" || row.arguments[5] == "CACHE";
+    if (has_two_sides) types["previous_" + row.arguments[0]] = types[row.arguments[0]];
   }
   return types;
 }

@@ -14,10 +14,9 @@ namespace {
 constexpr uint32_t COUNT_GIVEN = items_given;
 
 constexpr std::array<BufferRow, buffer_count> buffer_rows = {{
-#define BUFFER(name, element, capacity, per_item, feature, fields) \
-  {#name, Element::element, Capacity::capacity, per_item, FEATURE_##feature, fields},
+#define SIDE(name, element, capacity, per_item, feature, lifetime, fields) \
+  {#name, Element::element, Capacity::capacity, per_item, FEATURE_##feature, Lifetime::lifetime, fields},
 #include "shared/buffers.def"
-#undef BUFFER
 }};
 
 /* A group (shared/argument_groups.h) and buffers.def agree about types, or this does not compile. */

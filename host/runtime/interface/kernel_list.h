@@ -26,15 +26,13 @@ constexpr size_t kernel_count = 0
     ;
 
 enum class Buffer : uint16_t {
-#define BUFFER(name, element, capacity, per_item, feature, fields) name,
+#define SIDE(name, element, capacity, per_item, feature, lifetime, fields) name,
 #include "shared/buffers.def"
-#undef BUFFER
 };
 
 constexpr size_t buffer_count = 0
-#define BUFFER(name, element, capacity, per_item, feature, fields) +1
+#define SIDE(name, element, capacity, per_item, feature, lifetime, fields) +1
 #include "shared/buffers.def"
-#undef BUFFER
     ;
 
 enum class Form : uint8_t { item, lanes, group, host };
@@ -92,6 +90,9 @@ enum class Capacity : uint8_t {
 
 enum class Element : uint8_t { row, real, uint, ulong, Parameters };
 
+/* How long the contents of a buffer matter: buffers.def says what each word means. */
+enum class Lifetime : uint8_t { SCENE, STATE, CACHE, KEPT, SCRATCH };
+
 struct Argument {
   enum class Kind : uint8_t { buffer, slot, value } kind;
   Access access;
@@ -114,8 +115,9 @@ struct BufferRow {
   const char *name;
   Element element;
   Capacity capacity;
-  uint32_t per_item;  /* elements */
-  uint32_t feature;   /* 0: always */
+  uint32_t per_item; /* elements */
+  uint32_t feature;  /* 0: always */
+  Lifetime lifetime;
   const char *fields; /* names of the scalars of one item, separated by spaces */
 };
 
