@@ -58,15 +58,42 @@ namespace {
 constexpr uint32_t items_per_task = 128;
 
 /* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
-const KernelTable &scalar_table([[maybe_unused]] const Options &options)
+Width scalar_width([[maybe_unused]] const Options &options)
 {
-#if defined(TANDEM_PORTABLE_KERNELS_ONLY)
-  return scalar_kernels;
-#else
-  if (options.reference) return reference_kernels;
-  if (options.order != Backend::Order::forward) return backward_kernels;
-  return options.lanes >= 8 && widest_lanes() >= 8 ? scalar_avx2_kernels : scalar_kernels;
+#if !defined(TANDEM_PORTABLE_KERNELS_ONLY)
+  if (options.reference) return Width::reference;
+  if (options.order != Backend::Order::forward) return Width::backward;
+  if (options.lanes >= 8 && widest_lanes() >= 8) return Width::scalar_avx2;
 #endif
+  return Width::scalar;
+}
+
+Width lanes_width(uint32_t lanes) { return lanes == 4 ? Width::lanes4 : lanes == 8 ? Width::lanes8 : Width::lanes16; }
+
+const KernelTable &pipeline_table(Width width)
+{
+  switch (width) {
+#if !defined(TANDEM_PORTABLE_KERNELS_ONLY)
+  case Width::scalar_avx2: return scalar_avx2_kernels;
+  case Width::backward: return backward_kernels;
+  case Width::reference: return reference_kernels;
+  case Width::lanes8: return lanes8_kernels;
+  case Width::lanes16: return lanes16_kernels;
+#endif
+  case Width::lanes4: return lanes4_kernels;
+  default: return scalar_kernels;
+  }
+}
+
+/* By the kernel's number, over all modules. */
+std::vector<RunRange> ranges_of(Width width)
+{
+  const KernelTable &pipeline = pipeline_table(width);
+  std::vector<RunRange> ranges(kernel_count);
+  if (pipeline.run) std::copy_n(pipeline.run, kernel_count, ranges.begin());
+  for (size_t i = 0; i < module_count(); ++i)
+    for (size_t row = 0; row < module_at(i).kernels(); ++row) ranges.push_back(module_at(i).run(width, row));
+  return ranges;
 }
 
 Storage &storage_for([[maybe_unused]] const Options &options)
@@ -80,9 +107,11 @@ Storage &storage_for([[maybe_unused]] const Options &options)
 class MiniclBackend : public Backend {
 public:
   MiniclBackend(const std::string &name, const Options &options)
-      : name_(name), order_(options.order), threads_(options.threads), scalar_(scalar_table(options)),
-        lanes_(options.reference ? nullptr : lanes_table(options.lanes)), storage_(storage_for(options))
+      : name_(name), order_(options.order), threads_(options.threads), scalar_(ranges_of(scalar_width(options))),
+        storage_(storage_for(options))
   {
+    if (!options.reference && lanes_table(options.lanes)) lanes_in_use_ = options.lanes;
+    if (lanes_in_use_) lanes_ = ranges_of(lanes_width(lanes_in_use_));
     want_threads(options.threads);
   }
 
@@ -91,7 +120,7 @@ public:
   void prepare(uint32_t, const std::vector<Kernel> &) override {}
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
-  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
+  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(times_.size())); }
   uint32_t threads_used() const
   {
     return static_cast<uint32_t>(std::popcount(threads_seen_.load(std::memory_order_relaxed)));
@@ -103,13 +132,13 @@ public:
     const auto start = std::chrono::steady_clock::now();
     const uint32_t *const count = static_cast<const uint32_t *>(counts);
     const KernelRow &row = row_of(launch.kernel);
-    std::vector<void *> arguments;
+    arguments_.clear();
     for (size_t i = 0; i < bound.size(); ++i)
-      arguments.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
-                                                                         : bound[i].handle);
+      arguments_.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
+                                                                          : bound[i].handle);
     const uint32_t first = count[launch.first], last = count[launch.last];
-    if (row.form == Form::group) run_groups(launch.kernel, arguments.data(), units_of(last - first, TILE));
-    else if (last > first) run_items(launch.kernel, arguments.data(), first, last);
+    if (row.form == Form::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
+    else if (last > first) run_items(launch.kernel, arguments_.data(), first, last);
     if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and where there was none for the last one */
     if (!profiling_) return;
     Time &time = times_[index_of(launch.kernel)];
@@ -120,7 +149,7 @@ public:
 private:
   void run_groups(Kernel kernel, void *const *arguments, uint32_t groups)
   {
-    const RunRange run = scalar_.run[index_of(kernel)];
+    const RunRange run = scalar_.at(index_of(kernel));
     if (order_ != Order::forward) return run_permuted(run, arguments, 0, groups);
     parallel(0, groups, 1, tbb::auto_partitioner{},
              [&](uint32_t first, uint32_t last) { run(arguments, first, last); });
@@ -128,10 +157,10 @@ private:
 
   void run_items(Kernel kernel, void *const *arguments, uint32_t first, uint32_t last)
   {
-    const RunRange scalar = scalar_.run[index_of(kernel)];
-    const RunRange lanes = lanes_ ? lanes_->run[index_of(kernel)] : nullptr;
+    const RunRange scalar = scalar_.at(index_of(kernel));
+    const RunRange lanes = lanes_in_use_ ? lanes_.at(index_of(kernel)) : nullptr;
     if (order_ != Order::forward) return run_permuted(scalar, arguments, first, last);
-    const uint32_t width = lanes ? lanes_->lanes : 1, grain = std::max(items_per_task, width);
+    const uint32_t width = lanes ? lanes_in_use_ : 1, grain = std::max(items_per_task, width);
     const auto range = [&](uint32_t begin, uint32_t end) {
       const uint32_t whole = lanes ? (end - begin) / width * width : 0;
       if (whole) lanes(arguments, begin, begin + whole);
@@ -201,12 +230,13 @@ private:
   Order order_;
   std::optional<tbb::task_arena> arena_; /* opened by the first launch that is split */
   uint32_t threads_;
-  const KernelTable &scalar_;
-  const KernelTable *lanes_;
+  std::vector<RunRange> scalar_, lanes_; /* by the kernel's number */
+  uint32_t lanes_in_use_ = 0;            /* 0: one item at a time */
+  std::vector<void *> arguments_;        /* of the launch, so that it allocates nothing */
   Storage &storage_;
   std::atomic<uint32_t> threads_seen_ = 0;
   bool profiling_ = false;
-  std::vector<Time> times_ = std::vector<Time>(kernel_count);
+  std::vector<Time> times_ = std::vector<Time>(all_kernels());
 };
 
 } // namespace

@@ -6,5 +6,5 @@
 #else
 #include "minicl/kernel_table.h"
 
-const tandem::minicl::KernelTable tandem::minicl::lanes16_kernels = {16, {}};
+const tandem::minicl::KernelTable tandem::minicl::lanes16_kernels = {16, nullptr};
 #endif

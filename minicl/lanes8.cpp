@@ -6,5 +6,5 @@
 #else
 #include "minicl/kernel_table.h"
 
-const tandem::minicl::KernelTable tandem::minicl::lanes8_kernels = {8, {}};
+const tandem::minicl::KernelTable tandem::minicl::lanes8_kernels = {8, nullptr};
 #endif

@@ -46,7 +46,7 @@ private:
   Settings settings_;
   StepPlan plan_;
   std::vector<Kernel> kernels_;
-  std::array<bool, buffer_count> touched_{};
+  std::vector<bool> touched_;
   Memory memory_;
   DirectLauncher launcher_{memory_, backend_};
   StepLaunches step_{launcher_, plan_, settings_};

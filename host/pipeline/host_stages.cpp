@@ -30,7 +30,7 @@ public:
   void prepare(uint32_t, const std::vector<Kernel> &) override {}
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
-  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(kernel_count)); }
+  std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(times_.size())); }
 
   void run(const Launch &launch, const std::vector<BoundArgument> &, void *) override
   {

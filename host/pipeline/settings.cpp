@@ -13,6 +13,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/runtime/backend_list.h"
 #include "host/runtime/interface/kernel_list.h"
+#include "host/runtime/interface/module.h"
 #include "shared/body_codes.h"
 
 namespace tandem {
@@ -40,11 +41,22 @@ void check_number(const char *what, float value, const char *unit, bool zero_all
         fmt::format("{} {} {}: use a finite number {} 0", what, value, unit, zero_allowed ? "of at least" : "above"));
 }
 
+void check_extensions(const std::vector<Extension> &extensions)
+{
+  for (size_t i = 0; i < extensions.size(); ++i) {
+    if (!extensions[i].module) throw InputError(fmt::format("extension {}: it names no module", i));
+    for (size_t before = 0; before < i; ++before)
+      if (extensions[before].module == extensions[i].module)
+        throw InputError(fmt::format("extension {}: module '{}' is given twice; give all its launches in one", i,
+                                     extensions[i].module->name()));
+  }
+}
+
 bool names_stage_or_kernel(const std::string &name)
 {
-  for (size_t s = 0; s < stage_count; ++s)
+  for (size_t s = 0; s < all_stages(); ++s)
     if (name == name_of(static_cast<Stage>(s))) return true;
-  for (size_t k = 0; k < kernel_count; ++k)
+  for (size_t k = 0; k < all_kernels(); ++k)
     if (name == row_of(kernel_at(k)).name) return true;
   return false;
 }
@@ -52,7 +64,7 @@ bool names_stage_or_kernel(const std::string &name)
 std::string stage_list()
 {
   std::string list;
-  for (size_t s = 0; s < stage_count; ++s) list += fmt::format("{}{}", s ? ", " : "", name_of(static_cast<Stage>(s)));
+  for (size_t s = 0; s < all_stages(); ++s) list += fmt::format("{}{}", s ? ", " : "", name_of(static_cast<Stage>(s)));
   return list;
 }
 
@@ -118,6 +130,7 @@ void validate(const Settings &settings)
   if (settings.max_pairs < 1 || settings.max_pairs > most_pairs)
     throw InputError(fmt::format("at most {} pairs: use 1 to {}", settings.max_pairs, most_pairs));
   check_name("batching", settings.batching, batching_names());
+  check_extensions(settings.extensions);
   check_number("contact stiffness", settings.contact_hertz, "Hz", false);
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);
   check_number("push speed", settings.push_speed, "m/s", true);

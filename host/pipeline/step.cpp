@@ -26,16 +26,21 @@ public:
   {
     run(Kernel::begin_step);
     run(Kernel::prepare_bodies);
+    run_extensions(StepPoint::begin);
     find_pairs();
     if (has(FEATURE_TREES)) find_leaf_pairs();
+    run_extensions(StepPoint::pairs);
     find_contacts();
     if (has(FEATURE_TREES)) merge_contacts();
+    run_extensions(StepPoint::contacts);
     color_contacts();
     run(Kernel::prepare_contacts);
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
+    run_extensions(StepPoint::constraints);
     solver_named(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
+    run_extensions(StepPoint::solved);
     commit();
   }
 
@@ -137,6 +142,7 @@ private:
       run(Kernel::cache_rolling);
     }
     if (const auto keep = solver_named(settings().solver).commit) keep(*this);
+    run_extensions(StepPoint::commit);
   }
 
   void list_pair_events()

@@ -4,13 +4,16 @@
 #include <stdexcept>
 #include <string>
 
+#include <tandem/error.h>
+#include <tandem/module.h>
+
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/scene_counts.h"
 #include "shared/broadphase/sweep_limits.h"
 
 namespace tandem {
 
-void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const std::vector<Buffer> &slots)
+void StepLaunches::run(Kernel kernel, const Values &values, const Slots &slots)
 {
   const KernelRow &row = row_of(kernel);
   if (row.form == Form::group && !is_told_by_scene(row.items))
@@ -18,33 +21,38 @@ void StepLaunches::run(Kernel kernel, const std::vector<uint32_t> &values, const
   run_range(kernel, COUNT_ZERO, row.items, values, slots);
 }
 
-void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values,
-                             const std::vector<Buffer> &slots)
+void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const Values &values, const Slots &slots)
 {
   launcher_.launch({kernel, slots, values, first, last, plan_.known[last] - plan_.known[first]});
 }
 
-void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values,
-                               const std::vector<Buffer> &slots)
+void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const Values &values, const Slots &slots)
 {
   launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
 }
 
-void StepLaunches::for_each_color(Kernel kernel, const std::vector<uint32_t> &values)
+void StepLaunches::for_each_color(Kernel kernel, const Values &values)
 {
   for (uint32_t color = 0; color < std::min(plan_.colors, COLOR_LIMIT); ++color)
     run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
 }
 
-void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values)
+void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const Values &values)
 {
   for_each_color(kernel, values);
   if (plan_.colors > COLOR_LIMIT) run(tail, values);
 }
 
+uint32_t StepLaunches::most_items(Kernel kernel) const
+{
+  const uint32_t items = row_of(kernel).items;
+  return is_told_by_scene(items) ? plan_.known[items] : std::max(plan_.capacity_pairs, plan_.bodies + 1);
+}
+
 void StepLaunches::begin_substep(uint32_t substep)
 {
   if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
+  run_extensions(StepPoint::forces);
   run(Kernel::integrate_velocities);
 }
 
@@ -53,6 +61,41 @@ void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
   const uint32_t capacity = length == COUNT_BODIES ? plan_.bodies : SWEEP_SHARES * plan_.bodies;
   exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, length, capacity);
   run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {length}, {starts});
+}
+
+namespace {
+
+class ExtensionLaunches : public Launches {
+public:
+  explicit ExtensionLaunches(StepLaunches &step) : step_(step) {}
+  void run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots) override
+  {
+    step_.run_of_module(kernel, values, slots);
+  }
+  const Settings &settings() const override { return step_.settings(); }
+
+private:
+  StepLaunches &step_;
+};
+
+} // namespace
+
+void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slots &slots)
+{
+  if (row_of(kernel).items == items_given)
+    throw InputError(std::string("kernel '") + row_of(kernel).name +
+                     "' has GIVEN items, which the pipeline's own launches give alone; name a count in its row");
+  if (row_of(kernel).form == Form::group) run_at_most(kernel, most_items(kernel), values, slots);
+  else run(kernel, values, slots);
+}
+
+void StepLaunches::run_extensions(StepPoint point)
+{
+  if (settings_.extensions.empty()) return;
+  ExtensionLaunches launches(*this);
+  for (const Extension &extension : settings_.extensions)
+    for (const auto &[at, launch] : extension.launches)
+      if (at == point) launch(launches);
 }
 
 void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit,

@@ -3,8 +3,6 @@
  * host/pipeline/step.cpp writes the pipeline with them, host/pipeline/solvers/ each a solver. */
 #pragma once
 
-#include <vector>
-
 #include "host/pipeline/step.h"
 
 namespace tandem {
@@ -21,22 +19,26 @@ public:
   bool has(uint32_t feature) const { return (plan_.features & feature) != 0; }
 
   /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
-  void run(Kernel kernel, const std::vector<uint32_t> &values = {}, const std::vector<Buffer> &slots = {});
+  void run(Kernel kernel, const Values &values = {}, const Slots &slots = {});
   /* A kernel over [counts[first], counts[last]). */
-  void run_range(Kernel kernel, uint32_t first, uint32_t last, const std::vector<uint32_t> &values = {},
-                 const std::vector<Buffer> &slots = {});
+  void run_range(Kernel kernel, uint32_t first, uint32_t last, const Values &values = {}, const Slots &slots = {});
   /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
-  void run_at_most(Kernel kernel, uint32_t most, const std::vector<uint32_t> &values = {},
-                   const std::vector<Buffer> &slots = {});
+  void run_at_most(Kernel kernel, uint32_t most, const Values &values = {}, const Slots &slots = {});
   /* One launch a colour of constraints; those without a colour of their own are left to
    * host/pipeline/solvers/mass_split.h. */
-  void for_each_color(Kernel kernel, const std::vector<uint32_t> &values = {});
+  void for_each_color(Kernel kernel, const Values &values = {});
   /* The same, and `tail` over those without a colour. */
-  void for_each_color(Kernel kernel, Kernel tail, const std::vector<uint32_t> &values = {});
+  void for_each_color(Kernel kernel, Kernel tail, const Values &values = {});
   /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
   void begin_substep(uint32_t substep);
   /* From how many pairs each of so many finds to where its first goes, and to how many there are. */
   void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);
+  /* No more items of the kernel's row than this in the whole step. */
+  uint32_t most_items(Kernel kernel) const;
+  /* A kernel of a module over the items of its row. InputError where the row leaves them to the launch. */
+  void run_of_module(Kernel kernel, const Values &values, const Slots &slots);
+  /* What modules launch at this point of the step (Settings::extensions). */
+  void run_extensions(StepPoint point);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
 
 private:

@@ -12,9 +12,9 @@
 #include "host/base/out_of_memory.h"
 
 namespace tandem {
-Memory::Memory()
+Memory::Memory() : entries_(all_buffers())
 {
-  for (size_t i = 0; i < buffer_count; ++i) entries_[i].element = row_of(buffer_at(i)).element;
+  for (size_t i = 0; i < entries_.size(); ++i) entries_[i].element = row_of(buffer_at(i)).element;
 }
 
 Memory::~Memory()

@@ -6,7 +6,6 @@
  */
 #pragma once
 
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -75,7 +74,7 @@ private:
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry) noexcept;
 
-  std::array<Entry, buffer_count> entries_;
+  std::vector<Entry> entries_; /* of all buffers there were when it was made */
 };
 
 } // namespace tandem

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,14 +16,19 @@ public:
   void launch(const Launch &launch) override
   {
     for (Buffer slot : launch.slots) touch(launch.kernel, slot);
-    if (std::find(kernels.begin(), kernels.end(), launch.kernel) != kernels.end()) return;
-    kernels.push_back(launch.kernel);
-    for (const Argument &argument : row_of(launch.kernel).arguments)
-      if (argument.kind == Argument::Kind::buffer) touch(launch.kernel, argument.buffer);
+    note(launch.kernel);
+  }
+  /* As if it were launched, but for its slots. */
+  void note(Kernel kernel)
+  {
+    if (std::find(kernels.begin(), kernels.end(), kernel) != kernels.end()) return;
+    kernels.push_back(kernel);
+    for (const Argument &argument : row_of(kernel).arguments)
+      if (argument.kind == Argument::Kind::buffer) touch(kernel, argument.buffer);
   }
 
   std::vector<Kernel> kernels; /* each once, in the order of their first launches */
-  std::array<bool, buffer_count> touched{};
+  std::vector<bool> touched = std::vector<bool>(all_buffers());
   std::set<std::pair<Kernel, Buffer>> uses;
 
 private:

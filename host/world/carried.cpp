@@ -9,11 +9,25 @@
 namespace tandem {
 namespace {
 
+/* How many items of it the last step left; what lies behind them is of older ones. */
+size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
+{
+  const BufferRow &row = row_of(buffer);
+  switch (row.capacity) {
+  case Capacity::BODIES: return bodies;
+  case Capacity::BODIES_PLUS_ONE: return size_t{bodies} + 1;
+  case Capacity::PAIRS: return pairs;
+  default: return memory.bytes(buffer) / (row.per_item * size_of(row.element));
+  }
+}
+
+} // namespace
+
 /* The sides of a buffer stand next to each other. */
-std::vector<CarriedBuffer> rows_of_list()
+std::vector<CarriedBuffer> carried_buffers()
 {
   std::vector<CarriedBuffer> rows;
-  for (size_t i = 0; i < buffer_count; ++i)
+  for (size_t i = 0; i < all_buffers(); ++i)
     if (is_carried(row_of(buffer_at(i)).lifetime)) {
       rows.push_back({buffer_at(i), buffer_at(i + 1)});
       ++i;
@@ -21,34 +35,20 @@ std::vector<CarriedBuffer> rows_of_list()
   return rows;
 }
 
-/* How many items of it the last step left; what lies behind them is of older ones. */
-size_t items_of(Capacity capacity, uint32_t bodies, uint32_t pairs)
+void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept
 {
-  return capacity == Capacity::BODIES ? bodies : capacity == Capacity::BODIES_PLUS_ONE ? size_t{bodies} + 1 : pairs;
+  for (const CarriedBuffer &buffer : carried) memory.exchange(buffer.now, buffer.previous);
 }
 
-} // namespace
-
-const std::vector<CarriedBuffer> &carried_buffers()
-{
-  static const std::vector<CarriedBuffer> rows = rows_of_list();
-  return rows;
-}
-
-void turn_carried(Memory &memory) noexcept
-{
-  for (const CarriedBuffer &carried : carried_buffers()) memory.exchange(carried.now, carried.previous);
-}
-
-uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features)
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, uint32_t features)
 {
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front();
   uint64_t hash = 0;
-  for (const CarriedBuffer &carried : carried_buffers()) {
-    const BufferRow &row = row_of(carried.now);
+  for (const CarriedBuffer &buffer : carried) {
+    const BufferRow &row = row_of(buffer.now);
     const bool needed = row.feature == 0 || (row.feature & features) != 0;
-    if (needed && memory.bytes(carried.now) > 0)
-      hash = hash_buffers(memory, {carried.now}, items_of(row.capacity, bodies, pairs), hash);
+    if (needed && memory.bytes(buffer.now) > 0)
+      hash = hash_buffers(memory, {buffer.now}, items_of(memory, buffer.now, bodies, pairs), hash);
   }
   return hash;
 }

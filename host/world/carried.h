@@ -16,12 +16,13 @@ namespace tandem {
 struct CarriedBuffer {
   Buffer now, previous;
 };
-const std::vector<CarriedBuffer> &carried_buffers();
+/* Of the pipeline and of all modules added so far. */
+TANDEM_API std::vector<CarriedBuffer> carried_buffers();
 constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STATE || lifetime == Lifetime::CACHE; }
 
-TANDEM_API void turn_carried(Memory &memory) noexcept;
+TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
-/* Of all that is carried over, as far as a scene of these features has it. Equal iff the next step will be equal. */
-uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features);
+/* Of these buffers, as far as a scene of these features has them. Equal iff the next step will be equal. */
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, uint32_t features);
 
 } // namespace tandem

@@ -20,6 +20,7 @@
 #include "host/pipeline/step.h"
 #include "host/runtime/interface/debug.h"
 #include "host/runtime/interface/floating_point.h"
+#include "host/runtime/interface/module.h"
 #include "host/runtime/launcher.h"
 #include "host/runtime/make_backend.h"
 #include "host/runtime/recorder.h"
@@ -121,13 +122,24 @@ struct World::Implementation {
     all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
     Recorder recorder;
     launch_step(recorder, all, settings);
-    for (const CarriedBuffer &carried : carried_buffers()) {
-      bool &now = recorder.touched[index_of(carried.now)], &previous = recorder.touched[index_of(carried.previous)];
-      now = previous = now || previous;
+    for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
+    std::vector<bool> &touched_now = recorder.touched;
+    for (const CarriedBuffer &buffer : carried) {
+      const bool needed = touched_now[index_of(buffer.now)] || touched_now[index_of(buffer.previous)];
+      touched_now[index_of(buffer.now)] = touched_now[index_of(buffer.previous)] = needed;
     }
     kernels = std::move(recorder.kernels);
     touched = recorder.touched;
     uses = std::move(recorder.uses);
+  }
+
+  /* Of a module all that the scene's features allow: its launches may differ from step to step. */
+  void note_rows(Recorder &recorder, const Module &module) const
+  {
+    const auto needed = [&](uint32_t feature) { return feature == 0 || (feature & special.features) != 0; };
+    for (size_t i = 0; i < module.kernels(); ++i)
+      if (needed(module.kernel_row(i).feature)) recorder.note(module.kernel(i));
+    for (size_t i = 0; i < module.buffers(); ++i) recorder.touched[index_of(module.buffer(i))] = true;
   }
 
   /* Backends once made are kept: a buffer may live on one that runs no kernel any more. */
@@ -165,11 +177,16 @@ struct World::Implementation {
     std::map<Backend *, std::vector<Kernel>> own;
     for (Kernel kernel : kernels) own[&backend_for(placement, kernel)].push_back(kernel);
     for (const auto &[backend, theirs] : own) backend->prepare(special.features, theirs);
-    placed.fill(nullptr);
+    placed.assign(all_kernels(), nullptr);
     for (const auto &[backend, theirs] : own)
       for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
     wanted = std::move(changed);
     ready = false;
+  }
+
+  static bool is_sized_by_writes(Buffer buffer)
+  {
+    return index_of(buffer) >= buffer_count && row_of(buffer).capacity == Capacity::NOTHING;
   }
 
   /* Of the buffers that grow, those alone carry anything over to the next step that never lose it: they come last, when
@@ -180,12 +197,16 @@ struct World::Implementation {
     const auto wished = [&](Buffer buffer) {
       return touched[index_of(buffer)] || queried[index_of(buffer)] ? bytes_of(buffer, now) : 0;
     };
-    for (size_t i = 0; i < buffer_count; ++i)
+    for (size_t i = 0; i < touched.size(); ++i)
       if (touched[i] || queried[i]) check_size(buffer_at(i), now);
-    for (size_t i = 0; i < buffer_count; ++i)
-      if (!is_carried(row_of(buffer_at(i)).lifetime)) memory.resize(buffer_at(i), wished(buffer_at(i)));
-    for (const CarriedBuffer &carried : carried_buffers()) memory.resize(carried.previous, wished(carried.previous));
-    for (const CarriedBuffer &carried : carried_buffers()) memory.grow(carried.now, wished(carried.now));
+    for (size_t i = 0; i < touched.size(); ++i) {
+      const Lifetime lifetime = row_of(buffer_at(i)).lifetime;
+      if (is_sized_by_writes(buffer_at(i))) continue;
+      if (lifetime == Lifetime::SCENE) memory.grow(buffer_at(i), wished(buffer_at(i)));
+      else if (!is_carried(lifetime)) memory.resize(buffer_at(i), wished(buffer_at(i)));
+    }
+    for (const CarriedBuffer &buffer : carried) memory.resize(buffer.previous, wished(buffer.previous));
+    for (const CarriedBuffer &buffer : carried) memory.grow(buffer.now, wished(buffer.now));
   }
 
   /* Every buffer where its kernels run, before the first of them does: a step that has begun does not run out of
@@ -195,9 +216,9 @@ struct World::Implementation {
     if (ready) return;
     allocate();
     for (const auto &[kernel, buffer] : uses) memory.reserve(buffer, backend_of(kernel).storage());
-    for (const CarriedBuffer &carried : carried_buffers())
+    for (const CarriedBuffer &buffer : carried)
       for (const auto &[text, backend] : backends)
-        if (memory.holds(carried.now, backend->storage())) memory.reserve(carried.previous, backend->storage());
+        if (memory.holds(buffer.now, backend->storage())) memory.reserve(buffer.previous, backend->storage());
     for (const auto &[text, backend] : backends) settle(*backend);
     ready = true;
   }
@@ -294,12 +315,12 @@ struct World::Implementation {
 
   void turn() noexcept
   {
-    turn_carried(memory);
+    turn_carried(memory, carried);
     turned = true;
   }
   void turn_back() noexcept
   {
-    if (turned) turn_carried(memory);
+    if (turned) turn_carried(memory, carried);
     turned = false;
   }
 
@@ -448,6 +469,49 @@ struct World::Implementation {
     quarantine_body(memory, index);
   }
 
+  /* --- modules of users: host/runtime/interface/module.h ------------------------------------------------------ */
+
+  void check_kernel(Kernel kernel) const
+  {
+    for (const Extension &extension : settings.extensions)
+      if (row_of(kernel).stage == extension.module->stage()) return;
+    throw InputError(fmt::format("run: kernel '{}' is of no module in Settings::extensions", row_of(kernel).name));
+  }
+
+  void check_write(Buffer buffer, size_t bytes, size_t offset) const
+  {
+    const BufferRow &row = row_of(buffer);
+    if (index_of(buffer) < buffer_count || index_of(buffer) >= touched.size() || !touched[index_of(buffer)])
+      throw InputError(fmt::format("write: buffer '{}' is of no module in Settings::extensions", row.name));
+    const size_t unit = row.per_item * size_of(row.element);
+    if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0) return;
+    if (offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
+      throw InputError(fmt::format("write: buffer '{}' has {} bytes, not {} from byte {} on; an item has {}", row.name,
+                                   memory.bytes(buffer), bytes, offset, unit));
+  }
+
+  void write(Buffer buffer, const void *from, size_t bytes, size_t offset)
+  {
+    check_write(buffer, bytes, offset);
+    if (is_sized_by_writes(buffer) && memory.bytes(buffer) != bytes) {
+      memory.resize(buffer, bytes);
+      ready = false;
+    }
+    memory.upload(buffer, from, bytes, offset);
+  }
+
+  /* Between two steps. What broadphases keep may be of bodies that the kernel has changed. */
+  void run(Kernel kernel, const Values &values, const Slots &slots)
+  {
+    check_kernel(kernel);
+    make_ready();
+    ++state;
+    begin_launches();
+    StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots);
+    forget_kept(memory);
+    launches_ended = true;
+  }
+
   /* Kernels of queries are built when they are first asked for, then kept. */
   Backend &backend_of(Kernel kernel)
   {
@@ -468,7 +532,7 @@ struct World::Implementation {
       Recorder recorder;
       StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
       launch_query_structure(recorded, structure);
-      for (size_t i = 0; i < buffer_count; ++i)
+      for (size_t i = 0; i < queried.size(); ++i)
         if (recorder.touched[i] && !queried[i]) make_room(buffer_at(i));
       begin_launches();
       launch_query_structure(launches, structure);
@@ -498,17 +562,18 @@ struct World::Implementation {
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
   std::vector<Kernel> kernels;
-  std::array<bool, buffer_count> touched{}; /* by some kernel of the step; the others take no memory */
+  std::vector<CarriedBuffer> carried = carried_buffers();
+  std::vector<bool> touched;                /* by some kernel of the step; the others take no memory */
   std::set<std::pair<Kernel, Buffer>> uses; /* the same, by which */
   bool ready = false;                       /* there is room for all of these, where they run */
-  std::array<bool, buffer_count> queried{}; /* by the structure that queries walk */
+  std::vector<bool> queried = std::vector<bool>(all_buffers()); /* by the structure that queries walk */
   uint64_t state = 1, structure_state = 0;  /* the state that is, and the one that this structure is of */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
   bool whole = true;   /* the last step was; after one that failed there is nothing to say of it */
   std::vector<std::pair<uint32_t, BodyRecord>>
       taken_out; /* in an unfinished step, by their index in the buffers; as they were */
-  std::array<Backend *, kernel_count> placed{};
+  std::vector<Backend *> placed; /* by the kernel's number */
   bool profiling = false; /* of backends made later too */
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;
@@ -528,6 +593,8 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
     validate(settings);
     check_numbers(scene);
     implementation_ = std::make_unique<Implementation>(scene, settings, placement);
+    for (const Extension &extension : settings.extensions)
+      if (extension.prepare) extension.prepare(*this);
   } catch (const OutOfMemory &error) {
     throw OutOfMemory(told(error.what()));
   } catch (const std::bad_alloc &) {
@@ -595,6 +662,30 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
   ++implementation_->state;
   answer("a body", implementation_->plan.bodies,
          [&] { upload_body(implementation_->memory, implementation_->index_of_body.at(body), state); });
+}
+
+void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)
+{
+  const minicl::ExactFloatingPoint environment;
+  answer("a kernel", implementation_->plan.bodies, [&] { implementation_->run(kernel, values, slots); });
+}
+
+void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset)
+{
+  answer("a buffer", implementation_->plan.bodies, [&] { implementation_->write(buffer, from, bytes, offset); });
+}
+
+size_t World::buffer_bytes(Buffer buffer) const
+{
+  return index_of(buffer) < implementation_->touched.size() ? implementation_->memory.bytes(buffer) : 0;
+}
+
+void World::read_bytes(Buffer buffer, void *to, size_t bytes)
+{
+  if (bytes > buffer_bytes(buffer))
+    throw InputError(fmt::format("read: buffer '{}' has {} bytes here, not {}", row_of(buffer).name,
+                                 buffer_bytes(buffer), bytes));
+  answer("a buffer", implementation_->plan.bodies, [&] { implementation_->memory.download(buffer, to, bytes); });
 }
 
 std::vector<ContactEvent> World::contact_events()
@@ -677,7 +768,7 @@ uint64_t World::state_hash()
 {
   const Implementation &world = *implementation_;
   uint64_t hash = answer("the hash", world.plan.bodies, [&] {
-    return hash_carried(implementation_->memory, world.plan.bodies, world.scene_features);
+    return hash_carried(implementation_->memory, world.carried, world.plan.bodies, world.scene_features);
   });
   for (const Quarantine &taken : world.quarantined) hash = hash_bytes(&taken.body, sizeof taken.body, hash);
   return hash;
@@ -702,7 +793,7 @@ std::vector<KernelTime> World::take_kernel_times()
   std::vector<KernelTime> times;
   for (auto &[text, backend] : implementation_->backends) {
     const std::vector<Backend::Time> spent = backend->take_kernel_times();
-    for (size_t k = 0; k < kernel_count; ++k)
+    for (size_t k = 0; k < spent.size(); ++k)
       if (spent[k].launches > 0)
         times.push_back({kernel_at(k), backend->name(), spent[k].nanoseconds * 1e-6, spent[k].launches});
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <tandem/export.h>
+#include <tandem/module.h>
 
 namespace tandem {
 
@@ -33,6 +34,8 @@ struct Settings {
   uint32_t max_pairs =
       most_pairs;         /* 1 .. most_pairs: a step that needs room for more fails, and memory never grows past them */
   bool specialise = true; /* false: every feature built and run, same bits */
+
+  std::vector<Extension> extensions; /* modules of kernels besides the pipeline's, and where in the step they run */
 
   float contact_hertz = 60.0f;         /* Hz, stiffness of soft contacts; at most a fifth of the substep rate */
   float contact_damping_ratio = 10.0f; /* overdamped, so that pushing apart adds no bounce */

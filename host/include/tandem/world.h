@@ -26,10 +26,8 @@
 
 namespace tandem {
 
-/* What runs inside: host/runtime/interface/ says what they are, for those who compare, profile or extend the
- * pipeline. */
-enum class Kernel : uint16_t;
-enum class Buffer : uint16_t;
+/* What runs inside: host/runtime/interface/ says what they are, for those who compare or profile the pipeline; who
+ * extends it needs <tandem/module.h> alone. */
 class Backend;
 class Memory;
 struct Launch;
@@ -119,6 +117,25 @@ public:
   /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
   std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
                               const QueryFilter &filter = {});
+
+  /* Modules of Settings::extensions, between steps: a kernel over the items of its row, and the module's buffers.
+   * InputError names the kernel or buffer where it is of no such module, or where the bytes do not fit; a buffer of
+   * capacity NOTHING takes any number of items. What is written counts from the next launch on. */
+  void run(Kernel kernel, std::span<const uint32_t> values = {}, std::span<const Buffer> slots = {});
+  template <class T> void write(Buffer buffer, std::span<const T> values, size_t first = 0)
+  {
+    write_bytes(buffer, values.data(), values.size_bytes(), first * sizeof(T));
+  }
+  /* Any buffer that this world has, the pipeline's too, whole: as the last launch left it. */
+  template <class T> std::vector<T> read(Buffer buffer)
+  {
+    std::vector<T> values(buffer_bytes(buffer) / sizeof(T));
+    read_bytes(buffer, values.data(), values.size() * sizeof(T));
+    return values;
+  }
+  void write_bytes(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
+  size_t buffer_bytes(Buffer buffer) const;
+  void read_bytes(Buffer buffer, void *to, size_t bytes);
 
   Statistics statistics();
   uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */

@@ -8,17 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "host/runtime/interface/short_list.h"
 #include "host/runtime/interface/storage.h"
 
 namespace tandem {
 
 class Memory;
 
+using Slots = ShortList<Buffer, 8>;
+using Values = ShortList<uint32_t, 8>;
+
 /* One kernel over one range. Slots and values fill the row's SLOT_ and VALUE arguments in order. */
 struct Launch {
   Kernel kernel;
-  std::vector<Buffer> slots;
-  std::vector<uint32_t> values;
+  Slots slots;
+  Values values;
   uint32_t first = COUNT_ZERO; /* entries of counts: the range is [counts[first], counts[last]) */
   uint32_t last = COUNT_ZERO;
   uint32_t expected = 0; /* about how many items: sizes a device's launch, never its result. GROUP: at least as many */

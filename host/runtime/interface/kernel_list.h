@@ -1,4 +1,8 @@
-/* kernel_list.h - kernels.def and buffers.def as enums and tables: the pipeline as the host sees it. */
+/* kernel_list.h - kernels.def and buffers.def as enums and tables: the pipeline as the host sees it.
+ *
+ * The pipeline is the first module of kernels and buffers; those of other modules have numbers behind its own
+ * (host/runtime/interface/module.h), and row_of() knows all of them.
+ */
 #pragma once
 
 #include <cstddef>
@@ -51,7 +55,7 @@ enum class Stage : uint8_t {
   sweeps,
   problem
 };
-constexpr size_t stage_count = 12;
+constexpr size_t stage_count = 12; /* of the pipeline; each other module is a stage of its own behind them */
 
 /* What sizes a buffer; buffers.def names them. */
 enum class Capacity : uint8_t {
@@ -123,12 +127,17 @@ struct BufferRow {
 
 TANDEM_API const KernelRow &row_of(Kernel kernel);
 TANDEM_API const BufferRow &row_of(Buffer buffer);
-const char *name_of(Stage stage);
+TANDEM_API const char *name_of(Stage stage);
 TANDEM_API size_t size_of(Element element);
 
 inline Kernel kernel_at(size_t index) { return static_cast<Kernel>(index); }
 inline Buffer buffer_at(size_t index) { return static_cast<Buffer>(index); }
 constexpr size_t index_of(Kernel kernel) { return static_cast<size_t>(kernel); }
 constexpr size_t index_of(Buffer buffer) { return static_cast<size_t>(buffer); }
+
+/* Of the pipeline and of all modules added so far. */
+TANDEM_API size_t all_kernels();
+TANDEM_API size_t all_buffers();
+size_t all_stages();
 
 } // namespace tandem

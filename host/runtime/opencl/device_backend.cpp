@@ -6,11 +6,9 @@
 #include "host/runtime/opencl/device_backend.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -43,7 +41,7 @@ constexpr uint64_t never_set = ~uint64_t{0};
 
 /* The kernels of one set of features. */
 struct Build {
-  std::array<BuiltKernel, kernel_count> kernels;
+  std::vector<BuiltKernel> kernels = std::vector<BuiltKernel>(all_kernels());
 };
 
 /* Results do not depend on the size of groups; tests set it to show that. 0: not set. */
@@ -121,7 +119,7 @@ public:
   std::vector<Time> take_kernel_times() override
   {
     collect_events();
-    return std::exchange(times_, std::vector<Time>(kernel_count));
+    return std::exchange(times_, std::vector<Time>(times_.size()));
   }
 
 private:
@@ -135,9 +133,8 @@ private:
   void create_kernels(Stage stage, const std::vector<Kernel> &kernels, uint32_t features)
   {
     const EmbeddedProgram &embedded = embedded_program(name_of(stage));
-    std::optional<uint32_t> &readable = readable_[static_cast<size_t>(stage)];
-    if (!readable) readable = features_read(embedded); /* a search through its whole text */
-    const uint32_t read = features & *readable;
+    if (!readable_.contains(stage)) readable_[stage] = features_read(embedded); /* a search through its whole text */
+    const uint32_t read = features & readable_[stage];
     std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
     std::vector<Kernel> unbuilt;
     for (const Kernel kernel : kernels)
@@ -276,14 +273,14 @@ private:
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: as each has it */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  std::array<std::optional<uint32_t>, stage_count> readable_; /* by stage: the features that its program reads */
+  std::map<Stage, uint32_t> readable_; /* the features that the program of a stage reads */
   std::map<std::pair<Stage, uint32_t>, std::map<Kernel, cl::Program>> programs_; /* uint32_t: the features read */
   std::map<uint32_t, Build> builds_;                                             /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;
   std::vector<std::pair<Kernel, cl_event>> pending_;
-  std::vector<Time> times_ = std::vector<Time>(kernel_count);
+  std::vector<Time> times_ = std::vector<Time>(all_kernels());
 };
 
 } // namespace

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "host/runtime/interface/module.h"
 #include "host/runtime/opencl/program_cache.h"
 #include "shared/features.h"
 
@@ -73,6 +74,9 @@ const EmbeddedProgram &embedded_program(const std::string &name)
 {
   for (const EmbeddedProgram &program : embedded_programs())
     if (name == program.name) return program;
+  for (size_t i = 0; i < module_count(); ++i)
+    for (const EmbeddedProgram &program : module_at(i).programs())
+      if (name == program.name) return program;
   throw std::logic_error(fmt::format("cl/{}.cl is not embedded", name));
 }
 

@@ -11,7 +11,7 @@
 
 namespace tandem::opencl {
 
-/* The program of cl/NAME.cl; std::logic_error if none is embedded. */
+/* The program of cl/NAME.cl, or of the module of this name; std::logic_error if none is embedded. */
 const EmbeddedProgram &embedded_program(const std::string &name);
 
 /* The same program without the entries of other kernels. */
