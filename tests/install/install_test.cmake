@@ -20,6 +20,12 @@ foreach(program outside outside_shared compare compare_shared)
   step(${SCRATCH}/build/${program})
 endforeach()
 
+# Kernels of the project's own, through the headers and the embedder of the package alone.
+step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/wind -B ${SCRATCH}/wind -G ${GENERATOR}
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+step(${CMAKE_COMMAND} --build ${SCRATCH}/wind)
+step(${SCRATCH}/wind/wind_field)
+
 # Physics needs TBB and OpenCL alone, and exports nothing but its own names.
 execute_process(COMMAND readelf -d ${SCRATCH}/prefix/lib/libtandem.so OUTPUT_VARIABLE needed
   COMMAND_ERROR_IS_FATAL ANY)

@@ -5,7 +5,13 @@
  * header is expanded once, where it is first included, and a .def list every time; #line directives keep the compiler's
  * messages on the file and line that people edit. What becomes of each file can be read in FOLDER/NAME.cl.
  *
- * Usage: embed_kernels ROOT FOLDER cl/one.cl cl/two.cl ...     writes FOLDER/embedded_kernels.cpp and FOLDER/one.cl ...
+ * A module of another project is one program: its lists and headers stand in a folder of its own, in which includes are
+ * looked for first, and all its kernels are of the stage that has its name.
+ *
+ * Usage: embed_kernels ROOT FOLDER cl/one.cl cl/two.cl ...
+ *          writes FOLDER/embedded_kernels.cpp and FOLDER/one.cl ...
+ *        embed_kernels ROOT FOLDER --module NAME SOURCES KERNELS BUFFERS NAME.cl
+ *          writes FOLDER/NAME_programs.cpp and FOLDER/NAME.cl; KERNELS, BUFFERS: files of the folder SOURCES
  */
 #include <filesystem>
 #include <fstream>
@@ -14,6 +20,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "tools/embed/entries.h"
 
@@ -40,12 +47,23 @@ struct Program {
   std::set<std::string> seen;
 };
 
-void expand(const std::string &root, const std::string &name, Program &program)
+using Folders = std::vector<std::string>; /* in which includes are looked for, in this order */
+
+std::string path_of(const Folders &folders, const std::string &name)
+{
+  if (std::filesystem::path(name).is_absolute()) return name;
+  for (const std::string &folder : folders)
+    if (std::filesystem::exists(folder + "/" + name)) return folder + "/" + name;
+  throw std::runtime_error("no file " + name + " in " + folders.front() +
+                           (folders.size() > 1 ? " nor in " + folders.back() : ""));
+}
+
+void expand(const Folders &folders, const std::string &name, Program &program)
 {
   const bool is_list = name.ends_with(".def"); /* expanded anew wherever it is included */
   if (!is_list && !program.seen.insert(name).second) return;
-  std::ifstream in(root + "/" + name);
-  if (!in) throw std::runtime_error("cannot read " + root + "/" + name);
+  std::ifstream in(path_of(folders, name));
+  if (!in) throw std::runtime_error("cannot read " + path_of(folders, name));
   program.headers << "#line 1 \"" << name << "\"\n";
   std::string line;
   for (int number = 1; std::getline(in, line); ++number) {
@@ -55,7 +73,7 @@ void expand(const std::string &root, const std::string &name, Program &program)
     } else if (included.empty()) {
       program.headers << line << '\n';
     } else {
-      expand(root, included, program);
+      expand(folders, included, program);
       program.headers << "#line " << number + 1 << " \"" << name << "\"\n";
     }
   }
@@ -70,8 +88,9 @@ std::string literal(const std::string &text)
   return written;
 }
 
-void write_program(const Program &program, const std::vector<embed::KernelRow> &rows, const std::string &folder,
-                   std::ostream &out)
+/* list: the rows' file, as it is named in #line directives. */
+void write_program(const Program &program, const std::vector<embed::KernelRow> &rows, const std::string &list,
+                   const std::string &folder, std::ostream &out)
 {
   std::ofstream readable(folder + "/" + program.name + ".cl");
   readable << program.headers.str();
@@ -79,39 +98,89 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
   size_t entries = 0;
   for (const embed::KernelRow &row : rows)
     if (row.stage == program.stage && row.form != "HOST") {
-      const std::string entry = embed::entry_of(row);
+      const std::string entry = embed::entry_of(row, list);
       readable << '\n' << entry;
       out << "{\"" << row.name << "\",\n" << literal(entry) << "},\n";
       ++entries;
     }
   out << "}},\n";
   if (!program.stage.empty() && entries == 0)
-    throw std::runtime_error("cl/" + program.name + ".cl: shared/kernels.def has no kernel of stage " + program.stage);
+    throw std::runtime_error(program.name + ".cl: " + list + " has no kernel of stage " + program.stage);
   if (!readable.flush()) throw std::runtime_error("cannot write " + folder + "/" + program.name + ".cl");
+}
+
+/* What is read and written. */
+struct Job {
+  embed::Lists lists;
+  std::string list_name; /* of kernels, in messages of compilers */
+  Folders folders;
+  std::vector<std::string> programs;
+  std::string name_space, function, written;
+};
+
+Job job_of(const std::vector<std::string> &words)
+{
+  const std::string &root = words[0], &folder = words[1];
+  if (words[2] != "--module")
+    return {{root, root + "/shared/kernels.def", ""},
+            "shared/kernels.def",
+            {root},
+            {words.begin() + 2, words.end()},
+            "tandem",
+            "embedded_programs",
+            folder + "/embedded_kernels.cpp"};
+  if (words.size() != 8) throw std::runtime_error("--module takes NAME SOURCES KERNELS BUFFERS NAME.cl");
+  const std::string &name = words[3], &sources = words[4];
+  return {{root, sources + "/" + words[5], sources + "/" + words[6]},
+          words[5],
+          {sources, root},
+          {words[7]},
+          name,
+          "programs",
+          folder + "/" + name + "_programs.cpp"};
+}
+
+/* A module is one stage, of its own name. */
+void check_stages(const std::vector<embed::KernelRow> &rows, const Job &job)
+{
+  if (job.name_space == "tandem") return;
+  for (const embed::KernelRow &row : rows)
+    if (row.stage != job.name_space)
+      throw std::runtime_error(job.lists.kernels + ":" + std::to_string(row.line) + ": kernel " + row.name +
+                               " is of stage " + row.stage + "; all kernels of a module are of the stage " +
+                               job.name_space + ", its name");
+}
+
+std::string source_of(const Job &job, const std::vector<embed::KernelRow> &rows, const std::string &folder)
+{
+  std::ostringstream out;
+  out << "/* Generated by embed_kernels: do not edit. */\n#include \"host/runtime/interface/embedded_program.h\"\n\n"
+      << "namespace " << job.name_space << " {\nextern const std::vector<tandem::EmbeddedProgram> &" << job.function
+      << "();\nconst std::vector<tandem::EmbeddedProgram> &" << job.function
+      << "()\n{\nstatic const std::vector<tandem::EmbeddedProgram> programs = {\n";
+  for (const std::string &path : job.programs) {
+    Program program;
+    program.name = std::filesystem::path(path).stem().string();
+    expand(job.folders, path, program);
+    write_program(program, rows, job.list_name, folder, out);
+  }
+  out << "};\nreturn programs;\n}\n} // namespace " << job.name_space << '\n';
+  return out.str();
 }
 
 } // namespace
 
 int main(int count, char **arguments)
 try {
-  if (count < 4) throw std::runtime_error("usage: embed_kernels ROOT FOLDER cl/NAME.cl ...");
-  const std::string root = arguments[1], folder = arguments[2];
-  const std::vector<embed::KernelRow> rows = embed::kernel_rows(root);
-  std::ostringstream out;
-  out << "/* Generated by tools/embed from cl/ and shared/: do not edit. */\n#include "
-         "\"host/runtime/opencl/embedded_kernels.h\"\n"
-         "namespace tandem {\nconst std::vector<EmbeddedProgram> &embedded_programs()\n{\n"
-         "static const std::vector<EmbeddedProgram> programs = {\n";
-  for (int i = 3; i < count; ++i) {
-    Program program;
-    program.name = std::filesystem::path(arguments[i]).stem().string();
-    expand(root, arguments[i], program);
-    write_program(program, rows, folder, out);
-  }
-  out << "};\nreturn programs;\n}\n} // namespace tandem\n";
-  std::ofstream file(folder + "/embedded_kernels.cpp");
-  file << out.str();
-  if (!file.flush()) throw std::runtime_error("cannot write " + folder + "/embedded_kernels.cpp");
+  if (count < 4)
+    throw std::runtime_error("usage: embed_kernels ROOT FOLDER cl/NAME.cl ...; or ROOT FOLDER --module NAME SOURCES "
+                             "KERNELS BUFFERS NAME.cl");
+  const Job job = job_of({arguments + 1, arguments + count});
+  const std::vector<embed::KernelRow> rows = embed::kernel_rows(job.lists);
+  check_stages(rows, job);
+  std::ofstream file(job.written);
+  file << source_of(job, rows, arguments[2]);
+  if (!file.flush()) throw std::runtime_error("cannot write " + job.written);
 } catch (const std::exception &error) {
   std::cerr << "embed_kernels: " << error.what() << '\n';
   return 1;

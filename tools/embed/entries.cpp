@@ -40,7 +40,7 @@ std::string passed(const FunctionArgument &argument)
 
 } // namespace
 
-std::string entry_of(const KernelRow &row)
+std::string entry_of(const KernelRow &row, const std::string &list)
 {
   std::vector<std::string> parameters, arguments;
   for (const FunctionArgument &argument : row.arguments) {
@@ -52,7 +52,7 @@ std::string entry_of(const KernelRow &row)
   if (is_group) arguments.push_back("local_memory");
   arguments.push_back(is_group ? "GROUP_NUMBER" : "i");
 
-  std::string text = "#line " + std::to_string(row.line) + " \"shared/kernels.def\"\n";
+  std::string text = "#line " + std::to_string(row.line) + " \"" + list + "\"\n";
   text += wrapped("__kernel void " + row.name + "(", parameters, ")\n{\n");
   if (is_group) text += "  __local uint local_memory[" + row.local_words + "];\n";
   else text += "  FOR_EACH_IN_RANGE(i)\n";

@@ -7,7 +7,7 @@
 
 namespace embed {
 
-/* OpenCL C, behind a #line directive that names the kernel's row. */
-std::string entry_of(const KernelRow &row);
+/* OpenCL C, behind a #line directive that names the kernel's row in this list. */
+std::string entry_of(const KernelRow &row, const std::string &list);
 
 } // namespace embed

@@ -94,16 +94,23 @@ std::vector<Call> calls_in(const std::string &text)
 /* Names of OpenCL C for the elements of buffers.def. */
 std::string type_of_element(const std::string &element) { return element == "real" ? "memory_real" : element; }
 
-std::map<std::string, std::string> buffer_types(const std::string &root)
+void read_buffer_types(const std::string &list, std::map<std::string, std::string> &types)
 {
-  std::map<std::string, std::string> types;
-  for (const Call &row : calls_in(without_directives(without_comments(read_file(root + "/shared/buffers.def"))))) {
+  for (const Call &row : calls_in(without_directives(without_comments(read_file(list))))) {
     if (row.name != "BUFFER" || row.arguments.size() != 7)
-      throw std::runtime_error("shared/buffers.def:" + std::to_string(row.line) + ": not a row of a buffer");
+      throw std::runtime_error(list + ":" + std::to_string(row.line) + ": not a row of a buffer, BUFFER(name, element, "
+                               "capacity, elements per item, feature, lifetime, \"fields\")");
     types[row.arguments[0]] = type_of_element(row.arguments[1]);
     const bool has_two_sides = row.arguments[5] == "STATE" || row.arguments[5] == "CACHE";
     if (has_two_sides) types["previous_" + row.arguments[0]] = types[row.arguments[0]];
   }
+}
+
+std::map<std::string, std::string> buffer_types(const Lists &lists)
+{
+  std::map<std::string, std::string> types;
+  read_buffer_types(lists.root + "/shared/buffers.def", types);
+  if (!lists.buffers.empty()) read_buffer_types(lists.buffers, types);
   return types;
 }
 
@@ -131,7 +138,7 @@ std::map<std::string, std::vector<Member>> argument_groups(const std::string &ro
 
 class Rows {
 public:
-  explicit Rows(const std::string &root) : types_(buffer_types(root)), groups_(argument_groups(root)) {}
+  explicit Rows(const Lists &lists) : types_(buffer_types(lists)), groups_(argument_groups(lists.root)) {}
 
   KernelRow row_from(const Call &call) const
   {
@@ -179,7 +186,7 @@ private:
   const std::string &type_of(const std::string &buffer) const
   {
     const auto found = types_.find(buffer);
-    if (found == types_.end()) throw std::runtime_error("shared/buffers.def has no buffer '" + buffer + "'");
+    if (found == types_.end()) throw std::runtime_error("no list of buffers has '" + buffer + "'");
     return found->second;
   }
 
@@ -189,14 +196,14 @@ private:
 
 } // namespace
 
-std::vector<KernelRow> kernel_rows(const std::string &root)
+std::vector<KernelRow> kernel_rows(const Lists &lists)
 {
-  const Rows rows(root);
+  const Rows rows(lists);
   std::vector<KernelRow> kernels;
-  for (const Call &call : calls_in(without_directives(without_comments(read_file(root + "/shared/kernels.def"))))) try {
+  for (const Call &call : calls_in(without_directives(without_comments(read_file(lists.kernels))))) try {
       kernels.push_back(rows.row_from(call));
     } catch (const std::exception &error) {
-      throw std::runtime_error("shared/kernels.def:" + std::to_string(call.line) + ": " + error.what());
+      throw std::runtime_error(lists.kernels + ":" + std::to_string(call.line) + ": " + error.what());
     }
   return kernels;
 }

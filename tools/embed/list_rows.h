@@ -1,4 +1,4 @@
-/* list_rows.h - the rows of shared/kernels.def as tables of text, from which entries of OpenCL are written.
+/* list_rows.h - the rows of a list of kernels as tables of text, from which entries of OpenCL are written.
  *
  * The compiler of the host expands the same rows as macros (host/runtime/interface/kernel_list.h). Here they are read
  * as text, because an entry needs what macros cannot give: the type of each buffer, which stands in buffers.def. */
@@ -29,7 +29,14 @@ struct KernelRow {
   int line;                /* of kernels.def, from 1 */
 };
 
-/* Rows of ROOT/shared/kernels.def in its order; std::runtime_error names a row that does not fit. */
-std::vector<KernelRow> kernel_rows(const std::string &root);
+/* The lists of a module. The pipeline's buffers and groups (ROOT/shared) can be named by all. */
+struct Lists {
+  std::string root;
+  std::string kernels; /* a file, as it is named in messages */
+  std::string buffers; /* of the module's own; empty: the pipeline's alone */
+};
+
+/* Rows in the order of the list; std::runtime_error names a row that does not fit. */
+std::vector<KernelRow> kernel_rows(const Lists &lists);
 
 } // namespace embed

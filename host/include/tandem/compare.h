@@ -38,12 +38,12 @@ struct PlantedError {
 TANDEM_API Tamper plant(const PlantedError &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
-  Settings settings;
-  Placement placement;               /* `on` is replaced by each of the backends */
-  std::vector<std::string> backends; /* two or more; the first is the reference */
+  Settings settings{};
+  Placement placement{};             /* `on` is replaced by each of the backends */
+  std::vector<std::string> backends{}; /* two or more; the first is the reference */
   uint64_t steps = 1;
-  Tamper tamper;                                 /* optional */
-  std::function<void(uint64_t done)> after_step; /* optional: progress */
+  Tamper tamper{};                                 /* optional */
+  std::function<void(uint64_t done)> after_step{}; /* optional: progress */
 };
 
 /* What one number inside a buffer means. */

@@ -12,6 +12,7 @@
 
 #include <tandem/export.h>
 
+#include "host/runtime/interface/buffer_sides.h"
 #include "shared/counts.h"
 #include "shared/features.h"
 
@@ -29,15 +30,19 @@ constexpr size_t kernel_count = 0
 #undef KERNEL
     ;
 
+#define BUFFER BUFFER_SIDES
 enum class Buffer : uint16_t {
 #define SIDE(name, element, capacity, per_item, feature, lifetime, fields) name,
 #include "shared/buffers.def"
+#undef SIDE
 };
 
 constexpr size_t buffer_count = 0
 #define SIDE(name, element, capacity, per_item, feature, lifetime, fields) +1
 #include "shared/buffers.def"
+#undef SIDE
     ;
+#undef BUFFER
 
 enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };

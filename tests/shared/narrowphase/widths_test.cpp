@@ -16,7 +16,7 @@ std::vector<Kernel> followed(std::vector<Kernel> kernels)
   kernels.push_back(Kernel::follow_boxes); /* the last in any order; one group at a time, whatever the width */
   return kernels;
 }
-const std::vector<Kernel> all_kernels = followed(lane_kernels);
+const std::vector<Kernel> narrowphase_kernels = followed(lane_kernels);
 
 TestBody random_body(Random &random, bool may_be_half_space)
 {
@@ -49,11 +49,11 @@ PairScene mixed_pairs()
 TEST_CASE("narrowphase: every width and direction gives the same bits")
 {
   PairScene scene = mixed_pairs();
-  const Outputs expected = scene.run(all_kernels);
+  const Outputs expected = scene.run(narrowphase_kernels);
   size_t at_impact = 0;
   for (size_t pair = 0; pair < scene.size(); ++pair) at_impact += expected.normals[pair].w > 0;
   CHECK(at_impact > 500);
-  CHECK(scene.run(all_kernels, minicl::backward_kernels) == expected);
+  CHECK(scene.run(narrowphase_kernels, minicl::backward_kernels) == expected);
   const Outputs before_following = scene.run(lane_kernels);
   CHECK_FALSE(before_following == expected);
   for (uint32_t lanes : {4u, 8u, 16u}) {
@@ -68,7 +68,7 @@ TEST_CASE("narrowphase: every width and direction gives the same bits")
 TEST_CASE("narrowphase: the order of the kernels does not matter, and each pair is written whole")
 {
   PairScene scene = mixed_pairs();
-  const Outputs expected = scene.run(all_kernels);
+  const Outputs expected = scene.run(narrowphase_kernels);
   CHECK(scene.run(followed({lane_kernels.rbegin(), lane_kernels.rend()})) == expected);
   const size_t pairs = scene.size(), capacity = expected.counts.size();
   for (size_t pair = 0; pair < capacity; ++pair) {

@@ -1,0 +1,14 @@
+/* buffer_sides.h - a list of buffers by their sides: what STATE and CACHE hold is there twice (shared/buffers.def).
+ *
+ * Who wants the sides defines SIDE(name, element, capacity, per_item, feature, lifetime, fields) and BUFFER as
+ * BUFFER_SIDES, includes the list and undefines both.
+ */
+#pragma once
+
+#define BUFFER_SIDES(name, element, capacity, per_item, feature, lifetime, fields) \
+  SIDES_##lifetime(name, element, capacity, per_item, feature, lifetime, fields)
+#define SIDES_SCENE(...) SIDE(__VA_ARGS__)
+#define SIDES_KEPT(...) SIDE(__VA_ARGS__)
+#define SIDES_SCRATCH(...) SIDE(__VA_ARGS__)
+#define SIDES_STATE(name, ...) SIDE(name, __VA_ARGS__) SIDE(previous_##name, __VA_ARGS__)
+#define SIDES_CACHE(name, ...) SIDE(name, __VA_ARGS__) SIDE(previous_##name, __VA_ARGS__)

@@ -1,0 +1,235 @@
+/* A module beside the pipeline's (tests/module/probe_kernels.def): its kernels run at every point, in every form and on
+ * every backend, its buffers live as long as they say, and what does not fit is refused by name. */
+#include <numeric>
+
+#include <tandem/compare.h>
+#include <tandem/load_scene.h>
+#include <tandem/world.h>
+
+#include "host/runtime/interface/module.h"
+#include "host/runtime/launcher.h"
+#include "host/runtime/memory.h"
+#include "host/verify/breakpoint.h"
+#include "probe.h"
+#include "tests/catch.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
+
+using namespace tandem;
+using Catch::Matchers::Contains;
+
+namespace {
+
+const std::vector<float> gust{0.5f, 0, -0.25f, 0}; /* m/s a substep */
+
+Extension pushing(uint32_t times)
+{
+  return {&probe::module(),
+          [](World &world) { world.write<float>(probe::buffer::probe_force, gust); },
+          {{StepPoint::forces,
+            [times](Launches &launches) {
+              const uint32_t values[] = {times};
+              launches.run(probe::kernel::probe_push, values);
+            }},
+           {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count); }}}};
+}
+
+Settings with(const Extension &extension)
+{
+  Settings settings;
+  settings.extensions = {extension};
+  return settings;
+}
+
+/* Far from each other, without gravity. */
+Scene balls(uint32_t n)
+{
+  Scene scene;
+  scene.gravity = {0, 0, 0};
+  scene.shapes = {sphere_shape(0.1f)};
+  scene.bodies.resize(n);
+  for (uint32_t i = 0; i < n; ++i) scene.bodies[i].position = {2.0 * i, 0, 0};
+  return scene;
+}
+
+std::string message_of(const std::function<void()> &work)
+{
+  try {
+    work();
+  } catch (const InputError &error) {
+    return error.what();
+  }
+  return "nothing was refused";
+}
+
+std::vector<std::string> all_backends()
+{
+  std::vector<std::string> backends{"serial", "serial:order=backward", "tbb:threads=2,lanes=4", "tbb"};
+  if (find_test_device()) backends.emplace_back("cl:pocl");
+  return backends;
+}
+
+} // namespace
+
+TEST_CASE("module: a kernel at the forces pushes in each substep, on every backend")
+{
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    World world(balls(100), with(pushing(3)), {backend, {}});
+    for (int i = 0; i < 2; ++i) world.step();
+    for (const BodyState &body : world.bodies()) {
+      CHECK(body.linear_velocity[0] == 0.5f * 3 * 4 * 2);
+      CHECK(body.linear_velocity[2] == -0.25f * 3 * 4 * 2);
+    }
+  }
+}
+
+TEST_CASE("module: what a STATE buffer counts is counted once a step, also of a step that ran again")
+{
+  Scene crowd = balls(400);
+  for (size_t i = 0; i < crowd.bodies.size(); ++i) crowd.bodies[i].position = {1e-4 * static_cast<double>(i), 0, 0};
+  World world(crowd, with(pushing(0)), {"tbb", {}});
+  const uint64_t before = world.state_hash();
+  for (int i = 0; i < 3; ++i) world.step();
+  REQUIRE(world.statistics().overflow > 0);
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age) == std::vector<uint32_t>(crowd.bodies.size(), 3));
+  CHECK(world.state_hash() != before);
+
+  World other(crowd, with(pushing(0)), {"tbb", {}});
+  for (int i = 0; i < 3; ++i) other.step();
+  CHECK(other.state_hash() == world.state_hash());
+  const std::vector<uint32_t> one{7};
+  other.write<uint32_t>(probe::buffer::probe_age, one, crowd.bodies.size() - 1);
+  CHECK(other.state_hash() != world.state_hash());
+  other.step();
+  CHECK(other.read<uint32_t>(probe::buffer::probe_age).back() == 8);
+}
+
+TEST_CASE("module: a kernel between steps changes what the next step starts from")
+{
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    Scene scene = balls(3);
+    scene.bodies[1].linear_velocity = {0, 6, 0};
+    World world(scene, with(pushing(0)), {backend, {}});
+    world.step();
+    world.run(probe::kernel::probe_turn_back);
+    CHECK(world.bodies()[1].linear_velocity[1] == -6);
+    world.step();
+    CHECK(world.bodies()[1].position[1] == Approx(0).margin(1e-6));
+  }
+}
+
+TEST_CASE("module: contacts that a kernel drops hold nothing")
+{
+  Scene scene = balls(4);
+  scene.gravity = {0, -10, 0};
+  scene.shapes.push_back(half_space_shape());
+  for (Body &body : scene.bodies) body.position[1] = 0.1;
+  Body ground;
+  ground.motion = Motion::fixed;
+  ground.shape = 1;
+  scene.bodies.push_back(ground);
+  Extension extension{&probe::module(), {}, {}};
+  extension.prepare = [](World &world) {
+    std::vector<uint32_t> ghosts;
+    for (uint32_t i = 0; i < 5; ++i) ghosts.push_back(world.scene_body(i) == 2 ? 1 : 0);
+    world.write<uint32_t>(probe::buffer::probe_ghost, ghosts);
+  };
+  extension.launches = {
+      {StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop); }}};
+  for (const std::string &backend : all_backends()) {
+    World world(scene, with(extension), {backend, {}});
+    for (int i = 0; i < 60; ++i) world.step();
+    const std::vector<BodyState> bodies = world.bodies();
+    CAPTURE(backend);
+    CHECK(bodies[2].position[1] == Approx(0.1 - 0.5 * 10).margin(1e-3));
+    CHECK(bodies[1].position[1] == Approx(0.1).margin(0.005));
+  }
+}
+
+TEST_CASE("module: a group kernel takes the buffer that a launch names")
+{
+  Extension extension = pushing(0);
+  extension.launches.push_back({StepPoint::commit, [](Launches &launches) {
+                                  const Buffer slots[] = {probe::buffer::probe_age};
+                                  launches.run(probe::kernel::probe_sum, {}, slots);
+                                }});
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    World world(balls(3000), with(extension), {backend, {}});
+    for (int i = 0; i < 5; ++i) world.step();
+    const std::vector<uint32_t> totals = world.read<uint32_t>(probe::buffer::probe_total);
+    CHECK(std::accumulate(totals.begin(), totals.end(), 0u) == 5 * 3000);
+  }
+}
+
+TEST_CASE("module: its kernels are placed, profiled and compared as the pipeline's are")
+{
+  World world(balls(10), with(pushing(1)), {"tbb", parse_placement("probe=serial")});
+  world.set_profiling(true);
+  world.step();
+  uint64_t launches = 0;
+  for (const KernelTime &time : world.take_kernel_times())
+    if (time.kernel == probe::kernel::probe_push) {
+      CHECK(time.backend == "serial");
+      launches += time.launches;
+    }
+  CHECK(launches == 4);
+  CHECK(std::string(name_of(probe::kernel::probe_push)) == "probe_push");
+
+  ComparisonRequest request{.settings = with(pushing(1)), .backends = all_backends(), .steps = 3};
+  const Scene scene = load_scene("mixed:n=30");
+  const Comparison same = compare_backends(scene, request);
+  CHECK(same.equal);
+  PlantedError planted;
+  planted.kernel = probe::kernel::probe_push;
+  planted.buffer = Buffer::solver_velocity;
+  planted.step = 2;
+  planted.scalar = 8 * 5;
+  request.tamper = plant(planted);
+  const Comparison different = compare_backends(scene, request);
+  REQUIRE(different.first_difference);
+  CHECK(different.first_difference->kernel == probe::kernel::probe_push);
+  CHECK_THAT(different.first_difference->breakpoint,
+             Contains("probe_push_item if i == 5 && tandem::step_of_launch == 2"));
+}
+
+TEST_CASE("module: a world without it neither holds nor runs anything of it")
+{
+  World world(balls(3), {}, {"serial", {}});
+  world.step();
+  CHECK(world.buffer_bytes(probe::buffer::probe_age) == 0);
+  for (const Kernel kernel : world.kernels()) CHECK(row_of(kernel).stage != probe::module().stage());
+}
+
+TEST_CASE("module: what does not fit is refused by name")
+{
+  World plain(balls(3), {}, {"serial", {}}), world(balls(3), with(pushing(1)), {"serial", {}});
+  const std::vector<float> four(4), five(5);
+  CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push); }), Contains("kernel 'probe_push' is of no module"));
+  CHECK_THAT(message_of([&] { plain.write<float>(probe::buffer::probe_force, four); }), Contains("of no module"));
+  CHECK_THAT(message_of([&] { world.write<float>(Buffer::body_velocity, four); }), Contains("'body_velocity'"));
+  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force, five); }),
+             Contains("'probe_force' has 16 bytes, not 20"));
+  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force, four, 1); }), Contains("from byte 4 on"));
+  CHECK_THAT(message_of([&] { world.run(Kernel::fill); }), Contains("kernel 'fill'"));
+  Settings twice = with(pushing(1));
+  twice.extensions.push_back(pushing(2));
+  CHECK_THAT(message_of([&] { World(balls(1), twice, {"serial", {}}); }), Contains("module 'probe' is given twice"));
+  CHECK_THAT(message_of([&] { World(balls(1), with({}), {"serial", {}}); }), Contains("names no module"));
+}
+
+TEST_CASE("module: lists are added once, and a name that is taken is refused")
+{
+  const KernelRow mine{"module_test_kernel", own_stage, Form::item, COUNT_BODIES, 0, {}};
+  const BufferRow taken{"body_velocity", Element::row, Capacity::BODIES, 1, 0, Lifetime::SCENE, ""};
+  const size_t modules = module_count();
+  const auto added = [&](const char *name, std::span<const KernelRow> kernels, std::span<const BufferRow> buffers) {
+    return message_of([&] { add_module({name, kernels, buffers, {}, nullptr}); });
+  };
+  CHECK(&add_module(probe::module().lists()) == &probe::module());
+  CHECK_THAT(added("solve", {&mine, 1}, {}), Contains("module 'solve'"));
+  CHECK_THAT(added("probe", {&mine, 1}, {}), Contains("module 'probe'"));
+  CHECK_THAT(added("other", {&mine, 1}, {&taken, 1}), Contains("buffer 'body_velocity' is already there"));
+  CHECK(module_count() == modules);
+}
