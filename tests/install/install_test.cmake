@@ -24,7 +24,26 @@ endforeach()
 step(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/wind -B ${SCRATCH}/wind -G ${GENERATOR}
   -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix)
 step(${CMAKE_COMMAND} --build ${SCRATCH}/wind)
-step(${SCRATCH}/wind/wind_field)
+execute_process(COMMAND ${SCRATCH}/wind/wind_field RESULT_VARIABLE status OUTPUT_VARIABLE printed)
+message("${printed}")
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "wind_field ends with status ${status}")
+endif()
+
+# docs/your-own-kernel.md holds these files, and what the program prints, to the letter.
+file(READ ${CMAKE_CURRENT_LIST_DIR}/../../docs/your-own-kernel.md page)
+foreach(file blow.h wind_kernels.def wind_buffers.def CMakeLists.txt main.cpp)
+  file(READ ${CMAKE_CURRENT_LIST_DIR}/wind/${file} text)
+  string(FIND "${page}" "`${file}`" named)
+  string(FIND "${page}" "\n${text}```" found)
+  if(named EQUAL -1 OR found EQUAL -1)
+    message(FATAL_ERROR "docs/your-own-kernel.md does not show ${file} as it stands in tests/install/wind")
+  endif()
+endforeach()
+string(FIND "${page}" "\n${printed}```" found)
+if(found EQUAL -1)
+  message(FATAL_ERROR "docs/your-own-kernel.md does not show what the program prints: ${printed}")
+endif()
 
 # Physics needs TBB and OpenCL alone, and exports nothing but its own names.
 execute_process(COMMAND readelf -d ${SCRATCH}/prefix/lib/libtandem.so OUTPUT_VARIABLE needed

@@ -46,7 +46,7 @@ void MassSplit::apply_restitution()
   }
 }
 
-void MassSplit::run_rows(Kernel kernel, const std::vector<uint32_t> &values)
+void MassSplit::run_rows(Kernel kernel, const Values &values)
 {
   step_.run_range(kernel, COLOR_START + first_color_, COUNT_CONSTRAINTS, values);
 }

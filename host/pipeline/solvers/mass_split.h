@@ -38,7 +38,7 @@ private:
   MassSplit(StepLaunches &step, uint32_t first_color, bool launched)
       : step_(step), first_color_(first_color), launched_(launched)
   {}
-  void run_rows(Kernel kernel, const std::vector<uint32_t> &values = {});
+  void run_rows(Kernel kernel, const Values &values = {});
   void join_parts();
 
   StepLaunches &step_;
