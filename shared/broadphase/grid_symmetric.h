@@ -26,37 +26,38 @@ SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *co
                  : row_of_cells(cell_start, counts, c, -1, c.y + (int)k - 3, c.z + 1);
 }
 
-/* Calls VISIT(body, b) for what item i finds, in whatever order of the two: a large body, or place i - large of the
- * sorted list. */
-#define SYMMETRIC_SEARCH(i, VISIT)                                                                                    \
-  {                                                                                                                   \
-    uint large = counts[COUNT_LARGE], body = grid_body(sort_value, counts, i);                                        \
-    box_bounds own = load_bounds(bounds, body);                                                                       \
-    for (uint b = 0; b < large && b < body; ++b)                                                                      \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) \
-        VISIT(body, b)                                                                                                \
-    grid_cell c = cell_of(grid, counts, own);                                                                         \
-    for (uint k = 0u; k < (i < large ? 0u : 5u); ++k) {                                                               \
-      grid_row cells = forward_row(cell_start, counts, c, i - large, k);                                              \
-      for (; cells.at < cells.end; ++cells.at) {                                                                      \
-        uint b = sort_value[cells.at];                                                                                \
-        if (bounds_overlap(own, load_bounds(bounds, b)) &&                                                            \
-            pair_allowed(parameters, body_traits, body_filter, body, b))                                              \
-          VISIT(body, b)                                                                                              \
-      }                                                                                                               \
-    }                                                                                                                 \
+/* Every body in a range of the sorted list. */
+SHARED void find_in_forward_row(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+                                find_list *list)
+{
+  for (uint at = cells.at; at < cells.end; ++at) {
+    uint b = sort_value[at];
+    if (meets(search, b)) add_find(list, search->body, b);
   }
+}
+
+/* The searching body is that of item i: a large body, or the one at place i - large of the sorted list. */
+SHARED void search_forward_cells(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                                 GLOBAL const uint *cell_start, GLOBAL const uint *counts, uint i, find_list *list)
+{
+  uint large = counts[COUNT_LARGE];
+  find_among_first(search, large, list);
+  if (i < large) return;
+  grid_cell c = cell_of(grid, counts, search->box);
+  for (uint k = 0u; k < 5u; ++k)
+    find_in_forward_row(search, sort_value, forward_row(cell_start, counts, c, i - large, k), list);
+}
 
 SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                                  GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
                                  GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
 {
-  uint found = 0u;
-#define VISIT(body, b) keep_find(finds, i, found++, b);
-  SYMMETRIC_SEARCH(i, VISIT)
-#undef VISIT
-  sweep_start[i] = found;
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = first_finds(finds, i);
+  search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list);
+  sweep_start[i] = list.at;
 }
 
 SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -65,14 +66,14 @@ SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key,
                                  uint i)
 {
-  uint to = sweep_start[i], end = sweep_start[i + 1u], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b)                                        \
-  {                                                           \
-    if (to < capacity) pair_key[to++] = key_of_pair(body, b); \
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i), first = sweep_start[i], end = sweep_start[i + 1u];
+  find_list list = finds_as_keys(pair_key, first, counts[CAPACITY_PAIRS]);
+  if (end - first <= FINDS_KEPT) {
+    add_kept_finds(&list, body, finds, i, end - first);
+  } else {
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+    search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list);
   }
-  if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, grid_body(sort_value, counts, i), pair_key, to, end, capacity);
-  else SYMMETRIC_SEARCH(i, VISIT)
-#undef VISIT
 }
 
 #endif

@@ -96,54 +96,63 @@ SHARED uint next_by_history(const hierarchy_search *search, history *h)
   return INDEX_NONE;
 }
 
-/* Body of item i: neighbours in the launch are neighbours on the curve. */
-SHARED uint hierarchy_body(GLOBAL const uint *leaf_body, GLOBAL const uint *counts, uint i)
-{
-  return i < counts[COUNT_BOUNDLESS] ? i : leaf_body[i - counts[COUNT_BOUNDLESS]];
-}
-
 /* Where numbers are rounded down the leaf itself decides. */
 SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
-/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of
- * `search`. */
-#define VISIT_LEAVES(a, VISIT, NEXT)                                                \
-  for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                         \
-    uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                  \
-    if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
-  }
-#define HIERARCHY_SEARCH(a, walk, VISIT)                                                                           \
-  {                                                                                                                \
-    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                                            \
-    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(bounds, a), before_body(a)}; \
-    for (uint b = 0u; b < boundless && b < a; ++b)                                                                 \
-      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                                    \
-          pair_allowed(parameters, body_traits, body_filter, a, b))                                                \
-        VISIT(b)                                                                                                   \
-    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                                        \
-      uint next = root;                                                                                            \
-      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                                                     \
-    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                                                    \
-      slot_stack stack;                                                                                            \
-      stack.slot[0] = root;                                                                                        \
-      stack.height = 1u;                                                                                           \
-      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                                                     \
-    } else if (a >= boundless) {                                                                                   \
-      history past = {root, 0u, 0u};                                                                               \
-      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                                      \
-    }                                                                                                              \
-  }
+/* The body of a leaf whose box is hit. Where the tree knows only a rounded lowest number, its own number decides. */
+SHARED void add_leaf(const pair_search *search, uint b, uint before, find_list *list)
+{
+  if (b < before && may_meet(search, b)) add_find(list, search->body, b);
+}
+
+/* Each of the three adds the bodies below number `before`, leaf by leaf along the curve. */
+SHARED void find_by_skipping(const pair_search *search, const hierarchy_search *tree, GLOBAL const uint *leaf_body,
+                             uint root, uint before, find_list *list)
+{
+  uint next = root;
+  for (uint leaf = next_by_skipping(tree, &next); leaf != INDEX_NONE; leaf = next_by_skipping(tree, &next))
+    add_leaf(search, leaf_body[leaf / 2u], before, list);
+}
+SHARED void find_from_stack(const pair_search *search, const hierarchy_search *tree, GLOBAL const uint *leaf_body,
+                            uint root, uint before, find_list *list)
+{
+  slot_stack stack;
+  stack.slot[0] = root;
+  stack.height = 1u;
+  for (uint leaf = next_from_stack(tree, &stack); leaf != INDEX_NONE; leaf = next_from_stack(tree, &stack))
+    add_leaf(search, leaf_body[leaf / 2u], before, list);
+}
+SHARED void find_by_history(const pair_search *search, const hierarchy_search *tree, GLOBAL const uint *leaf_body,
+                            uint root, uint before, find_list *list)
+{
+  history past = {root, 0u, 0u};
+  for (uint leaf = next_by_history(tree, &past); leaf != INDEX_NONE; leaf = next_by_history(tree, &past))
+    add_leaf(search, leaf_body[leaf / 2u], before, list);
+}
+
+/* Every body before the searching one; those without bounds first. */
+SHARED void search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                             uint walk, find_list *list)
+{
+  uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;
+  hierarchy_search tree = {hierarchy_nodes.box, hierarchy_nodes.link, search->box, before_body(a)};
+  find_among_first(search, boundless, list);
+  if (a < boundless) return;
+  if (walk == (uint)WALK_BY_SKIPPING) find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root, a, list);
+  else if (walk == (uint)WALK_BY_STACK) find_from_stack(search, &tree, hierarchy_nodes.leaf_body, root, a, list);
+  else find_by_history(search, &tree, hierarchy_nodes.leaf_body, root, a, list);
+}
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds,
                                  read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                                  GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
 {
-  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), found = 0u;
-#define VISIT(b) keep_find(finds, i, found++, b);
-  HIERARCHY_SEARCH(a, walk, VISIT)
-#undef VISIT
-  pair_start[a] = found;
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+  find_list list = first_finds(finds, i);
+  search_hierarchy(&search, hierarchy_nodes, counts, walk, &list);
+  pair_start[a] = list.at;
 }
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -152,16 +161,16 @@ SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint walk,
                                  uint i)
 {
-  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), used = 0u, first = pair_start[a],
-       found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
-#define VISIT(other) used = append_pair(pairs.a, pairs.b, first, used, capacity, a, other);
-  if (found <= FINDS_KEPT) {
-    for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = pair_start[a],
+       end = pair_start[a + 1u], capacity = counts[CAPACITY_PAIRS];
+  find_list list = finds_as_bodies(pairs.b, first, capacity);
+  if (end - first <= FINDS_KEPT) {
+    add_kept_finds(&list, a, finds, i, end - first);
   } else {
-    HIERARCHY_SEARCH(a, walk, VISIT)
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+    search_hierarchy(&search, hierarchy_nodes, counts, walk, &list);
   }
-#undef VISIT
-  sort_stretch(pairs.b + first, used);
+  finish_own_pairs(pairs, a, first, end, capacity);
 }
 
 #endif

@@ -73,34 +73,33 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
   store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
 }
 
-/* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the
- * sorted list. */
-#define SWEEP_SEARCH(i, VISIT)                                                                                        \
-  {                                                                                                                   \
-    uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];                                                    \
-    uint body = i < large ? i : sort_value[i - large];                                                                \
-    box_bounds own = load_bounds(bounds, body);                                                                       \
-    for (uint b = 0; b < large && b < body; ++b)                                                                      \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) \
-        VISIT(body, b)                                                                                                \
-    uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                  \
-    for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                     \
-      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                              \
-      uint found = sort_value[at];                                                                                    \
-      if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                         \
-    }                                                                                                                 \
+/* The large bodies before the searching one, which is that of item i, and the small ones that start within its
+ * interval. */
+SHARED void search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
+                           GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                           uint i, find_list *list)
+{
+  uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];
+  find_among_first(search, large, list);
+  if (i < large) return;
+  uint end = sweep_key(sweep_interval(search->box, grid, counts, 0u).end);
+  for (uint at = i - large + 1u; at < small && sort_key[at] <= end; ++at) {
+    if (!bounds_overlap(search->box, load_bounds(sweep_bounds, at))) continue;
+    uint other = sort_value[at];
+    if (may_meet(search, other)) add_find(list, search->body, other);
   }
+}
 
 SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                              GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
                              GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
-  uint finds = 0;
-#define VISIT(a, b) ++finds;
-  SWEEP_SEARCH(i, VISIT)
-#undef VISIT
-  sweep_start[i] = finds;
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = no_finds();
+  search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list);
+  sweep_start[i] = list.at;
 }
 
 SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -108,13 +107,10 @@ SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
                              GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(a, b)                                        \
-  {                                                        \
-    if (to < capacity) pair_key[to++] = key_of_pair(a, b); \
-  }
-  SWEEP_SEARCH(i, VISIT)
-#undef VISIT
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = finds_as_keys(pair_key, sweep_start[i], counts[CAPACITY_PAIRS]);
+  search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list);
 }
 
 #endif
