@@ -34,6 +34,21 @@ typedef struct {
   uint end, was, is;
 } moved_end;
 
+/* Keys from `at` on, as many as there is room for; without keys it is a counter. */
+typedef struct {
+  GLOBAL ulong *keys;
+  uint at, capacity;
+} key_list;
+
+SHARED void add_key(key_list *list, uint one, uint other)
+{
+  if (list->keys) {
+    if (list->at >= list->capacity) return;
+    list->keys[list->at] = key_of_pair(one, other);
+  }
+  list->at = list->at + 1u;
+}
+
 SHARED moved_end load_end(const end_tables *tables, uint axis, uint end)
 {
   uint at = 2u * tables->bodies * axis + end;
@@ -74,14 +89,14 @@ SHARED int pair_changed(const end_tables *tables, uint axis, uint one, uint othe
   return pair_allowed(tables->parameters, tables->traits, tables->filter, one, other);
 }
 
-SHARED void meet_end(const end_tables *tables, uint axis, moved_end m, moved_end other, find_list *list)
+SHARED void meet_end(const end_tables *tables, uint axis, moved_end m, moved_end other, key_list *list)
 {
   uint one = body_of_end(m.end, tables->bodies), two = body_of_end(other.end, tables->bodies);
-  if (tells_couple(tables->bodies, m, other) && pair_changed(tables, axis, one, two)) add_find(list, one, two);
+  if (tells_couple(tables->bodies, m, other) && pair_changed(tables, axis, one, two)) add_key(list, one, two);
 }
 
 /* All ends on the way of m, in the old list and, unless they were met there, in the new one. */
-SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, find_list *list)
+SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, key_list *list)
 {
   uint plane = 2u * tables->bodies * axis, first = m.was < m.is ? m.was : m.is, last = m.was < m.is ? m.is : m.was;
   for (uint at = first; at <= last; ++at)
@@ -93,18 +108,18 @@ SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, find_list
 }
 
 /* Every pair, by the body that starts first along the first axis: the other starts between its ends. */
-SHARED void sweep_from_start(const end_tables *tables, uint body, find_list *list)
+SHARED void sweep_from_start(const end_tables *tables, uint body, key_list *list)
 {
   box_bounds own = load_bounds(tables->bounds, body);
   uint end = tables->place[tables->bodies + body];
   for (uint at = tables->place[body] + 1u; at < end; ++at) {
     uint found = tables->order[at];
     if (found >= tables->bodies || !bounds_overlap(own, load_bounds(tables->bounds, found))) continue;
-    if (pair_allowed(tables->parameters, tables->traits, tables->filter, body, found)) add_find(list, body, found);
+    if (pair_allowed(tables->parameters, tables->traits, tables->filter, body, found)) add_key(list, body, found);
   }
 }
 
-SHARED void find_changes(const end_tables *tables, uint is_kept, uint end, find_list *list)
+SHARED void find_changes(const end_tables *tables, uint is_kept, uint end, key_list *list)
 {
   if (is_kept == 0u) {
     if (end < tables->bodies) sweep_from_start(tables, end, list);
@@ -124,7 +139,7 @@ SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const
   end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
                        box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
                        kept_box_ends.bounds, counts[COUNT_BODIES]};
-  find_list counter = no_finds();
+  key_list counter = {0, 0u, 0u};
   find_changes(&tables, counts[COUNT_KEPT], i, &counter);
   share_start[i] = counter.at;
 }
@@ -138,7 +153,7 @@ SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const
   end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
                        box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
                        kept_box_ends.bounds, counts[COUNT_BODIES]};
-  find_list list = finds_as_keys(pair_key, share_start[i], counts[CAPACITY_PAIRS]);
+  key_list list = {pair_key, share_start[i], counts[CAPACITY_PAIRS]};
   find_changes(&tables, counts[COUNT_KEPT], i, &list);
 }
 

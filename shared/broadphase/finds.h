@@ -55,33 +55,33 @@ SHARED mask meets(const pair_search *search, uint other)
 
 enum { FINDS_AS_BODIES, FINDS_AS_KEYS };
 
-/* The finds are written from place `at` on, as far as `capacity` allows. `at` counts those without room as well: the
- * step then runs again with room for them. */
+/* Finds are written as far as `capacity` allows, and counted beyond it: the step then runs again with room for them.
+ * The place of the next find is no member: a search takes it and returns it, so that it stays in a register. */
 typedef struct {
   uint kind; /* FINDS_AS_; a constant in each kernel, so that one branch of add_find is left there */
   GLOBAL uint *bodies;
   GLOBAL ulong *keys;
-  uint at, capacity;
+  uint capacity;
 } find_list;
 
 SHARED find_list no_finds(void)
 {
-  find_list list = {FINDS_AS_BODIES, 0, 0, 0u, 0u};
+  find_list list = {FINDS_AS_BODIES, 0, 0, 0u};
   return list;
 }
 SHARED find_list first_finds(GLOBAL uint *finds, uint i)
 {
-  find_list list = {FINDS_AS_BODIES, finds + FINDS_KEPT * i, 0, 0u, FINDS_KEPT};
+  find_list list = {FINDS_AS_BODIES, finds + FINDS_KEPT * i, 0, FINDS_KEPT};
   return list;
 }
-SHARED find_list finds_as_bodies(GLOBAL uint *bodies, uint at, uint capacity)
+SHARED find_list finds_as_bodies(GLOBAL uint *bodies, uint capacity)
 {
-  find_list list = {FINDS_AS_BODIES, bodies, 0, at, capacity};
+  find_list list = {FINDS_AS_BODIES, bodies, 0, capacity};
   return list;
 }
-SHARED find_list finds_as_keys(GLOBAL ulong *keys, uint at, uint capacity)
+SHARED find_list finds_as_keys(GLOBAL ulong *keys, uint capacity)
 {
-  find_list list = {FINDS_AS_KEYS, 0, keys, at, capacity};
+  find_list list = {FINDS_AS_KEYS, 0, keys, capacity};
   return list;
 }
 
@@ -91,30 +91,43 @@ SHARED ulong key_of_pair(uint one, uint other)
   return one > other ? (ulong)one << 32 | (ulong)other : (ulong)other << 32 | (ulong)one;
 }
 
-/* Every search reports a pair here. */
-SHARED void add_find(find_list *list, uint body, uint other)
+/* Every search reports its pairs here. at: the place of this find; returns that of the next. */
+SHARED uint add_find(const find_list *list, uint at, uint body, uint other)
 {
-  if (list->at < list->capacity) {
-    if (list->kind == (uint)FINDS_AS_KEYS) list->keys[list->at] = key_of_pair(body, other);
-    else list->bodies[list->at] = other;
+  if (at < list->capacity) {
+    if (list->kind == (uint)FINDS_AS_KEYS) list->keys[at] = key_of_pair(body, other);
+    else list->bodies[at] = other;
   }
-  list->at = list->at + 1u;
-}
-
-/* The finds of item i that the count kernel kept. */
-SHARED void add_kept_finds(find_list *list, uint body, GLOBAL const uint *finds, uint i, uint count)
-{
-  for (uint k = 0u; k < count; ++k) add_find(list, body, finds[FINDS_KEPT * i + k]);
+  return at + 1u;
 }
 
 /* The bodies below `end` come first of all, and are tested one by one: half-spaces and large bodies. */
-SHARED void find_among_first(const pair_search *search, uint end, find_list *list)
+SHARED uint find_among_first(const pair_search *search, uint end, const find_list *list, uint at)
 {
   for (uint b = 0u; b < end && b < search->body; ++b)
-    if (meets(search, b)) add_find(list, search->body, b);
+    if (meets(search, b)) at = add_find(list, at, search->body, b);
+  return at;
 }
 
-/* Finishes the range of a body that found only pairs of its own: its partners stand in pairs.b. */
+/* --- finds that the count kernel kept ---------------------------------------------------------------------- */
+
+/* The finds of item i, which are few, as keys from place `first` to `end`. */
+SHARED void write_kept_keys(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end,
+                            uint capacity)
+{
+  for (uint k = 0u; k < end - first; ++k)
+    if (first + k < capacity) pair_key[first + k] = key_of_pair(body, finds[FINDS_KEPT * i + k]);
+}
+
+/* The same as partners, for a body that finds only pairs of its own. */
+SHARED void write_kept_bodies(GLOBAL const uint *finds, uint i, GLOBAL uint *pair_b, uint first, uint end,
+                              uint capacity)
+{
+  for (uint k = 0u; k < end - first; ++k)
+    if (first + k < capacity) pair_b[first + k] = finds[FINDS_KEPT * i + k];
+}
+
+/* Finishes the range of such a body: sorts its partners in pairs.b, and writes the body beside each. */
 SHARED void finish_own_pairs(write_pairs pairs, uint body, uint first, uint end, uint capacity)
 {
   uint last = end < capacity ? end : capacity;

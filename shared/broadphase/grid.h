@@ -21,7 +21,7 @@ typedef struct {
   int x, y, z;
 } grid_cell;
 
-/* Bodies outside the region, which only rounding can cause, belong to the border cells. */
+/* Rounding may put a body outside of the region: it then belongs to a border cell. */
 SHARED int cell_along(real offset, real inverse_cell, uint cells)
 {
   int cell = floor_to_int(offset * inverse_cell);
@@ -44,7 +44,7 @@ SHARED uint cell_number(GLOBAL const uint *counts, int x, int y, int z)
   return ((uint)z * counts[COUNT_GRID_Y] + (uint)y) * counts[COUNT_GRID_X] + (uint)x;
 }
 
-/* Small body i of the scene: its cell is the sort key. */
+/* The sort key of small body i of the scene is its cell. */
 SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -90,33 +90,36 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
   return stretch;
 }
 
-/* The bodies before the searching one in a range of the sorted list. */
-SHARED void find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells, find_list *list)
+/* Finds the bodies before the searching one in a range of the sorted list. */
+SHARED uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+                          const find_list *list, uint at)
 {
-  for (uint at = cells.at; at < cells.end; ++at) {
-    uint b = sort_value[at];
-    if (b < search->body && meets(search, b)) add_find(list, search->body, b);
+  for (; cells.at < cells.end; ++cells.at) {
+    uint b = sort_value[cells.at];
+    if (b < search->body && meets(search, b)) at = add_find(list, at, search->body, b);
   }
+  return at;
 }
 
-/* The bodies before the searching one in its own cell and in the 26 around it. */
-SHARED void find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, find_list *list)
+/* Finds the bodies before the searching one in its own cell and in the 26 around it. */
+SHARED uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   grid_cell c = cell_of(grid, counts, search->box);
   for (int neighbour = 0; neighbour < 9; ++neighbour) {
     int y = c.y + neighbour % 3 - 1, z = c.z + neighbour / 3 - 1;
-    find_in_cells(search, sort_value, row_of_cells(cell_start, counts, c, -1, y, z), list);
+    at = find_in_cells(search, sort_value, row_of_cells(cell_start, counts, c, -1, y, z), list, at);
   }
+  return at;
 }
 
-/* Every body before the searching one, large ones first. */
-SHARED void search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, find_list *list)
+/* Finds every body before the searching one; large ones come first. */
+SHARED uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
-  find_among_first(search, large, list);
-  if (search->body >= large) find_around(search, grid, sort_value, cell_start, counts, list);
+  at = find_among_first(search, large, list, at);
+  return search->body < large ? at : find_around(search, grid, sort_value, cell_start, counts, list, at);
 }
 
 SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -127,8 +130,7 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   uint a = searching_body(sort_value, counts[COUNT_LARGE], i);
   pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
   find_list list = first_finds(finds, i);
-  search_grid(&search, grid, sort_value, cell_start, counts, &list);
-  pair_start[a] = list.at;
+  pair_start[a] = search_grid(&search, grid, sort_value, cell_start, counts, &list, 0u);
 }
 
 SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -138,12 +140,12 @@ SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
 {
   uint a = searching_body(sort_value, counts[COUNT_LARGE], i), first = pair_start[a], end = pair_start[a + 1u],
        capacity = counts[CAPACITY_PAIRS];
-  find_list list = finds_as_bodies(pairs.b, first, capacity);
   if (end - first <= FINDS_KEPT) {
-    add_kept_finds(&list, a, finds, i, end - first);
+    write_kept_bodies(finds, i, pairs.b, first, end, capacity);
   } else {
     pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
-    search_grid(&search, grid, sort_value, cell_start, counts, &list);
+    find_list list = finds_as_bodies(pairs.b, capacity);
+    search_grid(&search, grid, sort_value, cell_start, counts, &list, first);
   }
   finish_own_pairs(pairs, a, first, end, capacity);
 }

@@ -15,14 +15,15 @@
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/pair_keys.h"
 
-/* Small: no larger than a cell. Half-spaces are neither: all bodies are tested against them. */
+/* A small body is no larger than a cell. Half-spaces are neither small nor large: all bodies are tested against
+ * them. */
 SHARED mask is_small(GLOBAL const row *grid, box_bounds box)
 {
   vec3 size = subtract(box.upper, box.lower);
   return maximum(size.x, maximum(size.y, size.z)) * load_row(grid, 0u).w <= R(1.0);
 }
 
-/* The large ones along the curve, all others behind them. */
+/* The keys sort large bodies along the curve and all others behind them. */
 SHARED void large_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -32,7 +33,7 @@ SHARED void large_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
-/* The hierarchy is that of the large ones alone, filed anew every step. */
+/* The hierarchy holds the large bodies alone, and is built anew every step. */
 SHARED void plan_large_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -41,7 +42,7 @@ SHARED void plan_large_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, ui
   set_leaves(counts, large);
 }
 
-/* Small ones by cell, large ones behind the last. */
+/* The keys sort small bodies by cell, and large ones behind the last cell. */
 SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -52,12 +53,12 @@ SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
-/* The small bodies before the searching one, if it is small itself. */
-SHARED void search_small(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, find_list *list)
+/* Finds the small bodies before the searching one, if it is small itself. */
+SHARED uint search_small(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
-  if (search->body < counts[COUNT_BOUNDLESS] || !is_small(grid, search->box)) return;
-  find_around(search, grid, sort_value, cell_start, counts, list);
+  if (search->body < counts[COUNT_BOUNDLESS] || !is_small(grid, search->box)) return at;
+  return find_around(search, grid, sort_value, cell_start, counts, list, at);
 }
 
 SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -68,8 +69,7 @@ SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
   uint body = searching_body(sort_value, counts[COUNT_BOUNDLESS], i);
   pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
   find_list list = first_finds(grid_finds, i);
-  search_small(&search, grid, sort_value, cell_start, counts, &list);
-  small_finds[i] = list.at;
+  small_finds[i] = search_small(&search, grid, sort_value, cell_start, counts, &list, 0u);
 }
 
 SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -79,28 +79,28 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL ulong *pair_key, uint i)
 {
   uint body = searching_body(sort_value, counts[COUNT_BOUNDLESS], i), first = share_start[2u * i],
-       end = share_start[2u * i + 1u];
-  find_list list = finds_as_keys(pair_key, first, counts[CAPACITY_PAIRS]);
+       end = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
   if (end - first <= FINDS_KEPT) {
-    add_kept_finds(&list, body, grid_finds, i, end - first);
+    write_kept_keys(grid_finds, i, body, pair_key, first, end, capacity);
   } else {
     pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
-    search_small(&search, grid, sort_value, cell_start, counts, &list);
+    find_list list = finds_as_keys(pair_key, capacity);
+    search_small(&search, grid, sort_value, cell_start, counts, &list, first);
   }
 }
 
-/* The half-spaces and large bodies that the searching body may meet. A large one looks for those before it alone, so
- * that a pair of two large ones is found once. */
-SHARED void search_large(const pair_search *search, GLOBAL const row *grid, read_hierarchy_nodes hierarchy_nodes,
-                         GLOBAL const uint *counts, find_list *list)
+/* Finds the half-spaces and large bodies that the searching body meets. A large body looks for those before it alone,
+ * so that a pair of two large ones is found once. */
+SHARED uint search_large(const pair_search *search, GLOBAL const row *grid, read_hierarchy_nodes hierarchy_nodes,
+                         GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint boundless = counts[COUNT_BOUNDLESS], body = search->body;
   mask small = is_small(grid, search->box);
-  hierarchy_search tree = {hierarchy_nodes.box, hierarchy_nodes.link, search->box,
-                           small ? BOUNDLESS : before_body(body)};
-  find_among_first(search, boundless, list);
-  if (body < boundless) return;
-  find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root_slot(counts), small ? INDEX_NONE : body, list);
+  searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, small ? BOUNDLESS : before_body(body)};
+  at = find_among_first(search, boundless, list, at);
+  if (body < boundless) return at;
+  return find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root_slot(counts), small ? INDEX_NONE : body, list,
+                          at);
 }
 
 SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -111,8 +111,7 @@ SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const u
   uint body = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i);
   pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
   find_list list = first_finds(finds, i);
-  search_large(&search, grid, hierarchy_nodes, counts, &list);
-  large_finds[i] = list.at;
+  large_finds[i] = search_large(&search, grid, hierarchy_nodes, counts, &list, 0u);
 }
 
 SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -121,17 +120,17 @@ SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   uint body = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = share_start[2u * i + 1u],
-       end = share_start[2u * i + 2u];
-  find_list list = finds_as_keys(pair_key, first, counts[CAPACITY_PAIRS]);
+       end = share_start[2u * i + 2u], capacity = counts[CAPACITY_PAIRS];
   if (end - first <= FINDS_KEPT) {
-    add_kept_finds(&list, body, finds, i, end - first);
+    write_kept_keys(finds, i, body, pair_key, first, end, capacity);
   } else {
     pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
-    search_large(&search, grid, hierarchy_nodes, counts, &list);
+    find_list list = finds_as_keys(pair_key, capacity);
+    search_large(&search, grid, hierarchy_nodes, counts, &list, first);
   }
 }
 
-/* What both halves found, one beside the other, to be summed. */
+/* Puts the numbers of finds of both halves side by side, so that one scan sums them. */
 SHARED void join_finds_item(GLOBAL const uint *small_finds, GLOBAL const uint *large_finds, GLOBAL uint *share_start,
                             uint i)
 {
