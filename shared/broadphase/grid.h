@@ -91,7 +91,7 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
 }
 
 /* Finds the bodies before the searching one in a range of the sorted list. */
-SHARED uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+SEARCH uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
                           const find_list *list, uint at)
 {
   for (; cells.at < cells.end; ++cells.at) {
@@ -102,7 +102,7 @@ SHARED uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_val
 }
 
 /* Finds the bodies before the searching one in its own cell and in the 26 around it. */
-SHARED uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+SEARCH uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   grid_cell c = cell_of(grid, counts, search->box);
@@ -114,7 +114,7 @@ SHARED uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBA
 }
 
 /* Finds every body before the searching one; large ones come first. */
-SHARED uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+SEARCH uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
@@ -141,13 +141,13 @@ SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
   uint a = searching_body(sort_value, counts[COUNT_LARGE], i), first = pair_start[a], end = pair_start[a + 1u],
        capacity = counts[CAPACITY_PAIRS];
   if (end - first <= FINDS_KEPT) {
-    write_kept_bodies(finds, i, pairs.b, first, end, capacity);
+    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
   } else {
     pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
-    find_list list = finds_as_bodies(pairs.b, capacity);
+    find_list list = finds_as_pairs(pairs, capacity);
     search_grid(&search, grid, sort_value, cell_start, counts, &list, first);
   }
-  finish_own_pairs(pairs, a, first, end, capacity);
+  sort_own_pairs(pairs, first, end, capacity);
 }
 
 #endif

@@ -101,13 +101,13 @@ SHARED uint next_by_history(const pair_search *search, const searched_tree *tree
 SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
 /* Reports the body of a leaf whose box is hit. */
-SHARED uint add_leaf(const pair_search *search, uint b, uint before, const find_list *list, uint at)
+SEARCH uint add_leaf(const pair_search *search, uint b, uint before, const find_list *list, uint at)
 {
   return b < before && may_meet(search, b) ? add_find(list, at, search->body, b) : at;
 }
 
 /* Each of the three reports the bodies below number `before`, leaf by leaf along the curve. */
-SHARED uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+SEARCH uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                              uint root, uint before, const find_list *list, uint at)
 {
   uint next = root;
@@ -116,7 +116,7 @@ SHARED uint find_by_skipping(const pair_search *search, const searched_tree *tre
     at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
   return at;
 }
-SHARED uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+SEARCH uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                             uint root, uint before, const find_list *list, uint at)
 {
   slot_stack stack;
@@ -127,7 +127,7 @@ SHARED uint find_from_stack(const pair_search *search, const searched_tree *tree
     at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
   return at;
 }
-SHARED uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+SEARCH uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                             uint root, uint before, const find_list *list, uint at)
 {
   history past = {root, 0u, 0u};
@@ -138,7 +138,7 @@ SHARED uint find_by_history(const pair_search *search, const searched_tree *tree
 }
 
 /* Finds every body before the searching one; those without bounds come first. */
-SHARED uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+SEARCH uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                              uint walk, const find_list *list, uint at)
 {
   uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;
@@ -171,13 +171,13 @@ SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL con
   uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = pair_start[a],
        end = pair_start[a + 1u], capacity = counts[CAPACITY_PAIRS];
   if (end - first <= FINDS_KEPT) {
-    write_kept_bodies(finds, i, pairs.b, first, end, capacity);
+    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
   } else {
     pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
-    find_list list = finds_as_bodies(pairs.b, capacity);
+    find_list list = finds_as_pairs(pairs, capacity);
     search_hierarchy(&search, hierarchy_nodes, counts, walk, &list, first);
   }
-  finish_own_pairs(pairs, a, first, end, capacity);
+  sort_own_pairs(pairs, first, end, capacity);
 }
 
 #endif
