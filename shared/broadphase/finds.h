@@ -1,5 +1,14 @@
-/* finds.h - the first few that a search finds, kept from the kernel that counts them for the one that writes them: most
- * bodies have few neighbours, and need not look for them twice. */
+/* finds.h - one body's search for its pairs, and the list that its finds go to.
+ *
+ * A broadphase runs the same search twice: a kernel that counts says how many finds each item has, a scan turns the
+ * counts into places, and a kernel that writes puts the finds there. Both call the same function with another list:
+ *
+ *     count kernel    search(..., list)     list counts, and keeps the first FINDS_KEPT finds
+ *     write kernel    search(..., list)     list writes partners, or keys of pairs, as far as there is room
+ *
+ * Most bodies have few neighbours. Where the first few finds are all of them, the write kernel takes those that the
+ * count kernel kept, and does not search again.
+ */
 #ifndef TANDEM_SHARED_BROADPHASE_FINDS_H
 #define TANDEM_SHARED_BROADPHASE_FINDS_H
 
@@ -7,10 +16,137 @@
 
 #define FINDS_KEPT 8u
 
-/* find: how many item i found before. */
-SHARED void keep_find(GLOBAL uint *finds, uint i, uint find, uint body)
+/* Optimised builds of the CPU copy a search into both of its kernels, as devices do: what a kernel passes as a constant
+ * then costs nothing, and the box of the body stays in registers. For gdb, in a debug build, it is a function. */
+#if defined(__OPTIMIZE__) && !defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_VERSION__)
+#define SEARCH static inline __attribute__((always_inline))
+#else
+#define SEARCH SHARED
+#endif
+
+/* --- who searches ---------------------------------------------------------------------------------------- */
+
+/* The body of item i: one of the first bodies, or one of the others in their sorted order. Neighbours in the launch are
+ * then neighbours in space. */
+SHARED uint searching_body(GLOBAL const uint *sorted_body, uint first, uint i)
 {
-  if (find < FINDS_KEPT) finds[FINDS_KEPT * i + find] = body;
+  return i < first ? i : sorted_body[i - first];
+}
+
+/* The body whose pairs are looked for, its box, and the tables that say whom it may meet. */
+typedef struct {
+  GLOBAL const Parameters *parameters;
+  GLOBAL const uint *body_traits, *body_filter;
+  GLOBAL const row *bounds;
+  uint body;
+  box_bounds box;
+} pair_search;
+
+SEARCH pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds, uint body)
+{
+  pair_search search = {parameters, body_traits, body_filter, bounds, body, load_bounds(bounds, body)};
+  return search;
+}
+
+SEARCH mask may_meet(const pair_search *search, uint other)
+{
+  return pair_allowed(search->parameters, search->body_traits, search->body_filter, search->body, other);
+}
+
+SEARCH mask meets(const pair_search *search, uint other)
+{
+  return bounds_overlap(search->box, load_bounds(search->bounds, other)) && may_meet(search, other);
+}
+
+/* --- where its finds go ------------------------------------------------------------------------------------ */
+
+enum { FINDS_AS_BODIES, FINDS_AS_PAIRS, FINDS_AS_KEYS };
+
+/* Finds are written as far as `capacity` allows, and counted beyond it: the step then runs again with room for them.
+ * The place of the next find is no member: a search takes it and returns it, so that it stays in a register. */
+typedef struct {
+  uint kind; /* FINDS_AS_; a constant in each kernel, so that add_find has no branch on it there */
+  GLOBAL uint *owners, *bodies;
+  GLOBAL ulong *keys;
+  uint capacity;
+} find_list;
+
+SHARED find_list no_finds(void)
+{
+  find_list list = {FINDS_AS_BODIES, 0, 0, 0, 0u};
+  return list;
+}
+SHARED find_list first_finds(GLOBAL uint *finds, uint i)
+{
+  find_list list = {FINDS_AS_BODIES, 0, finds + FINDS_KEPT * i, 0, FINDS_KEPT};
+  return list;
+}
+SHARED find_list finds_as_bodies(GLOBAL uint *bodies, uint capacity)
+{
+  find_list list = {FINDS_AS_BODIES, 0, bodies, 0, capacity};
+  return list;
+}
+SHARED find_list finds_as_pairs(write_pairs pairs, uint capacity)
+{
+  find_list list = {FINDS_AS_PAIRS, pairs.a, pairs.b, 0, capacity};
+  return list;
+}
+SHARED find_list finds_as_keys(GLOBAL ulong *keys, uint capacity)
+{
+  find_list list = {FINDS_AS_KEYS, 0, 0, keys, capacity};
+  return list;
+}
+
+/* Sorted keys are in the order of the pair list. */
+SHARED ulong key_of_pair(uint one, uint other)
+{
+  return one > other ? (ulong)one << 32 | (ulong)other : (ulong)other << 32 | (ulong)one;
+}
+
+/* Every search reports its pairs here. at: the place of this find; returns that of the next. */
+SEARCH uint add_find(const find_list *list, uint at, uint body, uint other)
+{
+  if (at < list->capacity) {
+    if (list->kind == (uint)FINDS_AS_KEYS) list->keys[at] = key_of_pair(body, other);
+    else list->bodies[at] = other;
+    if (list->kind == (uint)FINDS_AS_PAIRS) list->owners[at] = body;
+  }
+  return at + 1u;
+}
+
+/* The bodies below `end` come first of all, and are tested one by one: half-spaces and large bodies. */
+SEARCH uint find_among_first(const pair_search *search, uint end, const find_list *list, uint at)
+{
+  for (uint b = 0u; b < end && b < search->body; ++b)
+    if (meets(search, b)) at = add_find(list, at, search->body, b);
+  return at;
+}
+
+/* --- finds that the count kernel kept ---------------------------------------------------------------------- */
+
+/* The finds of item i, which are few, as keys from place `first` to `end`. */
+SHARED void write_kept_keys(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end,
+                            uint capacity)
+{
+  for (uint k = 0u; k < end - first; ++k)
+    if (first + k < capacity) pair_key[first + k] = key_of_pair(body, finds[FINDS_KEPT * i + k]);
+}
+
+/* The same as pairs of their owner, for a body that finds only pairs of its own. */
+SHARED void write_kept_pairs(GLOBAL const uint *finds, uint i, uint body, write_pairs pairs, uint first, uint end,
+                             uint capacity)
+{
+  uint used = 0u;
+  for (uint k = 0u; k < end - first; ++k)
+    used = append_pair(pairs.a, pairs.b, first, used, capacity, body, finds[FINDS_KEPT * i + k]);
+}
+
+/* Finishes the range of such a body: sorts its partners, as far as there was room for them. */
+SHARED void sort_own_pairs(write_pairs pairs, uint first, uint end, uint capacity)
+{
+  uint last = end < capacity ? end : capacity;
+  if (first < last) sort_stretch(pairs.b + first, last - first);
 }
 
 #endif

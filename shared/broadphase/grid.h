@@ -21,7 +21,7 @@ typedef struct {
   int x, y, z;
 } grid_cell;
 
-/* Bodies outside the region, which only rounding can cause, belong to the border cells. */
+/* Rounding may put a body outside of the region: it then belongs to a border cell. */
 SHARED int cell_along(real offset, real inverse_cell, uint cells)
 {
   int cell = floor_to_int(offset * inverse_cell);
@@ -44,7 +44,7 @@ SHARED uint cell_number(GLOBAL const uint *counts, int x, int y, int z)
   return ((uint)z * counts[COUNT_GRID_Y] + (uint)y) * counts[COUNT_GRID_X] + (uint)x;
 }
 
-/* Small body i of the scene: its cell is the sort key. */
+/* The sort key of small body i of the scene is its cell. */
 SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -90,32 +90,36 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
   return stretch;
 }
 
-/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; large ones first. */
-#define GRID_SEARCH(a, VISIT)                                                                                       \
-  {                                                                                                                 \
-    box_bounds own = load_bounds(bounds, a);                                                                        \
-    uint large = counts[COUNT_LARGE];                                                                               \
-    for (uint b = 0; b < large && b < a; ++b)                                                                       \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))  \
-        VISIT(b)                                                                                                    \
-    if (a >= large) {                                                                                               \
-      grid_cell c = cell_of(grid, counts, own);                                                                     \
-      for (int neighbour = 0; neighbour < 9; ++neighbour) {                                                         \
-        grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1); \
-        for (; cells.at < cells.end; ++cells.at) {                                                                  \
-          uint b = sort_value[cells.at];                                                                            \
-          if (b < a && bounds_overlap(own, load_bounds(bounds, b)) &&                                               \
-              pair_allowed(parameters, body_traits, body_filter, a, b))                                             \
-            VISIT(b)                                                                                                \
-        }                                                                                                           \
-      }                                                                                                             \
-    }                                                                                                               \
-  }
-
-/* Items in the order of the sorted list, so that neighbours in the launch read neighbours in space. */
-SHARED uint grid_body(GLOBAL const uint *sort_value, GLOBAL const uint *counts, uint i)
+/* Finds the bodies before the searching one in a range of the sorted list. */
+SEARCH uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+                          const find_list *list, uint at)
 {
-  return i < counts[COUNT_LARGE] ? i : sort_value[i - counts[COUNT_LARGE]];
+  for (; cells.at < cells.end; ++cells.at) {
+    uint b = sort_value[cells.at];
+    if (b < search->body && meets(search, b)) at = add_find(list, at, search->body, b);
+  }
+  return at;
+}
+
+/* Finds the bodies before the searching one in its own cell and in the 26 around it. */
+SEARCH uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
+{
+  grid_cell c = cell_of(grid, counts, search->box);
+  for (int neighbour = 0; neighbour < 9; ++neighbour) {
+    int y = c.y + neighbour % 3 - 1, z = c.z + neighbour / 3 - 1;
+    at = find_in_cells(search, sort_value, row_of_cells(cell_start, counts, c, -1, y, z), list, at);
+  }
+  return at;
+}
+
+/* Finds every body before the searching one; large ones come first. */
+SEARCH uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
+{
+  uint large = counts[COUNT_LARGE];
+  at = find_among_first(search, large, list, at);
+  return search->body < large ? at : find_around(search, grid, sort_value, cell_start, counts, list, at);
 }
 
 SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -123,11 +127,10 @@ SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const ui
                             GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *counts,
                             GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
 {
-  uint a = grid_body(sort_value, counts, i), found = 0u;
-#define VISIT(b) keep_find(finds, i, found++, b);
-  GRID_SEARCH(a, VISIT)
-#undef VISIT
-  pair_start[a] = found;
+  uint a = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+  find_list list = first_finds(finds, i);
+  pair_start[a] = search_grid(&search, grid, sort_value, cell_start, counts, &list, 0u);
 }
 
 SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -135,16 +138,16 @@ SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
                             GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *finds,
                             GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint i)
 {
-  uint a = grid_body(sort_value, counts, i), used = 0u, first = pair_start[a], found = pair_start[a + 1u] - first,
+  uint a = searching_body(sort_value, counts[COUNT_LARGE], i), first = pair_start[a], end = pair_start[a + 1u],
        capacity = counts[CAPACITY_PAIRS];
-#define VISIT(other) used = append_pair(pairs.a, pairs.b, first, used, capacity, a, other);
-  if (found <= FINDS_KEPT) {
-    for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
+  if (end - first <= FINDS_KEPT) {
+    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
   } else {
-    GRID_SEARCH(a, VISIT)
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+    find_list list = finds_as_pairs(pairs, capacity);
+    search_grid(&search, grid, sort_value, cell_start, counts, &list, first);
   }
-#undef VISIT
-  sort_stretch(pairs.b + first, used);
+  sort_own_pairs(pairs, first, end, capacity);
 }
 
 #endif

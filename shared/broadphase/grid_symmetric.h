@@ -1,12 +1,12 @@
 /* grid_symmetric.h - the grid of grid.h with 14 cells instead of 27: each pair of cells is looked at from one side.
  *
- *      z + 1 row    x x x   x x x   x x x        A body looks at those behind it in its own cell and at 13 of the cells
- *      z     row    . . .   . o x   x x x        around it: the right one, the row above, and three rows of the next
- *                                                layer. The others look at it.
+ *      z + 1 row    x x x   x x x   x x x        A body tests those behind it in its own cell and those of 13 of the
+ *      z     row    . . .   . o x   x x x        cells around it: the right one, the row above, and three rows of the
+ *                                                next layer. The bodies of the other 13 cells test it.
  *                   y - 1     y     y + 1
  *
- * Half the tests (2009 talk); but what is found may belong to either body, so the pairs are keys to be sorted
- * (pair_keys.h).
+ * This halves the tests (2009 talk). But a pair may be found by either of its bodies, so pairs are keys that are sorted
+ * afterwards (pair_keys.h).
  */
 #ifndef TANDEM_SHARED_BROADPHASE_GRID_SYMMETRIC_H
 #define TANDEM_SHARED_BROADPHASE_GRID_SYMMETRIC_H
@@ -14,7 +14,7 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/pair_keys.h"
 
-/* Stretch k of 5: the first starts behind the body itself. */
+/* Range k of 5; the first starts behind the body itself. */
 SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, uint place, uint k)
 {
   if (k == 0u) {
@@ -26,37 +26,40 @@ SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *co
                  : row_of_cells(cell_start, counts, c, -1, c.y + (int)k - 3, c.z + 1);
 }
 
-/* Calls VISIT(body, b) for what item i finds, in whatever order of the two: a large body, or place i - large of the
- * sorted list. */
-#define SYMMETRIC_SEARCH(i, VISIT)                                                                                    \
-  {                                                                                                                   \
-    uint large = counts[COUNT_LARGE], body = grid_body(sort_value, counts, i);                                        \
-    box_bounds own = load_bounds(bounds, body);                                                                       \
-    for (uint b = 0; b < large && b < body; ++b)                                                                      \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) \
-        VISIT(body, b)                                                                                                \
-    grid_cell c = cell_of(grid, counts, own);                                                                         \
-    for (uint k = 0u; k < (i < large ? 0u : 5u); ++k) {                                                               \
-      grid_row cells = forward_row(cell_start, counts, c, i - large, k);                                              \
-      for (; cells.at < cells.end; ++cells.at) {                                                                      \
-        uint b = sort_value[cells.at];                                                                                \
-        if (bounds_overlap(own, load_bounds(bounds, b)) &&                                                            \
-            pair_allowed(parameters, body_traits, body_filter, body, b))                                              \
-          VISIT(body, b)                                                                                              \
-      }                                                                                                               \
-    }                                                                                                                 \
+/* Finds every body in a range of the sorted list. */
+SEARCH uint find_in_forward_row(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+                                const find_list *list, uint at)
+{
+  for (; cells.at < cells.end; ++cells.at) {
+    uint b = sort_value[cells.at];
+    if (meets(search, b)) at = add_find(list, at, search->body, b);
   }
+  return at;
+}
+
+/* The searching body is that of item i: a large body, or the one at place i - large of the sorted list. */
+SEARCH uint search_forward_cells(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                                 GLOBAL const uint *cell_start, GLOBAL const uint *counts, uint i,
+                                 const find_list *list, uint at)
+{
+  uint large = counts[COUNT_LARGE];
+  at = find_among_first(search, large, list, at);
+  if (i < large) return at;
+  grid_cell c = cell_of(grid, counts, search->box);
+  for (uint k = 0u; k < 5u; ++k)
+    at = find_in_forward_row(search, sort_value, forward_row(cell_start, counts, c, i - large, k), list, at);
+  return at;
+}
 
 SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                                  GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
                                  GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
 {
-  uint found = 0u;
-#define VISIT(body, b) keep_find(finds, i, found++, b);
-  SYMMETRIC_SEARCH(i, VISIT)
-#undef VISIT
-  sweep_start[i] = found;
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = first_finds(finds, i);
+  sweep_start[i] = search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list, 0u);
 }
 
 SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -65,14 +68,15 @@ SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key,
                                  uint i)
 {
-  uint to = sweep_start[i], end = sweep_start[i + 1u], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b)                                        \
-  {                                                           \
-    if (to < capacity) pair_key[to++] = key_of_pair(body, b); \
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i), first = sweep_start[i], end = sweep_start[i + 1u],
+       capacity = counts[CAPACITY_PAIRS];
+  if (end - first <= FINDS_KEPT) {
+    write_kept_keys(finds, i, body, pair_key, first, end, capacity);
+  } else {
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+    find_list list = finds_as_keys(pair_key, capacity);
+    search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list, first);
   }
-  if (end - to <= FINDS_KEPT) write_kept_finds(finds, i, grid_body(sort_value, counts, i), pair_key, to, end, capacity);
-  else SYMMETRIC_SEARCH(i, VISIT)
-#undef VISIT
 }
 
 #endif

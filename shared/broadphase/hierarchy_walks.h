@@ -1,12 +1,12 @@
-/* hierarchy_walks.h - three ways through the tree of hierarchy.h, and the pairs that they find: for the comparison that
- * the talks make.
+/* hierarchy_walks.h - three ways to walk the tree of hierarchy.h, and the pairs that they find. All three stand here to
+ * be compared with one another, as the talks do.
  *
  *   skip      a box that is missed is passed over by the link behind its subtree: one number of state
  *   stack     the nodes still to come
  *   history   two bits a level: which children have been visited (2009 talk); up by the link to the parent
  *
- * Each finds the leaves that a box overlaps in the order of the curve; bodies sort what they find, so the list is the
- * same.
+ * Each finds the leaves that a box overlaps in the order of the curve, and each body sorts what it finds, so the pair
+ * list is the same whichever walk is chosen.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
@@ -14,32 +14,32 @@
 #include "shared/broadphase/finds.h"
 #include "shared/broadphase/hierarchy.h"
 
-/* The bits of a code tell CURVE_BITS levels apart, and one more in trees.cpp; those of the places of equal codes up to
- * 31 more. */
+/* The deepest tree: the bits of a code make CURVE_BITS levels, trees.cpp uses one bit more, and the places of equal
+ * codes make up to 31 further levels. */
 #define HIERARCHY_LEVELS 64u
 
+/* The tree that a body searches. */
 typedef struct {
   GLOBAL const row *nodes;
   GLOBAL const uint *links;
-  box_bounds box;
-  real before; /* bodies below this number are looked for */
-} hierarchy_search;
+  real before; /* the search skips subtrees in which no body has a lower number */
+} searched_tree;
 
-SHARED uint link_of(const hierarchy_search *search, uint slot, uint link) { return search->links[LINKS * slot + link]; }
+SHARED uint link_of(const searched_tree *tree, uint slot, uint link) { return tree->links[LINKS * slot + link]; }
 
-SHARED mask search_hits(const hierarchy_search *search, uint slot)
+SHARED mask search_hits(const pair_search *search, const searched_tree *tree, uint slot)
 {
-  numbered_box n = load_numbered_box(search->nodes, slot);
-  return n.lowest < search->before && bounds_overlap(search->box, n.box);
+  numbered_box n = load_numbered_box(tree->nodes, slot);
+  return n.lowest < tree->before && bounds_overlap(search->box, n.box);
 }
 
-/* Each yields the slot of the next leaf that is hit, INDEX_NONE behind the last. next: the slot to look at. */
-SHARED uint next_by_skipping(const hierarchy_search *search, uint *next)
+/* Each walk returns the slot of the next leaf that is hit, or INDEX_NONE behind the last. next: the slot to visit. */
+SHARED uint next_by_skipping(const pair_search *search, const searched_tree *tree, uint *next)
 {
   while (*next != INDEX_NONE) {
     uint slot = *next;
-    mask hit = search_hits(search, slot), is_leaf = is_leaf_slot(slot);
-    *next = link_of(search, slot, hit && !is_leaf ? LINK_FIRST : LINK_AFTER);
+    mask hit = search_hits(search, tree, slot), is_leaf = is_leaf_slot(slot);
+    *next = link_of(tree, slot, hit && !is_leaf ? LINK_FIRST : LINK_AFTER);
     if (hit && is_leaf) return slot;
   }
   return INDEX_NONE;
@@ -50,100 +50,116 @@ typedef struct {
   uint height;
 } slot_stack;
 
-SHARED uint next_from_stack(const hierarchy_search *search, slot_stack *stack)
+SHARED uint next_from_stack(const pair_search *search, const searched_tree *tree, slot_stack *stack)
 {
   while (stack->height > 0u) {
     stack->height = stack->height - 1u;
     uint slot = stack->slot[stack->height];
-    if (!search_hits(search, slot)) continue;
+    if (!search_hits(search, tree, slot)) continue;
     if (is_leaf_slot(slot)) return slot;
-    stack->slot[stack->height] = link_of(search, slot, LINK_SECOND);
-    stack->slot[stack->height + 1u] = link_of(search, slot, LINK_FIRST);
+    stack->slot[stack->height] = link_of(tree, slot, LINK_SECOND);
+    stack->slot[stack->height + 1u] = link_of(tree, slot, LINK_FIRST);
     stack->height = stack->height + 2u;
   }
   return INDEX_NONE;
 }
 
-/* How many children of each node on the way down have been visited: that of the present one in the two lowest bits of
- * `near`. */
+/* Two bits for each node on the way down say how many of its children have been visited. Those of the present node are
+ * the lowest two of `near`; `far` continues `near` upward. */
 typedef struct {
   uint slot;
   ulong near, far;
 } history;
 
-SHARED void go_up(const hierarchy_search *search, history *h)
+SHARED void go_up(const searched_tree *tree, history *h)
 {
-  h->slot = link_of(search, h->slot, LINK_PARENT);
+  h->slot = link_of(tree, h->slot, LINK_PARENT);
   h->near = h->near >> 2 | h->far << 62;
   h->far = h->far >> 2;
 }
-SHARED void go_down(const hierarchy_search *search, history *h, uint link)
+SHARED void go_down(const searched_tree *tree, history *h, uint link)
 {
   h->near = h->near + (ulong)1;
   h->far = h->far << 2 | h->near >> 62;
   h->near = h->near << 2;
-  h->slot = link_of(search, h->slot, link);
+  h->slot = link_of(tree, h->slot, link);
 }
-SHARED uint next_by_history(const hierarchy_search *search, history *h)
+SHARED uint next_by_history(const pair_search *search, const searched_tree *tree, history *h)
 {
   while (h->slot != INDEX_NONE) {
     uint slot = h->slot, visited = (uint)h->near & 3u;
-    mask hit = visited == 0u && search_hits(search, slot), is_leaf = is_leaf_slot(slot);
-    if (visited == 2u || is_leaf || (visited == 0u && !hit)) go_up(search, h);
-    else go_down(search, h, visited == 0u ? LINK_FIRST : LINK_SECOND);
+    mask hit = visited == 0u && search_hits(search, tree, slot), is_leaf = is_leaf_slot(slot);
+    if (visited == 2u || is_leaf || (visited == 0u && !hit)) go_up(tree, h);
+    else go_down(tree, h, visited == 0u ? LINK_FIRST : LINK_SECOND);
     if (hit && is_leaf) return slot;
   }
   return INDEX_NONE;
 }
 
-/* Body of item i: neighbours in the launch are neighbours on the curve. */
-SHARED uint hierarchy_body(GLOBAL const uint *leaf_body, GLOBAL const uint *counts, uint i)
-{
-  return i < counts[COUNT_BOUNDLESS] ? i : leaf_body[i - counts[COUNT_BOUNDLESS]];
-}
-
-/* Where numbers are rounded down the leaf itself decides. */
+/* A search for bodies before this one skips subtrees in which no number is lower than this. Numbers from 2^24 on are
+ * rounded in the tree, so the bound is wider there, and add_leaf compares the exact number. */
 SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
-/* Calls VISIT(b) for every body before `a` whose bounds overlap its own and that it may meet; NEXT yields leaves of
- * `search`. */
-#define VISIT_LEAVES(a, VISIT, NEXT)                                                \
-  for (uint leaf = NEXT; leaf != INDEX_NONE; leaf = NEXT) {                         \
-    uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                  \
-    if (b < a && pair_allowed(parameters, body_traits, body_filter, a, b)) VISIT(b) \
-  }
-#define HIERARCHY_SEARCH(a, walk, VISIT)                                                                           \
-  {                                                                                                                \
-    uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts);                                            \
-    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(bounds, a), before_body(a)}; \
-    for (uint b = 0u; b < boundless && b < a; ++b)                                                                 \
-      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                                    \
-          pair_allowed(parameters, body_traits, body_filter, a, b))                                                \
-        VISIT(b)                                                                                                   \
-    if (a >= boundless && walk == (uint)WALK_BY_SKIPPING) {                                                        \
-      uint next = root;                                                                                            \
-      VISIT_LEAVES(a, VISIT, next_by_skipping(&search, &next))                                                     \
-    } else if (a >= boundless && walk == (uint)WALK_BY_STACK) {                                                    \
-      slot_stack stack;                                                                                            \
-      stack.slot[0] = root;                                                                                        \
-      stack.height = 1u;                                                                                           \
-      VISIT_LEAVES(a, VISIT, next_from_stack(&search, &stack))                                                     \
-    } else if (a >= boundless) {                                                                                   \
-      history past = {root, 0u, 0u};                                                                               \
-      VISIT_LEAVES(a, VISIT, next_by_history(&search, &past))                                                      \
-    }                                                                                                              \
-  }
+/* Reports the body of a leaf whose box is hit. */
+SEARCH uint add_leaf(const pair_search *search, uint b, uint before, const find_list *list, uint at)
+{
+  return b < before && may_meet(search, b) ? add_find(list, at, search->body, b) : at;
+}
+
+/* Each of the three reports the bodies below number `before`, leaf by leaf along the curve. */
+SEARCH uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+                             uint root, uint before, const find_list *list, uint at)
+{
+  uint next = root;
+  for (uint leaf = next_by_skipping(search, tree, &next); leaf != INDEX_NONE;
+       leaf = next_by_skipping(search, tree, &next))
+    at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
+  return at;
+}
+SEARCH uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+                            uint root, uint before, const find_list *list, uint at)
+{
+  slot_stack stack;
+  stack.slot[0] = root;
+  stack.height = 1u;
+  for (uint leaf = next_from_stack(search, tree, &stack); leaf != INDEX_NONE;
+       leaf = next_from_stack(search, tree, &stack))
+    at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
+  return at;
+}
+SEARCH uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+                            uint root, uint before, const find_list *list, uint at)
+{
+  history past = {root, 0u, 0u};
+  for (uint leaf = next_by_history(search, tree, &past); leaf != INDEX_NONE;
+       leaf = next_by_history(search, tree, &past))
+    at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
+  return at;
+}
+
+/* Finds every body before the searching one; those without bounds come first. */
+SEARCH uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                             uint walk, const find_list *list, uint at)
+{
+  uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;
+  searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, before_body(a)};
+  at = find_among_first(search, boundless, list, at);
+  if (a < boundless) return at;
+  if (walk == (uint)WALK_BY_SKIPPING)
+    return find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
+  if (walk == (uint)WALK_BY_STACK) return find_from_stack(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
+  return find_by_history(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
+}
 
 SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds,
                                  read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                                  GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
 {
-  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), found = 0u;
-#define VISIT(b) keep_find(finds, i, found++, b);
-  HIERARCHY_SEARCH(a, walk, VISIT)
-#undef VISIT
-  pair_start[a] = found;
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+  find_list list = first_finds(finds, i);
+  pair_start[a] = search_hierarchy(&search, hierarchy_nodes, counts, walk, &list, 0u);
 }
 
 SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -152,16 +168,16 @@ SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL con
                                  GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint walk,
                                  uint i)
 {
-  uint a = hierarchy_body(hierarchy_nodes.leaf_body, counts, i), used = 0u, first = pair_start[a],
-       found = pair_start[a + 1u] - first, capacity = counts[CAPACITY_PAIRS];
-#define VISIT(other) used = append_pair(pairs.a, pairs.b, first, used, capacity, a, other);
-  if (found <= FINDS_KEPT) {
-    for (uint k = 0u; k < found; ++k) VISIT(finds[FINDS_KEPT * i + k])
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = pair_start[a],
+       end = pair_start[a + 1u], capacity = counts[CAPACITY_PAIRS];
+  if (end - first <= FINDS_KEPT) {
+    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
   } else {
-    HIERARCHY_SEARCH(a, walk, VISIT)
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+    find_list list = finds_as_pairs(pairs, capacity);
+    search_hierarchy(&search, hierarchy_nodes, counts, walk, &list, first);
   }
-#undef VISIT
-  sort_stretch(pairs.b + first, used);
+  sort_own_pairs(pairs, first, end, capacity);
 }
 
 #endif

@@ -15,14 +15,15 @@
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/broadphase/pair_keys.h"
 
-/* Small: no larger than a cell. Half-spaces are neither: all bodies are tested against them. */
+/* A small body is no larger than a cell. Half-spaces are neither small nor large: all bodies are tested against
+ * them. */
 SHARED mask is_small(GLOBAL const row *grid, box_bounds box)
 {
   vec3 size = subtract(box.upper, box.lower);
   return maximum(size.x, maximum(size.y, size.z)) * load_row(grid, 0u).w <= R(1.0);
 }
 
-/* The large ones along the curve, all others behind them. */
+/* The keys sort large bodies along the curve and all others behind them. */
 SHARED void large_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -32,7 +33,7 @@ SHARED void large_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
-/* The hierarchy is that of the large ones alone, filed anew every step. */
+/* The hierarchy holds the large bodies alone, and is built anew every step. */
 SHARED void plan_large_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -41,7 +42,7 @@ SHARED void plan_large_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, ui
   set_leaves(counts, large);
 }
 
-/* Small ones by cell, large ones behind the last. */
+/* The keys sort small bodies by cell, and large ones behind the last cell. */
 SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
@@ -52,34 +53,23 @@ SHARED void small_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
-/* Calls VISIT(body, b) for each small body before body i that i, itself small, may meet. Items in the order of the
- * cells. */
-#define SMALL_SEARCH(i, VISIT)                                                                                    \
-  {                                                                                                               \
-    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : sort_value[i - boundless];               \
-    box_bounds own = load_bounds(bounds, body);                                                                   \
-    grid_cell c = cell_of(grid, counts, own);                                                                     \
-    for (int neighbour = 0; neighbour < (i >= boundless && is_small(grid, own) ? 9 : 0); ++neighbour) {           \
-      grid_row cells = row_of_cells(cell_start, counts, c, -1, c.y + neighbour % 3 - 1, c.z + neighbour / 3 - 1); \
-      for (; cells.at < cells.end; ++cells.at) {                                                                  \
-        uint b = sort_value[cells.at];                                                                            \
-        if (b < body && bounds_overlap(own, load_bounds(bounds, b)) &&                                            \
-            pair_allowed(parameters, body_traits, body_filter, body, b))                                          \
-          VISIT(body, b)                                                                                          \
-      }                                                                                                           \
-    }                                                                                                             \
-  }
+/* Finds the small bodies before the searching one, if it is small itself. */
+SHARED uint search_small(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
+{
+  if (search->body < counts[COUNT_BOUNDLESS] || !is_small(grid, search->box)) return at;
+  return find_around(search, grid, sort_value, cell_start, counts, list, at);
+}
 
 SHARED void small_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                              GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *counts,
                              GLOBAL uint *small_finds, GLOBAL uint *grid_finds, uint i)
 {
-  uint found = 0u;
-#define VISIT(body, b) keep_find(grid_finds, i, found++, b);
-  SMALL_SEARCH(i, VISIT)
-#undef VISIT
-  small_finds[i] = found;
+  uint body = searching_body(sort_value, counts[COUNT_BOUNDLESS], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = first_finds(grid_finds, i);
+  small_finds[i] = search_small(&search, grid, sort_value, cell_start, counts, &list, 0u);
 }
 
 SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -88,47 +78,40 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const uint *grid_finds, GLOBAL const uint *counts, GLOBAL const uint *share_start,
                              GLOBAL ulong *pair_key, uint i)
 {
-  uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i], end = share_start[2u * i + 1u],
-       capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b)                                        \
-  {                                                           \
-    if (to < capacity) pair_key[to++] = key_of_pair(body, b); \
+  uint body = searching_body(sort_value, counts[COUNT_BOUNDLESS], i), first = share_start[2u * i],
+       end = share_start[2u * i + 1u], capacity = counts[CAPACITY_PAIRS];
+  if (end - first <= FINDS_KEPT) {
+    write_kept_keys(grid_finds, i, body, pair_key, first, end, capacity);
+  } else {
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+    find_list list = finds_as_keys(pair_key, capacity);
+    search_small(&search, grid, sort_value, cell_start, counts, &list, first);
   }
-  if (end - to <= FINDS_KEPT)
-    write_kept_finds(grid_finds, i, i < boundless ? i : sort_value[i - boundless], pair_key, to, end, capacity);
-  else SMALL_SEARCH(i, VISIT)
-#undef VISIT
 }
 
-/* Calls VISIT(body, b) for each half-space and large body that body i may meet; two large ones meet once. Items along
- * the curve. */
-#define LARGE_SEARCH(i, VISIT)                                                                                        \
-  {                                                                                                                   \
-    uint boundless = counts[COUNT_BOUNDLESS], body = i < boundless ? i : hierarchy_nodes.leaf_body[i - boundless];    \
-    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(bounds, body), BOUNDLESS};      \
-    mask small = is_small(grid, search.box);                                                                          \
-    if (!small) search.before = before_body(body);                                                                    \
-    for (uint b = 0u; b < boundless && b < body; ++b)                                                                 \
-      if (bounds_overlap(search.box, load_bounds(bounds, b)) &&                                                       \
-          pair_allowed(parameters, body_traits, body_filter, body, b))                                                \
-        VISIT(body, b)                                                                                                \
-    uint next = i < boundless ? INDEX_NONE : root_slot(counts);                                                       \
-    for (uint leaf = next_by_skipping(&search, &next); leaf != INDEX_NONE; leaf = next_by_skipping(&search, &next)) { \
-      uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                                                  \
-      if ((small || b < body) && pair_allowed(parameters, body_traits, body_filter, body, b)) VISIT(body, b)          \
-    }                                                                                                                 \
-  }
+/* Finds the half-spaces and large bodies that the searching body meets. A large body looks for those before it alone,
+ * so that a pair of two large ones is found once. */
+SEARCH uint search_large(const pair_search *search, GLOBAL const row *grid, read_hierarchy_nodes hierarchy_nodes,
+                         GLOBAL const uint *counts, const find_list *list, uint at)
+{
+  uint boundless = counts[COUNT_BOUNDLESS], body = search->body;
+  mask small = is_small(grid, search->box);
+  searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, small ? BOUNDLESS : before_body(body)};
+  at = find_among_first(search, boundless, list, at);
+  if (body < boundless) return at;
+  return find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root_slot(counts), small ? INDEX_NONE : body, list,
+                          at);
+}
 
 SHARED void large_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, GLOBAL uint *large_finds,
                              GLOBAL uint *finds, uint i)
 {
-  uint found = 0u;
-#define VISIT(body, b) keep_find(finds, i, found++, b);
-  LARGE_SEARCH(i, VISIT)
-#undef VISIT
-  large_finds[i] = found;
+  uint body = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = first_finds(finds, i);
+  large_finds[i] = search_large(&search, grid, hierarchy_nodes, counts, &list, 0u);
 }
 
 SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -136,20 +119,18 @@ SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *finds, GLOBAL const uint *counts,
                              GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint boundless = counts[COUNT_BOUNDLESS], to = share_start[2u * i + 1u], end = share_start[2u * i + 2u],
-       capacity = counts[CAPACITY_PAIRS];
-#define VISIT(body, b)                                        \
-  {                                                           \
-    if (to < capacity) pair_key[to++] = key_of_pair(body, b); \
+  uint body = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = share_start[2u * i + 1u],
+       end = share_start[2u * i + 2u], capacity = counts[CAPACITY_PAIRS];
+  if (end - first <= FINDS_KEPT) {
+    write_kept_keys(finds, i, body, pair_key, first, end, capacity);
+  } else {
+    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+    find_list list = finds_as_keys(pair_key, capacity);
+    search_large(&search, grid, hierarchy_nodes, counts, &list, first);
   }
-  if (end - to <= FINDS_KEPT)
-    write_kept_finds(finds, i, i < boundless ? i : hierarchy_nodes.leaf_body[i - boundless], pair_key, to, end,
-                     capacity);
-  else LARGE_SEARCH(i, VISIT)
-#undef VISIT
 }
 
-/* What both halves found, one beside the other, to be summed. */
+/* Puts the numbers of finds of both halves side by side, so that one scan sums them. */
 SHARED void join_finds_item(GLOBAL const uint *small_finds, GLOBAL const uint *large_finds, GLOBAL uint *share_start,
                             uint i)
 {

@@ -4,9 +4,11 @@
  *     kept list (neither of the two left its box)  +  what those who left find in both trees  ->  its other side
  *     kept list (bounds overlap)                                                              ->  pair_a, pair_b
  *
- * Steps in which no body left do the second line alone. The kept list has two sides that change places; each owner's
- * stretch is sorted, as that of the pair list is. Of two who both left, the one with the higher number finds the pair.
- * A body that the scene calls large may meet thousands: it does not look for them, they look at it.
+ * A step in which no body left its fat box does the second line alone. The kept list has two sides: one is read while
+ * the other is written, and then they change places. Each owner's stretch is sorted, as that of the pair list is. If
+ * both bodies of a pair left their fat boxes, the one with the higher number finds the pair, so that it is found once.
+ * A body that the scene calls large may meet thousands of others. Each of these looks at the large body, so that no
+ * single work-item has to find them all.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_NEAR_PAIRS_H
 #define TANDEM_SHARED_BROADPHASE_NEAR_PAIRS_H
@@ -21,42 +23,51 @@ SHARED uint near_capacity(GLOBAL const uint *counts) { return NEAR_PER_PAIR * co
 
 /* --- what those who left find -------------------------------------------------------------------------- */
 
-/* Body y looks at large body b. */
+/* Whether body y finds the pair that it makes with large body b, which is new only if b left its fat box. */
 SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b)
 {
   if (body_left[b] == 0u || y == b) return 0;
   return body_left[y] == 0u || (y < large && b < y);
 }
 
-/* Calls VISIT(body, b) for all that body i finds, in whatever order of the two. */
-#define NEAR_MEETS(b) \
-  (bounds_overlap(search.box, load_bounds(fat_bounds, b)) && pair_allowed(parameters, body_traits, body_filter, i, b))
-#define NEAR_SEARCH(i, VISIT)                                                                                         \
-  {                                                                                                                   \
-    uint large = counts[COUNT_LARGE], looks = body_left[i] != 0u && i >= large ? 1u : 0u;                             \
-    hierarchy_search search = {hierarchy_nodes.box, hierarchy_nodes.link, load_bounds(fat_bounds, i), BOUNDLESS};     \
-    for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)                                                              \
-      if (finds_large(body_left, large, i, b) && NEAR_MEETS(b)) VISIT(i, b)                                           \
-    for (uint b = 0u; b < looks * counts[COUNT_BOUNDLESS]; ++b)                                                       \
-      if (NEAR_MEETS(b)) VISIT(i, b)                                                                                  \
-    uint next = looks != 0u ? root_slot(counts) : INDEX_NONE;                                                         \
-    for (uint leaf = next_by_skipping(&search, &next); leaf != INDEX_NONE; leaf = next_by_skipping(&search, &next)) { \
-      uint b = hierarchy_nodes.leaf_body[leaf / 2u];                                                                  \
-      mask is_finder = b < i || body_left[b] == 0u;                                                                   \
-      if (b != i && is_finder && pair_allowed(parameters, body_traits, body_filter, i, b)) VISIT(i, b)                \
-    }                                                                                                                 \
+/* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the one of the higher number
+ * finds the pair, so that it is found once. */
+SEARCH uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
+                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
+                              uint at)
+{
+  searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, BOUNDLESS};
+  uint next = root_slot(counts), i = search->body;
+  for (uint leaf = next_by_skipping(search, &tree, &next); leaf != INDEX_NONE;
+       leaf = next_by_skipping(search, &tree, &next)) {
+    uint b = hierarchy_nodes.leaf_body[leaf / 2u];
+    mask is_finder = b < i || body_left[b] == 0u;
+    if (b != i && is_finder && may_meet(search, b)) at = add_find(list, at, i, b);
   }
+  return at;
+}
+
+/* The pairs that the searching body finds. Its box and those of the others are fat. */
+SEARCH uint search_near(const pair_search *search, GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
+                        GLOBAL const uint *counts, const find_list *list, uint at)
+{
+  uint i = search->body, large = counts[COUNT_LARGE];
+  for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)
+    if (finds_large(body_left, large, i, b) && meets(search, b)) at = add_find(list, at, i, b);
+  if (body_left[i] == 0u || i < large) return at;
+  for (uint b = 0u; b < counts[COUNT_BOUNDLESS]; ++b)
+    if (meets(search, b)) at = add_find(list, at, i, b);
+  return find_among_leaves(search, body_left, hierarchy_nodes, counts, list, at);
+}
 
 SHARED void near_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                             GLOBAL const uint *body_filter, GLOBAL const row *fat_bounds, GLOBAL const uint *body_left,
                             read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, GLOBAL uint *sweep_start,
                             uint i)
 {
-  uint finds = 0u;
-#define VISIT(a, b) ++finds;
-  NEAR_SEARCH(i, VISIT)
-#undef VISIT
-  sweep_start[i] = finds;
+  pair_search search = search_of_body(parameters, body_traits, body_filter, fat_bounds, i);
+  find_list list = no_finds();
+  sweep_start[i] = search_near(&search, body_left, hierarchy_nodes, counts, &list, 0u);
 }
 
 SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -64,17 +75,13 @@ SHARED void near_write_item(GLOBAL const Parameters *parameters, GLOBAL const ui
                             read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                             GLOBAL const uint *sweep_start, GLOBAL ulong *near_key, uint i)
 {
-  uint to = sweep_start[i], capacity = near_capacity(counts);
-  if (to == sweep_start[i + 1u]) return; /* most: they need not look again */
-#define VISIT(a, b)                                        \
-  {                                                        \
-    if (to < capacity) near_key[to++] = key_of_pair(a, b); \
-  }
-  NEAR_SEARCH(i, VISIT)
-#undef VISIT
+  if (sweep_start[i] == sweep_start[i + 1u]) return; /* most bodies find nothing and need not search again */
+  pair_search search = search_of_body(parameters, body_traits, body_filter, fat_bounds, i);
+  find_list list = finds_as_keys(near_key, near_capacity(counts));
+  search_near(&search, body_left, hierarchy_nodes, counts, &list, sweep_start[i]);
 }
 
-/* How many keys there are to sort: those that found room. */
+/* The keys to sort are those that there was room for. */
 SHARED void count_near_keys_item(GLOBAL const uint *sweep_start, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -85,7 +92,8 @@ SHARED void count_near_keys_item(GLOBAL const uint *sweep_start, GLOBAL uint *co
 
 /* --- the kept list -------------------------------------------------------------------------------------- */
 
-/* Side 0 or 1 of the kept list: first, where the stretches of bodies start; b, the lower numbers of the pairs. */
+/* Side 0 or 1 of the kept list. start[a] is where the stretch of body `a` starts in b, which holds the lower numbers of
+ * its pairs. */
 typedef struct {
   GLOBAL const uint *start, *b;
 } near_list;
@@ -98,60 +106,45 @@ SHARED near_list near_list_of(GLOBAL const uint *near_start, GLOBAL const uint *
   return list;
 }
 
-/* Calls VISIT(b), ascending, for the partners of body `a`: kept ones where neither left, and new ones. */
-#define MERGE_NEAR(a, VISIT)                                                             \
-  {                                                                                      \
-    near_list kept = near_list_of(near_start, near_b, counts, near_side(counts));        \
-    uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);          \
-    uint at = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a] : 0u;       \
-    uint end = counts[COUNT_KEPT] != 0u && body_left[a] == 0u ? kept.start[a + 1u] : 0u; \
-    for (; at < end; ++at) {                                                             \
-      uint stays = kept.b[at];                                                           \
-      if (body_left[stays] != 0u) continue;                                              \
-      for (; key < keys && near_key[key] < key_of_pair(a, stays); ++key) {               \
-        uint b = (uint)near_key[key];                                                    \
-        VISIT(b)                                                                         \
-      }                                                                                  \
-      VISIT(stays)                                                                       \
-    }                                                                                    \
-    for (; key < keys && (uint)(near_key[key] >> 32) == a; ++key) {                      \
-      uint b = (uint)near_key[key];                                                      \
-      VISIT(b)                                                                           \
-    }                                                                                    \
+/* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
+SEARCH uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, near_list kept,
+                       GLOBAL const uint *counts, uint a, const find_list *list, uint at)
+{
+  uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);
+  mask keeps = counts[COUNT_KEPT] != 0u && body_left[a] == 0u;
+  uint end = keeps ? kept.start[a + 1u] : 0u;
+  for (uint k = keeps ? kept.start[a] : 0u; k < end; ++k) {
+    uint stays = kept.b[k];
+    if (body_left[stays] != 0u) continue;
+    for (; key < keys && near_key[key] < key_of_pair(a, stays); ++key) at = add_find(list, at, a, (uint)near_key[key]);
+    at = add_find(list, at, a, stays);
   }
+  for (; key < keys && (uint)(near_key[key] >> 32) == a; ++key) at = add_find(list, at, a, (uint)near_key[key]);
+  return at;
+}
 
 SHARED void merge_near_count_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key,
                                   GLOBAL const uint *near_start, GLOBAL const uint *near_b, GLOBAL const uint *counts,
                                   GLOBAL uint *sweep_start, uint a)
 {
-  uint partners = 0u;
-#define VISIT(b) \
-  {              \
-    (void)(b);   \
-    ++partners;  \
-  }
-  MERGE_NEAR(a, VISIT)
-#undef VISIT
-  sweep_start[a] = partners;
+  find_list list = no_finds();
+  near_list kept = near_list_of(near_start, near_b, counts, near_side(counts));
+  sweep_start[a] = merge_near(body_left, near_key, kept, counts, a, &list, 0u);
 }
 
 SHARED void merge_near_write_item(GLOBAL const uint *body_left, GLOBAL const ulong *near_key,
                                   GLOBAL const uint *sweep_start, GLOBAL const uint *counts, GLOBAL uint *near_start,
                                   GLOBAL uint *near_b, uint a)
 {
-  uint capacity = near_capacity(counts), other = 1u - near_side(counts), to = sweep_start[a];
-  GLOBAL uint *start = near_start + other * (counts[COUNT_BODIES] + 1u), *partner = near_b + other * capacity;
+  uint capacity = near_capacity(counts), side = near_side(counts), to = sweep_start[a], end = sweep_start[a + 1u];
+  GLOBAL uint *start = near_start + (1u - side) * (counts[COUNT_BODIES] + 1u);
   start[a] = to < capacity ? to : capacity;
-  if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = sweep_start[a + 1u] < capacity ? sweep_start[a + 1u] : capacity;
-#define VISIT(b)                          \
-  {                                       \
-    if (to < capacity) partner[to++] = b; \
-  }
-  MERGE_NEAR(a, VISIT)
-#undef VISIT
+  if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = end < capacity ? end : capacity;
+  find_list list = finds_as_bodies(near_b + (1u - side) * capacity, capacity);
+  merge_near(body_left, near_key, near_list_of(near_start, near_b, counts, side), counts, a, &list, to);
 }
 
-/* After a merge the other side is the kept one. */
+/* A merge makes the other side the kept one. */
 SHARED void turn_near_list_item(GLOBAL const uint *sweep_start, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -163,7 +156,7 @@ SHARED void turn_near_list_item(GLOBAL const uint *sweep_start, GLOBAL uint *cou
 
 /* --- the pair list -------------------------------------------------------------------------------------- */
 
-/* The partners of body `a` whose bounds overlap its own, packed at the start of its stretch. */
+/* Packs the partners of body `a` whose bounds overlap its own at the start of its stretch. */
 SHARED void filter_near_item(GLOBAL const row *bounds, GLOBAL const uint *near_start, GLOBAL const uint *near_b,
                              GLOBAL const uint *counts, GLOBAL uint *near_found, GLOBAL uint *pair_start, uint a)
 {
@@ -184,7 +177,8 @@ SHARED void take_near_item(GLOBAL const uint *near_start, GLOBAL const uint *nea
     used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, near_found[from + k]);
 }
 
-/* What found no room grows with the pairs, and all is looked for again. */
+/* If the kept list was short of room, the room for pairs grows, on which its own depends, and nothing is kept: the step
+ * runs again and finds all pairs anew. */
 SHARED void keep_near_item(GLOBAL uint *counts, uint i)
 {
   (void)i;

@@ -10,11 +10,6 @@
 #include "shared/broadphase/finds.h"
 #include "shared/parallel/search.h"
 
-SHARED ulong key_of_pair(uint one, uint other)
-{
-  return one > other ? (ulong)one << 32 | (ulong)other : (ulong)other << 32 | (ulong)one;
-}
-
 /* The first place among so many sorted keys whose pair belongs to `body` or to one after it. */
 SHARED uint first_key_of(GLOBAL const ulong *keys, uint length, uint body)
 {
@@ -26,14 +21,6 @@ SHARED uint first_key_of(GLOBAL const ulong *keys, uint length, uint body)
     count = is_before ? count - skipped - 1u : skipped;
   }
   return first;
-}
-
-/* The finds of item i, which are few, as keys from place `first` to `end`. */
-SHARED void write_kept_finds(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end,
-                             uint capacity)
-{
-  for (uint k = 0u; k < end - first; ++k)
-    if (first + k < capacity) pair_key[first + k] = key_of_pair(body, finds[FINDS_KEPT * i + k]);
 }
 
 SHARED void unpack_pairs_item(GLOBAL const ulong *pair_key, GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint i)

@@ -23,8 +23,8 @@ typedef struct {
   real start, end;
 } interval;
 
-/* Exact along an axis of the world. Along another the sums round: wider than that, so that no box that overlaps seems
- * not to. */
+/* The interval along an axis of the world is exact. Along another direction the sums round, so the interval is wider by
+ * more than they can, and no overlap is missed. */
 SHARED interval interval_along_axis(box_bounds b, uint axis)
 {
   interval i = {axis == 0u   ? b.lower.x
@@ -50,8 +50,8 @@ SHARED interval sweep_interval(box_bounds b, GLOBAL const row *grid, GLOBAL cons
   return interval_along_axis(b, counts[COUNT_SWEEP_AXIS]);
 }
 
-/* Of the same order as the numbers, both zeros alike. Rounding to float keeps the order too, so double misses nothing
- * either. */
+/* Keys have the order of the numbers, and both zeros have one key. Rounding to float keeps the order too, so the
+ * reference in double misses nothing either. */
 SHARED uint sweep_key(real x)
 {
   uint bits = real_bits(x);
@@ -66,41 +66,40 @@ SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
   sort_value[i] = body;
 }
 
-/* Bounds in sweep order, so that the sweep reads memory in order. */
+/* Copies bounds into the order of the sweep, so that the sweep reads memory in order. */
 SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL row *sweep_bounds, uint i)
 {
   store_row(sweep_bounds, 2u * i, load_row(bounds, 2u * sort_value[i]));
   store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
 }
 
-/* Calls VISIT(body, b), in whatever order of the two, for the finds of item i: a large body, or place i - large of the
- * sorted list. */
-#define SWEEP_SEARCH(i, VISIT)                                                                                        \
-  {                                                                                                                   \
-    uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];                                                    \
-    uint body = i < large ? i : sort_value[i - large];                                                                \
-    box_bounds own = load_bounds(bounds, body);                                                                       \
-    for (uint b = 0; b < large && b < body; ++b)                                                                      \
-      if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, body, b)) \
-        VISIT(body, b)                                                                                                \
-    uint end = sweep_key(sweep_interval(own, grid, counts, 0u).end);                                                  \
-    for (uint at = i < large ? small : i - large + 1u; at < small && sort_key[at] <= end; ++at) {                     \
-      if (!bounds_overlap(own, load_bounds(sweep_bounds, at))) continue;                                              \
-      uint found = sort_value[at];                                                                                    \
-      if (pair_allowed(parameters, body_traits, body_filter, body, found)) VISIT(body, found)                         \
-    }                                                                                                                 \
+/* Finds the large bodies before the searching one, which is that of item i, and the small ones that start within its
+ * interval. */
+SEARCH uint search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
+                           GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                           uint i, const find_list *list, uint at)
+{
+  uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];
+  at = find_among_first(search, large, list, at);
+  if (i < large) return at;
+  uint end = sweep_key(sweep_interval(search->box, grid, counts, 0u).end);
+  for (uint k = i - large + 1u; k < small && sort_key[k] <= end; ++k) {
+    if (!bounds_overlap(search->box, load_bounds(sweep_bounds, k))) continue;
+    uint other = sort_value[k];
+    if (may_meet(search, other)) at = add_find(list, at, search->body, other);
   }
+  return at;
+}
 
 SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                              GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
                              GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
                              GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
 {
-  uint finds = 0;
-#define VISIT(a, b) ++finds;
-  SWEEP_SEARCH(i, VISIT)
-#undef VISIT
-  sweep_start[i] = finds;
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = no_finds();
+  sweep_start[i] = search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, 0u);
 }
 
 SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
@@ -108,13 +107,10 @@ SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
                              GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
                              GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
 {
-  uint to = sweep_start[i], capacity = counts[CAPACITY_PAIRS];
-#define VISIT(a, b)                                        \
-  {                                                        \
-    if (to < capacity) pair_key[to++] = key_of_pair(a, b); \
-  }
-  SWEEP_SEARCH(i, VISIT)
-#undef VISIT
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
+  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  find_list list = finds_as_keys(pair_key, counts[CAPACITY_PAIRS]);
+  search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, sweep_start[i]);
 }
 
 #endif

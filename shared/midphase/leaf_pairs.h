@@ -225,6 +225,23 @@ typedef struct {
   uint a, b;
 } node_pair;
 
+/* The children of a pair of nodes: those of the one that is no leaf, or is larger. */
+SHARED void push_children(node_pair *stack, uint *height, const midphase_scene *scene, const tree *tree_a,
+                          const tree *tree_b, node_pair nodes, mask descend_a)
+{
+  node_pair first = nodes, second = nodes;
+  if (descend_a) {
+    first.a = nodes.a + 1u;
+    second.a = first.a + subtree_size(word_of_node(scene->trees, tree_a, first.a));
+  } else {
+    first.b = nodes.b + 1u;
+    second.b = first.b + subtree_size(word_of_node(scene->trees, tree_b, first.b));
+  }
+  stack[*height] = second; /* the first comes next: the order is that of the trees */
+  stack[*height + 1u] = first;
+  *height = *height + 2u;
+}
+
 SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const tree_body *a, const tree_body *b,
                            real margin)
 {
@@ -244,22 +261,11 @@ SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const t
     if (!bounds_overlap(swept_box(rotation, add(shift, rotate(rotation, middle)), extent, motion, margin), box_b))
       continue;
     uint word_a = word_of_node(scene->trees, &tree_a, nodes.a), word_b = word_of_node(scene->trees, &tree_b, nodes.b);
-    if (is_leaf(word_a) && is_leaf(word_b)) {
+    mask descend_a = is_leaf(word_b) || (!is_leaf(word_a) && size_of_box(box_a) > size_of_box(box_b));
+    if (is_leaf(word_a) && is_leaf(word_b))
       add_leaf_pair(list, scene, a->body, leaf_of_tree(scene, a->body, a->first_child, &tree_a, word_a), b->body,
                     leaf_of_tree(scene, b->body, b->first_child, &tree_b, word_b));
-      continue;
-    }
-    mask descend_a = is_leaf(word_b) || (!is_leaf(word_a) && size_of_box(box_a) > size_of_box(box_b));
-    node_pair first = nodes, second = nodes;
-    if (descend_a) {
-      first.a = nodes.a + 1u;
-      second.a = first.a + subtree_size(word_of_node(scene->trees, &tree_a, first.a));
-    } else {
-      first.b = nodes.b + 1u;
-      second.b = first.b + subtree_size(word_of_node(scene->trees, &tree_b, first.b));
-    }
-    stack[height++] = second; /* the first comes next: the order is that of the trees */
-    stack[height++] = first;
+    else push_children(stack, &height, scene, &tree_a, &tree_b, nodes, descend_a);
   }
 }
 

@@ -76,60 +76,113 @@ SHARED vec3 in_face(box_frame reference, vec3 outward, vec3 v)
   return make_vec3(inner(reference.u, v), inner(reference.v, v), inner(outward, v));
 }
 
-SHARED manifold face_contacts(box_pair pair)
+/* The face of one box that the contact lies on, and that of the other which faces it most. */
+typedef struct {
+  mask a_is_reference;
+  natural reference_axis, incident_axis;
+  box_frame reference, incident;
+  vec3 outward; /* normal of the reference face */
+  real facing;  /* side of the incident box that its face is on */
+} face_pair;
+
+SHARED face_pair facing_faces(box_pair pair)
 {
-  mask a_is_reference = pair.code < 3u;
-  oriented_box incident_box = choose_box(a_is_reference, pair.b, pair.a);
-  natural k = choose(a_is_reference, pair.code, pair.code - 3u);
-  box_frame reference = frame_of(choose_box(a_is_reference, pair.a, pair.b), k);
-  vec3 outward = choose3(a_is_reference, pair.normal, negate(pair.normal));
-  natural j = most_parallel_axis(incident_box, outward);
-  box_frame incident = frame_of(incident_box, j);
-  real facing = -sign_of(inner(incident.axis, outward));
+  face_pair f;
+  f.a_is_reference = pair.code < 3u;
+  oriented_box incident_box = choose_box(f.a_is_reference, pair.b, pair.a);
+  f.reference_axis = choose(f.a_is_reference, pair.code, pair.code - 3u);
+  f.reference = frame_of(choose_box(f.a_is_reference, pair.a, pair.b), f.reference_axis);
+  f.outward = choose3(f.a_is_reference, pair.normal, negate(pair.normal));
+  f.incident_axis = most_parallel_axis(incident_box, f.outward);
+  f.incident = frame_of(incident_box, f.incident_axis);
+  f.facing = -sign_of(inner(f.incident.axis, f.outward));
+  return f;
+}
 
-  vec3 offset = in_face(reference, outward, choose3(a_is_reference, pair.offset, negate(pair.offset)));
-  vec3 to_face = in_face(reference, outward, scale(incident.axis, incident.extent * facing));
-  vec3 center = add(offset, to_face);
-  center.z = center.z - reference.extent;
+/* Where the two faces are in the plane of the reference face. Its coordinates count from the middle of the smaller
+ * face, so a large one does not round it away. */
+typedef struct {
+  vec3 offset;  /* centre of the incident box seen from the centre of the reference box */
+  vec3 to_face; /* middle of the incident face seen from the centre of its box */
+  vec3 center;  /* middle of the incident face seen from the middle of the reference face */
+  real extent_r, extent_i;
+  mask from_incident;
+  real origin_u, origin_v; /* seen from the middle of the reference face */
+} face_plane;
 
-  /* Coordinates count from the middle of the smaller face, so a large one does not round it away. */
-  real extent_r = reference.extent_u + reference.extent_v, extent_i = incident.extent_u + incident.extent_v;
-  mask from_incident = extent_i < extent_r;
-  real zero = R(0.0);
-  real origin_u = choose(from_incident, center.x, zero), origin_v = choose(from_incident, center.y, zero);
+SHARED face_plane plane_of_faces(box_pair pair, face_pair f)
+{
+  face_plane plane;
+  plane.offset = in_face(f.reference, f.outward, choose3(f.a_is_reference, pair.offset, negate(pair.offset)));
+  plane.to_face = in_face(f.reference, f.outward, scale(f.incident.axis, f.incident.extent * f.facing));
+  plane.center = add(plane.offset, plane.to_face);
+  plane.center.z = plane.center.z - f.reference.extent;
+  plane.extent_r = f.reference.extent_u + f.reference.extent_v;
+  plane.extent_i = f.incident.extent_u + f.incident.extent_v;
+  plane.from_incident = plane.extent_i < plane.extent_r;
+  plane.origin_u = choose(plane.from_incident, plane.center.x, (real)R(0.0));
+  plane.origin_v = choose(plane.from_incident, plane.center.y, (real)R(0.0));
+  return plane;
+}
+
+SHARED clip_rectangle reference_rectangle(face_pair f, face_plane plane)
+{
   clip_rectangle rectangle;
-  rectangle.low_u = -origin_u - reference.extent_u;
-  rectangle.high_u = reference.extent_u - origin_u;
-  rectangle.low_v = -origin_v - reference.extent_v;
-  rectangle.high_v = reference.extent_v - origin_v;
+  rectangle.low_u = -plane.origin_u - f.reference.extent_u;
+  rectangle.high_u = f.reference.extent_u - plane.origin_u;
+  rectangle.low_v = -plane.origin_v - f.reference.extent_v;
+  rectangle.high_v = f.reference.extent_v - plane.origin_v;
+  return rectangle;
+}
+
+SHARED clip_face incident_face(face_pair f, face_plane plane)
+{
+  real zero = R(0.0);
   clip_face face;
-  face.center = make_vec3(choose(from_incident, zero, center.x), choose(from_incident, zero, center.y), center.z);
-  face.p = scale(in_face(reference, outward, incident.u), incident.extent_u);
-  face.q = scale(in_face(reference, outward, incident.v), incident.extent_v);
-  face.length_p = incident.extent_u;
-  face.length_q = incident.extent_v;
-  real slack = (extent_r + extent_i) * R(2e-6);
+  face.center = make_vec3(choose(plane.from_incident, zero, plane.center.x),
+                          choose(plane.from_incident, zero, plane.center.y), plane.center.z);
+  face.p = scale(in_face(f.reference, f.outward, f.incident.u), f.incident.extent_u);
+  face.q = scale(in_face(f.reference, f.outward, f.incident.v), f.incident.extent_v);
+  face.length_p = f.incident.extent_u;
+  face.length_q = f.incident.extent_v;
+  return face;
+}
 
-  clip_point candidate[CLIP_CANDIDATES], four[4];
-  clip_face_by_rectangle(candidate, face, rectangle, slack);
-  reduce_points(four, candidate, minimum(extent_r, extent_i), slack);
+SHARED natural code_of_faces(face_pair f)
+{
+  return bit_if(!f.a_is_reference, 1u) | (f.reference_axis << 2u) |
+         bit_if(inner(f.reference.axis, f.outward) < R(0.0), 4u) | (f.incident_axis << 5u) |
+         bit_if(f.facing < R(0.0), 7u);
+}
 
-  /* From plane coordinates to offsets from the centre of a. */
-  real base_u = choose(a_is_reference, origin_u, choose(from_incident, to_face.x, -offset.x));
-  real base_v = choose(a_is_reference, origin_v, choose(from_incident, to_face.y, -offset.y));
-  real base_n = choose(a_is_reference, reference.extent, to_face.z - center.z);
+/* From coordinates in the plane to offsets from the centre of a. */
+SHARED manifold manifold_of_faces(box_pair pair, face_pair f, face_plane plane, const clip_point *four)
+{
+  real base_u = choose(f.a_is_reference, plane.origin_u, choose(plane.from_incident, plane.to_face.x, -plane.offset.x));
+  real base_v = choose(f.a_is_reference, plane.origin_v, choose(plane.from_incident, plane.to_face.y, -plane.offset.y));
+  real base_n = choose(f.a_is_reference, f.reference.extent, plane.to_face.z - plane.center.z);
   manifold m;
   m.normal = pair.normal;
   m.impact_time = R(0.0);
   for (int slot = 0; slot < 4; ++slot) {
-    vec3 point = add_scaled(scale(reference.u, base_u + four[slot].u), reference.v, base_v + four[slot].v);
-    point = add_scaled(point, outward, base_n + four[slot].separation * R(0.5));
+    vec3 point = add_scaled(scale(f.reference.u, base_u + four[slot].u), f.reference.v, base_v + four[slot].v);
+    point = add_scaled(point, f.outward, base_n + four[slot].separation * R(0.5));
     m.point[slot] = extend(point, four[slot].separation);
     m.kept[slot] = four[slot].valid;
   }
-  m.code = bit_if(!a_is_reference, 1u) | (k << 2u) | bit_if(inner(reference.axis, outward) < zero, 4u) | (j << 5u) |
-           bit_if(facing < zero, 7u);
+  m.code = code_of_faces(f);
   return m;
+}
+
+SHARED manifold face_contacts(box_pair pair)
+{
+  face_pair faces = facing_faces(pair);
+  face_plane plane = plane_of_faces(pair, faces);
+  real slack = (plane.extent_r + plane.extent_i) * R(2e-6);
+  clip_point candidate[CLIP_CANDIDATES], four[4];
+  clip_face_by_rectangle(candidate, incident_face(faces, plane), reference_rectangle(faces, plane), slack);
+  reduce_points(four, candidate, minimum(plane.extent_r, plane.extent_i), slack);
+  return manifold_of_faces(pair, faces, plane, four);
 }
 
 /* Each kind of contact is computed only if some item of the group has it. none: without points, so those of the others

@@ -21,7 +21,7 @@
 #include "shared/narrowphase/convex.h"
 
 #define GJK_ROUNDS 48
-/* Rounds that may pass without v growing shorter. */
+/* So many rounds may pass without v growing shorter. */
 #define GJK_STALLS 4
 
 /* A point of a - b, and the point of b it came from. */
@@ -118,8 +118,9 @@ SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size
   return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
 }
 
-/* Of a triangle, or of the faces of a tetrahedron; squared < 0: that holds the origin. size: of its coordinates. Every
- * function here is called from one place, since compilers of devices copy it to each. */
+/* The nearest point of a triangle, or of the faces of a tetrahedron; squared < 0 where a tetrahedron holds the origin.
+ * size: of the coordinates. Every function here is called from one place, since compilers of devices copy a function to
+ * each of its calls. */
 SHARED nearest_point nearest_of_faces(const simplex *s, real size)
 {
   nearest_point best = nearest_of_vertex(s, 0);
@@ -141,7 +142,7 @@ SHARED nearest_point nearest_of_simplex(const simplex *s, real size)
   return s->count == 2 ? nearest_of_edge(s, 0, 1) : nearest_of_faces(s, size);
 }
 
-/* Only the points that carry the nearest point stay. */
+/* Drops the points of the simplex that do not carry the nearest point. */
 SHARED void keep_carriers(simplex *s, const nearest_point *near)
 {
   int kept = 0;
@@ -174,8 +175,8 @@ SHARED vec3 carried_point(const simplex *s)
   return point;
 }
 
-/* How well the gap is to be known: not at all beyond the limit; else but for a share of what the distance of the cores
- * exceeds their radii by. */
+/* How well the gap must be known. Beyond the limit, that it is beyond will do. Below, the error may be this share of
+ * what the distance of the cores exceeds their radii by. */
 typedef struct {
   real limit, share, radii;
 } gap_wanted;
@@ -186,68 +187,117 @@ SHARED gap_wanted whole_gap(real limit)
   return wanted;
 }
 
+/* The walk between two rounds. squared, of the last simplex, is the square of distance, or 0 before there is one. */
+typedef struct {
+  vec3 v; /* the nearest point of the simplex; at first, and after a restart, a direction */
+  real distance, squared;
+  int stalled; /* rounds so far in which v grew no shorter */
+  mask restarted;
+} gjk_walk;
+
+SHARED gjk_walk begin_walk(vec3 v)
+{
+  gjk_walk walk = {v, length_of(v), R(0.0), 0, 0};
+  if (walk.distance <= R(0.0)) {
+    walk.distance = R(1.0);
+    walk.v = make_vec3(R(1.0), R(0.0), R(0.0));
+  }
+  return walk;
+}
+
+SHARED difference_point difference_point_along(const convex *a, const convex *b, vec3 direction)
+{
+  difference_point point;
+  point.b = support_of(b, negate(direction));
+  point.w = subtract(support_of(a, direction), point.b);
+  return point;
+}
+
+/* The walk ends where both bounds agree as well as is wanted, where the gap is beyond the limit, and where the support
+ * is a point that the simplex has. */
+SHARED mask is_known_well(const simplex *s, gap_wanted wanted, real distance, real gap, vec3 w)
+{
+  if (s->count == 0) return 0;
+  real rounding = ROUNDING * (R(16.0) * distance + R(4.0) * size_of_simplex(s));
+  real unknown = wanted.share * maximum(distance - wanted.radii, R(0.0));
+  return distance - gap <= rounding + unknown || gap > wanted.limit || has_point(s, w);
+}
+
+enum { SIMPLEX_IS_NEARER, SIMPLEX_HOLDS_ORIGIN, SIMPLEX_IS_SLIVER };
+
+/* What the simplex has become by one more point. points: how many it had before; gap: the largest seen. */
+SHARED int judge_simplex(gjk_walk *walk, real near_squared, int points, real gap, real noise)
+{
+  /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has
+   * turned. */
+  if (near_squared <= noise * noise) return points > 0 && gap > noise ? SIMPLEX_IS_SLIVER : SIMPLEX_HOLDS_ORIGIN;
+  if (points == 0 || !(near_squared >= walk->squared)) return SIMPLEX_IS_NEARER;
+  /* A turn of v by a small angle shortens it by the square of that: rounding hides it, and the gap still grows. */
+  walk->stalled = walk->stalled + 1;
+  if (walk->stalled > GJK_STALLS || near_squared > walk->squared * (R(1.0) + R(32.0) * ROUNDING))
+    return SIMPLEX_IS_SLIVER;
+  return SIMPLEX_IS_NEARER;
+}
+
+/* A walk that a sliver ended starts once more, from the best direction so far. False where that would gain nothing. */
+SHARED mask restart_walk(gjk_walk *walk, simplex *s, const core_contact *best, int round, real size)
+{
+  if (walk->restarted || round + 4 > GJK_ROUNDS) return 0;
+  if (walk->distance - best->gap <= R(64.0) * ROUNDING * size) return 0;
+  walk->restarted = 1;
+  walk->stalled = s->count = 0;
+  walk->v = negate(best->normal);
+  walk->distance = R(1.0);
+  return 1;
+}
+
+SHARED void go_to_nearest(gjk_walk *walk, simplex *s, const nearest_point *near)
+{
+  keep_carriers(s, near);
+  walk->v = near->v;
+  walk->squared = near->squared;
+  walk->distance = square_root(near->squared);
+}
+
+/* One more point of the simplex; false where the walk ends. */
+SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int round, gjk_walk *walk,
+                       gjk_result *result)
+{
+  simplex *s = &result->last;
+  vec3 direction = scale(walk->v, R(-1.0) / walk->distance);
+  difference_point next = difference_point_along(a, b, direction);
+  real gap = -inner(next.w, direction);
+  if (gap > result->contact.gap) {
+    result->contact.gap = gap;
+    result->contact.normal = direction;
+  }
+  if (is_known_well(s, wanted, walk->distance, gap, next.w)) return 0;
+  simplex before = *s;
+  s->point[s->count] = next;
+  s->count = s->count + 1;
+  real size = size_of_simplex(s), noise = R(4.0) * ROUNDING * size;
+  nearest_point near = nearest_of_simplex(s, size);
+  int verdict = judge_simplex(walk, near.squared, before.count, result->contact.gap, noise);
+  result->overlapping = verdict == SIMPLEX_HOLDS_ORIGIN;
+  if (verdict == SIMPLEX_IS_NEARER) go_to_nearest(walk, s, &near);
+  if (verdict == SIMPLEX_IS_SLIVER) *s = before;
+  return verdict == SIMPLEX_IS_NEARER ||
+         (verdict == SIMPLEX_IS_SLIVER && restart_walk(walk, s, &result->contact, round, size));
+}
+
 /* v: a first guess of the way from b to a. */
 SHARED gjk_result closest_points_from(const convex *a, const convex *b, gap_wanted wanted, vec3 v)
 {
   gjk_result result;
-  simplex *s = &result.last;
-  s->count = 0;
+  result.last.count = 0;
   result.overlapping = 0;
-  real distance = length_of(v), squared = R(0.0);
-  if (distance <= R(0.0)) v = make_vec3(distance = R(1.0), R(0.0), R(0.0));
   result.contact.gap = R(-1e30);
-  int stalled = 0;
-  mask restarted = 0;
-  for (int round = 0; round < GJK_ROUNDS; ++round) {
-    vec3 direction = scale(v, R(-1.0) / distance);
-    difference_point next;
-    next.b = support_of(b, negate(direction));
-    next.w = subtract(support_of(a, direction), next.b);
-    real gap = -inner(next.w, direction);
-    if (gap > result.contact.gap) {
-      result.contact.gap = gap;
-      result.contact.normal = direction;
-    }
-    if (s->count > 0) {
-      real rounding = ROUNDING * (R(16.0) * distance + R(4.0) * size_of_simplex(s));
-      real unknown = wanted.share * maximum(distance - wanted.radii, R(0.0));
-      if (distance - gap <= rounding + unknown || gap > wanted.limit || has_point(s, next.w)) break;
-    }
-    simplex before = *s;
-    s->point[s->count] = next;
-    s->count = s->count + 1;
-    real size = size_of_simplex(s), noise = R(4.0) * ROUNDING * size;
-    nearest_point near = nearest_of_simplex(s, size);
-    /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has
-     * turned. */
-    mask holds = near.squared <= noise * noise, sliver = holds && before.count > 0 && result.contact.gap > noise;
-    if (holds && !sliver) {
-      result.overlapping = 1;
-      break;
-    }
-    /* A turn of v by a small angle shortens it by the square of that: rounding hides it, and the gap still grows. */
-    if (before.count > 0 && near.squared >= squared &&
-        (++stalled > GJK_STALLS || near.squared > squared * (R(1.0) + R(32.0) * ROUNDING)))
-      sliver = 1;
-    if (sliver) {
-      *s = before;
-      if (restarted || round + 4 > GJK_ROUNDS || distance - result.contact.gap <= R(64.0) * ROUNDING * size) break;
-      /* It led nowhere: once more, from the best direction so far. */
-      restarted = 1;
-      stalled = s->count = 0;
-      v = negate(result.contact.normal);
-      distance = R(1.0);
-      continue;
-    }
-    keep_carriers(s, &near);
-    v = near.v;
-    squared = near.squared;
-    distance = square_root(squared);
-  }
-  if (!result.overlapping) {
-    result.on_b = carried_point(s);
-    result.on_a = add(result.on_b, v);
-  }
+  gjk_walk walk = begin_walk(v);
+  for (int round = 0; round < GJK_ROUNDS; ++round)
+    if (!walk_round(a, b, wanted, round, &walk, &result)) break;
+  if (result.overlapping) return result;
+  result.on_b = carried_point(&result.last);
+  result.on_a = add(result.on_b, walk.v);
   return result;
 }
 SHARED gjk_result closest_points(const convex *a, const convex *b, real limit)

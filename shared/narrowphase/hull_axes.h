@@ -271,19 +271,42 @@ SHARED hull_axis axis_of_face(const face_search *s, const convex *shape, uint ki
   return axis;
 }
 
+SHARED hull_axis axis_between_centers(const convex *a, const convex *b)
+{
+  vec3 between = subtract(b->center, a->center);
+  real distance = length_of(between);
+  hull_axis axis;
+  axis.contact.normal = distance > R(0.0) ? scale(between, R(1.0) / distance) : make_vec3(R(0.0), R(1.0), R(0.0));
+  axis.kind = AXIS_OF_EDGES;
+  axis.feature_a = axis.feature_b = 0u;
+  return axis;
+}
+
+/* The best axis of two edges, if it leads by more than `lead`; `best` otherwise. */
+SHARED hull_axis better_edges(hull_axis best, const convex *a, const face_search *faces_a, const convex *b,
+                              const face_search *faces_b, real lead)
+{
+  real least = best.contact.gap + lead, surely = minimum(least, R(0.0));
+  edge_list list_a, list_b;
+  list_edges(&list_a, faces_a, a, surely);
+  if (list_a.count == 0u) return best;
+  list_edges(&list_b, faces_b, b, surely);
+  if (list_b.count == 0u) return best;
+  hull_axis none = best;
+  none.contact.gap = R(-1e30);
+  hull_axis edges =
+      best_edges(none, a, &list_a, b, &list_b, R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)));
+  return edges.contact.gap > least ? edges : best;
+}
+
 /* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. limit: a gap beyond
  * it need not be the largest. Where a face shows the two to be apart edges are not tried: the closest points are then
  * wanted. */
 SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lead, real limit)
 {
-  vec3 between = subtract(b->center, a->center);
-  real distance = length_of(between);
-  hull_axis best;
-  best.contact.normal = distance > R(0.0) ? scale(between, R(1.0) / distance) : make_vec3(R(0.0), R(1.0), R(0.0));
+  hull_axis best = axis_between_centers(a, b);
   vec3 of_a = support_of(a, best.contact.normal), of_b = support_of(b, negate(best.contact.normal));
   best.contact.gap = inner(subtract(of_b, of_a), best.contact.normal);
-  best.kind = AXIS_OF_EDGES;
-  best.feature_a = best.feature_b = 0u;
   if (best.contact.gap > limit) return best;
 
   face_search faces_a, faces_b;
@@ -299,19 +322,7 @@ SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lea
               point_of_shape(a, corner_of_face(a, faces_a.face, k * corners_of_face(a, faces_a.face) / 3u)));
   search_faces(&faces_b, b, a, faces_a.gap + lead, limit);
   if (faces_b.gap > faces_a.gap + lead) best = axis_of_face(&faces_b, b, AXIS_OF_FACE_B);
-
-  if (best.contact.gap > R(0.0)) return best;
-  real least = best.contact.gap + lead, surely = minimum(least, R(0.0));
-  edge_list list_a, list_b;
-  list_edges(&list_a, &faces_a, a, surely);
-  if (list_a.count == 0u) return best;
-  list_edges(&list_b, &faces_b, b, surely);
-  if (list_b.count == 0u) return best;
-  hull_axis none = best;
-  none.contact.gap = R(-1e30);
-  hull_axis edges =
-      best_edges(none, a, &list_a, b, &list_b, R(2.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)));
-  return edges.contact.gap > least ? edges : best;
+  return best.contact.gap > R(0.0) ? best : better_edges(best, a, &faces_a, b, &faces_b, lead);
 }
 
 #endif

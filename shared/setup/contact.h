@@ -69,8 +69,8 @@ SHARED real inverse_or_zero(real x)
   return choose(x > R(0.0), R(1.0) / choose(x > R(0.0), x, (real)R(1.0)), (real)R(0.0));
 }
 
-/* One mass for every direction of the tangent plane: the smallest, so that the cone can be projected as a
- * circle and the iteration contracts. 1 / largest eigenvalue of the 2 x 2 response. */
+/* One mass serves every direction of the tangent plane. It is the smallest, 1 / the largest eigenvalue of the 2 x 2
+ * response, so that the cone can be projected as a circle and the iteration contracts. */
 SHARED real friction_mass(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 normal)
 {
   tangents t = tangents_of(normal);
@@ -135,7 +135,7 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row 
   return (b - a) * inner(gravity_of(parameters), normal);
 }
 
-/* What constraint_normal keeps beside the normal: below 0 where arms do not follow the bodies. */
+/* constraint_normal keeps friction beside the normal, as a number below 0 where arms do not follow the bodies. */
 SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
 
@@ -160,7 +160,7 @@ SHARED mask bears_weight(vec3 gravity, vec3 normal)
   return along * along > WEIGHTLESS * length_squared(gravity);
 }
 
-/* What two bodies have slid past each other moves their arms. */
+/* By how much the arms of two bodies move as these slide past each other. */
 typedef struct {
   vec3 a, b;
 } arm_shift;
@@ -229,6 +229,130 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
   return parameters->push_speed * choose(slop_or_deep < R(0.0), (real)DEEP_PUSH, (real)R(1.0));
 }
 
+/* A pair of bodies as its constraint is set up. Of bodies that meet within the step arms and masses are those of that
+ * moment. What is stored is such that the solver's shift of arms brings them there by then, or those themselves where
+ * arms do not follow: arms_back leads from the former to what is stored. */
+typedef struct {
+  natural pair, points, feature;
+  body_pair bodies;
+  vec3 normal;
+  surface between;
+  real size, pull;
+  mask arms_stay;
+  arm_shift arms_back;
+} contact_setup;
+
+/* Balls that are children of a compound turn with it, so their arms follow. */
+SHARED mask one_is_driven_ball(body_pair bodies, natural shape_a, natural shape_b, natural traits_a, natural traits_b)
+{
+  return ((shape_a == bodies.a) & is_driven_ball(traits_a, bodies.motion_a)) |
+         ((shape_b == bodies.b) & is_driven_ball(traits_b, bodies.motion_b));
+}
+
+SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL const row *material,
+                                 read_touching_bodies touching, read_part_pairs part_pairs, read_manifolds manifolds,
+                                 natural pair)
+{
+  contact_setup s;
+  s.pair = pair;
+  s.points = load_natural(manifolds.count, pair);
+  s.feature = load_natural(manifolds.feature, pair);
+  s.bodies = load_body_pair(part_pairs.a, part_pairs.b, touching.position, touching.velocity, touching.inertia, pair);
+  s.size = size_between(touching.shape, s.bodies.a, s.bodies.b);
+  natural shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
+          shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, s.bodies.b);
+  natural traits_a = load_natural(touching.traits, shape_a), traits_b = load_natural(touching.traits, shape_b);
+  s.between = surface_between(material, material_of(traits_a), material_of(traits_b));
+  vec4 manifold = load_row(manifolds.normal, pair);
+  s.normal = xyz(manifold);
+  s.pull = relative_pull(parameters, touching.mass, s.bodies, s.normal);
+  vec3 passing = subtract(s.bodies.motion_b.linear, s.bodies.motion_a.linear);
+  s.arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * s.size) |
+                one_is_driven_ball(s.bodies, shape_a, shape_b, traits_a, traits_b);
+  vec3 slid = scale(passing, moment_of(manifold.w)), none = make_vec3(R(0.0), R(0.0), R(0.0));
+  s.bodies.offset = add(s.bodies.offset, slid);
+  s.arms_back = shift_of_arms(s.bodies.motion_a, s.bodies.motion_b, choose3(s.arms_stay, none, negate(slid)));
+  return s;
+}
+
+/* The impulses of the same pair in the last step. */
+typedef struct {
+  mask is_cached;
+  natural feature;
+  vec4 normal, friction;
+} old_impulses;
+
+SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, natural cached)
+{
+  mask is_cached = cached != (natural)INDEX_NONE;
+  natural from = choose(is_cached, cached, (natural)0u);
+  old_impulses old = {is_cached, load_natural(cached_contacts.feature, from),
+                      load_row(cached_contacts.normal_impulse, from), load_row(cached_contacts.friction_impulse, from)};
+  return old;
+}
+
+/* What the points of a manifold start with. near: whether one of them may close within the step. */
+typedef struct {
+  real impulse[4], wished[4], deepest;
+  mask near;
+} points_setup;
+
+SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
+                          vec4 point, uint k, uint stride, points_setup *points, GLOBAL row *constraint_points,
+                          item_index i)
+{
+  mask used = s->points > (natural)k;
+  vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset);
+  real mass = choose(used, inverse_or_zero(response(s->bodies, arm_a, arm_b, s->normal, s->normal)), (real)R(0.0));
+  real speed = inner(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
+  store_row(constraint_points, stride * k + i, extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));
+  store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, s->arms_back.b), mass));
+  points->impulse[k] =
+      choose(used & old->is_cached, cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
+  points->wished[k] =
+      choose(used, wished_speed(parameters, s->between.restitution, speed, s->pull, point.w), (real)R(-1.0));
+  points->deepest = choose(used, minimum(points->deepest, point.w), points->deepest);
+  points->near = points->near | (used & (point.w <= farthest_closed(parameters, speed, s->pull)));
+}
+
+/* A body that a contact bears does not fall. */
+SHARED void mark_borne(GLOBAL const Parameters *parameters, const contact_setup *s, mask near, GLOBAL uint *body_falls)
+{
+  mask bears = near & bears_weight(gravity_of(parameters), s->normal);
+  atomic_clear_if(bears & (s->bodies.motion_a.inverse_mass > R(0.0)), body_falls, s->bodies.a);
+  atomic_clear_if(bears & (s->bodies.motion_b.inverse_mass > R(0.0)), body_falls, s->bodies.b);
+}
+
+SHARED real friction_between(const contact_setup *s, vec3 center_a, vec3 center_b)
+{
+  vec3 slide = relative_velocity(s->bodies, center_a, center_b);
+  slide = add_scaled(slide, s->normal, -inner(slide, s->normal));
+  return choose(length_of(slide) < STICKING_SPEED, s->between.static_friction, s->between.dynamic_friction);
+}
+
+/* The impulse of the last step, along the tangents of now. */
+SHARED vec4 kept_friction(const old_impulses *old, vec3 normal, real radius)
+{
+  tangents t = tangents_of(normal);
+  real kept = choose(old->is_cached, (real)R(1.0), (real)R(0.0));
+  return make_vec4(kept * inner(xyz(old->friction), t.first), kept * inner(xyz(old->friction), t.second),
+                   kept * old->friction.w, radius);
+}
+
+SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
+                             GLOBAL const row *manifold_points, uint stride, write_constraints constraints,
+                             item_index i)
+{
+  friction_patch patch = patch_of(manifold_points, s->pair, stride, s->points, parameters->speculative_distance);
+  vec3 center_a = patch.center, center_b = subtract(center_a, s->bodies.offset);
+  real friction = friction_between(s, center_a, center_b);
+  store_row(constraints.normal, i, extend(s->normal, packed_friction(friction, s->arms_stay)));
+  store_row(constraints.center, i,
+            extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
+  store_row(constraints.center, stride + i, extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
+  store_row(constraints.friction_impulse, i, kept_friction(old, s->normal, patch.radius));
+}
+
 SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material,
                                   read_touching_bodies touching_bodies, read_part_pairs part_pairs,
                                   GLOBAL const uint *pair_cached, read_manifolds manifolds,
@@ -236,78 +360,27 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                                   GLOBAL const uint *counts, write_constraints constraints, GLOBAL uint *body_falls,
                                   item_index i)
 {
-  natural pair = load_natural(sort_value, i);
   uint stride = counts[CAPACITY_PAIRS];
-  body_pair bodies = load_body_pair(part_pairs.a, part_pairs.b, touching_bodies.position, touching_bodies.velocity,
-                                    touching_bodies.inertia, pair);
-  vec4 manifold = load_row(manifolds.normal, pair);
-  vec3 normal = xyz(manifold);
-  /* Of bodies that meet within the step arms and masses are those of that moment. What is stored is such that the
-   * solver's shift of arms brings them there by then, or those themselves where arms do not follow. */
-  vec3 passing = subtract(bodies.motion_b.linear, bodies.motion_a.linear), slid = scale(passing, moment_of(manifold.w));
-  real size = size_between(touching_bodies.shape, bodies.a, bodies.b);
-  natural shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, bodies.a),
-          shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, bodies.b);
-  natural traits_a = load_natural(touching_bodies.traits, shape_a),
-          traits_b = load_natural(touching_bodies.traits, shape_b);
-  surface between = surface_between(material, material_of(traits_a), material_of(traits_b));
-  mask arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * size) |
-                   ((shape_a == bodies.a) & is_driven_ball(traits_a, bodies.motion_a)) |
-                   ((shape_b == bodies.b) & is_driven_ball(traits_b, bodies.motion_b));
-  bodies.offset = add(bodies.offset, slid);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  arm_shift back = shift_of_arms(bodies.motion_a, bodies.motion_b, choose3(arms_stay, none, negate(slid)));
-  natural points = load_natural(manifolds.count, pair), feature = load_natural(manifolds.feature, pair);
-  real pull = relative_pull(parameters, touching_bodies.mass, bodies, normal);
-
-  natural cached = load_natural(pair_cached, pair);
-  mask is_cached = cached != (natural)INDEX_NONE;
-  natural from = choose(is_cached, cached, (natural)0u);
-  natural old_feature = load_natural(cached_contacts.feature, from);
-  vec4 old = load_row(cached_contacts.normal_impulse, from),
-       old_friction = load_row(cached_contacts.friction_impulse, from);
-
-  real impulse[4], wished[4], deepest = R(0.0);
-  mask near = bodies.a == bodies.b; /* none yet */
-  for (uint k = 0; k < 4u; ++k) {
-    vec4 point = load_row(manifolds.points, stride * k + pair);
-    mask used = points > (natural)k;
-    vec3 arm_a = xyz(point), arm_b = subtract(arm_a, bodies.offset);
-    real mass = choose(used, inverse_or_zero(response(bodies, arm_a, arm_b, normal, normal)), (real)R(0.0));
-    store_row(constraints.points, stride * k + i, extend(add(arm_a, back.a), choose(used, point.w, (real)R(0.0))));
-    deepest = choose(used, minimum(deepest, point.w), deepest);
-    store_row(constraints.points, stride * (k + 4u) + i, extend(add(arm_b, back.b), mass));
-    impulse[k] = choose(used & is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0));
-    real speed = inner(normal, relative_velocity(bodies, arm_a, arm_b));
-    wished[k] = choose(used, wished_speed(parameters, between.restitution, speed, pull, point.w), (real)R(-1.0));
-    near = near | (used & (point.w <= farthest_closed(parameters, speed, pull)));
-  }
-  near = near & bears_weight(gravity_of(parameters), normal);
-  atomic_clear_if(near & (bodies.motion_a.inverse_mass > R(0.0)), body_falls, bodies.a);
-  atomic_clear_if(near & (bodies.motion_b.inverse_mass > R(0.0)), body_falls, bodies.b);
-
-  friction_patch patch = patch_of(manifolds.points, pair, stride, points, parameters->speculative_distance);
-  vec3 center = patch.center;
-  vec3 center_b = subtract(center, bodies.offset);
-  vec3 slide = relative_velocity(bodies, center, center_b);
-  slide = add_scaled(slide, normal, -inner(slide, normal));
-  real friction = choose(length_of(slide) < STICKING_SPEED, between.static_friction, between.dynamic_friction);
+  natural pair = load_natural(sort_value, i);
+  contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, pair);
+  old_impulses old = load_old_impulses(cached_contacts, load_natural(pair_cached, pair));
+  points_setup points;
+  points.deepest = R(0.0);
+  points.near = s.bodies.a == s.bodies.b; /* none yet */
+  for (uint k = 0; k < 4u; ++k)
+    prepare_point(parameters, &s, &old, load_row(manifolds.points, stride * k + pair), k, stride, &points,
+                  constraints.points, i);
+  mark_borne(parameters, &s, points.near, body_falls);
+  prepare_friction(parameters, &s, &old, manifolds.points, stride, constraints, i);
 
   store_natural(constraints.pair, i, pair);
-  store_natural(constraints.a, i, bodies.a);
-  store_natural(constraints.b, i, bodies.b);
-  store_row(constraints.normal, i, extend(normal, packed_friction(friction, arms_stay)));
-  store_row(constraints.center, i, extend(add(center, back.a), friction_mass(bodies, center, center_b, normal)));
-  store_row(constraints.center, stride + i, extend(add(center_b, back.b), twist_mass(bodies, normal)));
-  store_row(constraints.normal_impulse, i, make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]));
-  tangents t = tangents_of(normal);
-  real kept = choose(is_cached, (real)R(1.0), (real)R(0.0));
-  store_row(constraints.friction_impulse, i,
-            make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second),
-                      kept * old_friction.w, patch.radius));
-  store_real(constraints.slop, i, slop_or_deep(parameters, size, deepest));
+  store_natural(constraints.a, i, s.bodies.a);
+  store_natural(constraints.b, i, s.bodies.b);
+  store_row(constraints.normal_impulse, i,
+            make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
+  store_real(constraints.slop, i, slop_or_deep(parameters, s.size, points.deepest));
   if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
-    store_row(constraints.bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
+    store_row(constraints.bounce, i, make_vec4(points.wished[0], points.wished[1], points.wished[2], points.wished[3]));
     store_row(constraints.bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }
 }

@@ -350,6 +350,13 @@ SHARED vec4 highest_impulses(vec4 highest, vec4 pressed)
                    maximum(highest.w, pressed.w));
 }
 
+SHARED void keep_highest_impulses(GLOBAL const Parameters *parameters, GLOBAL row *constraint_bounce, uint stride,
+                                  vec4 pressed, item_index i)
+{
+  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+}
+
 /* After the pass that all contacts get. Everything is loaded once more: few contacts are those of an impact, and the
  * others pay for no register of it. */
 SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
@@ -409,9 +416,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   c = press_once(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
   vec4 pressed = impulses_of(&s);
   store_row(contact_impulses.normal, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(contact_impulses.bounce, stride + i,
-              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
+  keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
   store_contact_motion(solver_velocity, c);
   mask at_impact = c.follows == R(0.0);
   if (pass == PASS_RELAXING)

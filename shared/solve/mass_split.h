@@ -47,7 +47,7 @@ SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
   return r;
 }
 
-/* The two bodies as their parts. */
+/* Makes the two bodies of a contact their parts. */
 SHARED contact split_contact(contact c, real parts_a, real parts_b)
 {
   c.motion_a.inverse_mass = c.motion_a.inverse_mass * parts_a;
@@ -57,7 +57,7 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
   return c;
 }
 
-/* Effective masses between parts, and how many parts there are; once a step. */
+/* Once a step: the effective masses between parts, and how many parts there are. */
 SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const row *solver_velocity,
                               GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start,
                               GLOBAL const uint *split_supports, GLOBAL const uint *counts, GLOBAL row *split_mass,
@@ -96,7 +96,7 @@ SHARED void store_wrench(GLOBAL row *split_impulse, uint stride, item_index i, w
   store_row(split_impulse, stride * 2u + i, extend(w.turn_b, R(0.0)));
 }
 
-/* What friction does about the centre: sliding along the tangents and twist about the normal. */
+/* Friction acts at the centre: a slide along the tangents and a twist about the normal. */
 SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real first, real second, real twist)
 {
   tangents t = tangents_of(normal);
@@ -164,6 +164,83 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
                    maximum(now.w + share * (now.w - before.w), R(0.0)));
 }
 
+/* A contact between parts, as an iteration finds it. momentum: of split_solve_item. */
+typedef struct {
+  contact c;
+  drift moved;
+  arm_shift shift;
+  vec4 point_masses;
+  real friction_mass, twist_mass;
+  uint momentum;
+} split_row;
+
+SHARED split_row load_split_row(read_contacts contacts, GLOBAL const row *split_mass, read_solver_bodies solver_bodies,
+                                uint stride, uint momentum, item_index i)
+{
+  split_row r;
+  vec4 other = load_row(split_mass, stride + i);
+  r.c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
+  r.moved = load_drift(solver_bodies.delta, r.c);
+  r.shift = shift_of_contact(r.c, r.moved.translation);
+  r.point_masses = load_row(split_mass, i);
+  r.friction_mass = other.x;
+  r.twist_mass = other.y;
+  r.momentum = momentum;
+  return r;
+}
+
+SHARED real share_of_momentum(uint momentum) { return (real)momentum / ((real)momentum + R(3.0)); }
+
+/* Solves friction of the rough rows, and gives what it does to the bodies beyond the impulse before. */
+SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, uint stride, real pressure,
+                                   GLOBAL row *friction_impulse, GLOBAL row *rubbed, item_index i)
+{
+  vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
+  vec4 old = load_row(friction_impulse, i);
+  mask stale = masses_are_stale(r->moved, r->shift, center_a, center_b);
+  solved sliding = solve_friction(r->c, stale, r->shift, extend(xyz(center_a), r->friction_mass),
+                                  extend(xyz(center_b), r->twist_mass), old, pressure);
+  r->c = with_motion_if(rough, r->c, sliding.c);
+  vec4 next = sliding.impulse;
+  if (r->momentum != 0u) next = extrapolated(next, load_row(rubbed, i), share_of_momentum(r->momentum));
+  store_row_if(rough, rubbed, i, sliding.impulse);
+  store_row_if(rough, friction_impulse, i, next);
+  return friction_wrench(r->c.normal, add(xyz(center_a), r->shift.a), add(xyz(center_b), r->shift.b), next.x - old.x,
+                         next.y - old.y, next.z - old.z);
+}
+
+/* Presses the points together, each towards the impulse that it wishes by itself. */
+SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r, support *s, read_patches patches,
+                               uint stride, uint biased, item_index i)
+{
+  softness soft = softness_of(parameters, r->c);
+  real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = inner(r->c.normal, r->moved.translation);
+  real wished[4];
+  for (uint k = 0; k < 4u; ++k) {
+    real started = load_row(patches.points, stride * k + i).w,
+         whole = load_row(patches.points, stride * (k + 4u) + i).w;
+    real separation =
+        started + closed + (inner(s->turn_b[k], r->moved.rotation_b) - inner(s->turn_a[k], r->moved.rotation_a));
+    real speed = speed_along(r->c, r->c.normal, s->turn_a[k], s->turn_b[k]);
+    soft.impulse_scale =
+        leak * (s->mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
+    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
+  }
+  r->c = press_together(r->c, s, wished);
+}
+
+/* The normal impulses that the next iteration starts from. */
+SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 pressed, uint momentum, uint stride,
+                                write_contact_impulses contact_impulses, GLOBAL row *pushed, item_index i)
+{
+  vec4 next = pressed;
+  if (momentum != 0u) next = extrapolated_push(pressed, load_row(pushed, i), share_of_momentum(momentum));
+  store_row(pushed, i, pressed);
+  store_row(contact_impulses.normal, i, next);
+  keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
+  return next;
+}
+
 /* momentum: the number of the iteration, from 0, and 0 again for the last, which shall end within the cones. Iterations
  * before go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to
  * Accelerate Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above,
@@ -173,54 +250,20 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
                              write_contact_impulses contact_impulses, write_iterates iterates,
                              GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
 {
-  real share = (real)momentum / ((real)momentum + R(3.0));
   uint stride = counts[CAPACITY_PAIRS];
-  vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
-  contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
+  split_row r = load_split_row(contacts, split_mass, solver_bodies, stride, momentum, i);
   vec4 impulses = load_row(contact_impulses.normal, i);
-  drift moved = load_drift(solver_bodies.delta, c);
-  arm_shift shift = shift_of_contact(c, moved.translation);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
-  mask rough = c.friction > R(0.0);
+  mask rough = r.c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
-    vec4 old = load_row(contact_impulses.friction, i);
-    mask stale = masses_are_stale(moved, shift, center_a, center_b);
-    solved sliding =
-        solve_friction(c, stale, shift, extend(xyz(center_a), other.x), extend(xyz(center_b), other.y), old, pressure);
-    c = with_motion_if(rough, c, sliding.c);
-    vec4 next = sliding.impulse;
-    if (momentum != 0u) next = extrapolated(next, load_row(iterates.rubbed, i), share);
-    store_row_if(rough, iterates.rubbed, i, sliding.impulse);
-    store_row_if(rough, contact_impulses.friction, i, next);
-    rubbed = friction_wrench(c.normal, add(xyz(center_a), shift.a), add(xyz(center_b), shift.b), next.x - old.x,
-                             next.y - old.y, next.z - old.z);
+    rubbed = solve_split_friction(&r, rough, patches, stride, pressure, contact_impulses.friction, iterates.rubbed, i);
   }
-
-  softness soft = softness_of(parameters, c);
-  real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = inner(c.normal, moved.translation);
-  support s = load_split_support(patches.points, stride, c, shift, impulses, masses, i);
-  real wished[4];
-  for (uint k = 0; k < 4u; ++k) {
-    real started = load_row(patches.points, stride * k + i).w,
-         whole = load_row(patches.points, stride * (k + 4u) + i).w;
-    real separation = started + closed + (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
-    real speed = speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]);
-    soft.impulse_scale =
-        leak * (s.mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
-    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s.mass[k], s.impulse[k], biased);
-  }
-  c = press_together(c, &s, wished);
-  vec4 pressed = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]), next = pressed;
-  if (momentum != 0u) next = extrapolated_push(pressed, load_row(iterates.pushed, i), share);
-  store_row(iterates.pushed, i, pressed);
-  store_row(contact_impulses.normal, i, next);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(contact_impulses.bounce, stride + i,
-              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
-  wrench given = wrench_of_points(c, &s, impulses, next);
+  support s = load_split_support(patches.points, stride, r.c, r.shift, impulses, r.point_masses, i);
+  press_split_points(parameters, &r, &s, patches, stride, biased, i);
+  vec4 next = keep_split_impulses(parameters, impulses_of(&s), momentum, stride, contact_impulses, iterates.pushed, i);
+  wrench given = wrench_of_points(r.c, &s, impulses, next);
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 

@@ -87,6 +87,33 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
   store_row(constraint_slip, i, choose4(touched, extend(along, slip.w), none));
 }
 
+/* Presses the points together, each by what its position lacks. */
+SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, support *s, drift moved,
+                          GLOBAL const row *constraint_points, uint stride, item_index i)
+{
+  real closed = inner(c.normal, moved.translation), wished[4];
+  for (uint k = 0; k < 4u; ++k) {
+    real separation = load_row(constraint_points, stride * k + i).w + closed +
+                      (inner(s->turn_b[k], moved.rotation_b) - inner(s->turn_a[k], moved.rotation_a));
+    real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
+    real speed = speed_along(c, c.normal, s->turn_a[k], s->turn_b[k]);
+    wished[k] = maximum(s->impulse[k] - s->mass[k] * (wanted + speed), R(0.0));
+  }
+  return press_together(c, s, wished);
+}
+
+/* Friction undoes what slides now and what has slipped before. friction: its impulse so far. */
+SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, drift moved, arm_shift shift,
+                        read_patches patches, uint stride, vec4 slip_before, real limit, vec4 friction, item_index i)
+{
+  vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
+  vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
+  slipped slip = slip_since(slip_before, c, moved, arm_a, arm_b, parameters->inverse_substep);
+  solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
+  vec3 slide = add(slide_between(held.c, arm_a, arm_b), slip.slide);
+  return xpbd_slide(held.c, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
+}
+
 /* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
 SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                 GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia,
@@ -105,30 +132,14 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   support s = load_support(patches.points, stride, c, shift, impulses, i);
-  real closed = inner(c.normal, moved.translation);
-  real wished[4];
-  for (uint k = 0; k < 4u; ++k) {
-    real separation = load_row(patches.points, stride * k + i).w + closed +
-                      (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
-    real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
-    wished[k] =
-        maximum(s.impulse[k] - s.mass[k] * (wanted + speed_along(c, c.normal, s.turn_a[k], s.turn_b[k])), R(0.0));
-  }
-  c = press_together(c, &s, wished);
+  c = xpbd_press(parameters, c, &s, moved, patches.points, stride, i);
   vec4 pressed = impulses_of(&s);
   store_row(contact_impulses.normal, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
-    store_row(contact_impulses.bounce, stride + i,
-              highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
+  keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
-    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
-    vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
-    real limit = limit_of(c, pressed);
-    slipped slip = slip_since(load_row(constraint_slip, i), c, moved, arm_a, arm_b, parameters->inverse_substep);
-    solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
-    held = xpbd_slide(held.c, add(slide_between(held.c, arm_a, arm_b), slip.slide), arm_a, arm_b, center_a.w, limit,
-                      held.impulse);
+    solved held = xpbd_hold(parameters, c, moved, shift, patches, stride, load_row(constraint_slip, i),
+                            limit_of(c, pressed), friction, i);
     c = with_motion_if(rough, c, held.c);
     store_row_if(rough, contact_impulses.friction, i, held.impulse);
   }
