@@ -15,8 +15,8 @@
 #include <tbb/info.h>
 
 #include "tests/heap/attempt.h"
-#include "tests/host/runtime/fault_scenes.h"
-#include "tools/parallel.h"
+#include "tests/host/runtime/interface/fault_scenes.h"
+#include "tools/command/parallel.h"
 
 using namespace tandem;
 using namespace tandem::fault_scenes;
