@@ -80,7 +80,7 @@ list(FILTER verify_sources INCLUDE REGEX "/host/verify/")
 set(physics_sources ${HOST_SOURCES} ${MINICL_SOURCES})
 list(REMOVE_ITEM physics_sources ${io_sources} ${verify_sources})
 if(NOT TANDEM_BUILD_COMMAND) # what only the command writes
-  list(FILTER io_sources EXCLUDE REGEX "/(animation|animation_geometry|contact_problem_file)[.]cpp$")
+  list(FILTER io_sources EXCLUDE REGEX "/io/(glb|contact_problem)/")
 endif()
 # No double becomes a float unseen (host/include/tandem/round_to_float.h).
 if(NOT TANDEM_JOIN_SOURCES) # sources with options of their own are not joined

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "host/io/contact_problem_file.h"
+#include "host/io/contact_problem/file.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 

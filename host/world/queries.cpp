@@ -162,7 +162,8 @@ float radius_of(const Shape &shape)
 /* What a scene would refuse, a sweep refuses: as a body that need not have a mass. */
 void check_swept_shape(const Shape &shape)
 {
-  if (shape.type == ShapeType::half_space || shape.type >= ShapeType::mesh)
+  const ShapeType type = shape.type;
+  if (type == ShapeType::half_space || type == ShapeType::mesh || type == ShapeType::compound)
     throw InputError(
         "sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
   Scene scene;

@@ -15,13 +15,13 @@
 #include <unistd.h>
 
 #include "tests/heap/attempt.h"
-#include "tests/tools/command_line.h"
-#include "tools/failed_allocation.h"
+#include "tests/tools/command/command_line.h"
+#include "tools/command/failed_allocation.h"
 
-int command_main(int count, char **arguments); /* tools/main.cpp, whose main() is renamed for this program */
+int command_main(int count, char **arguments); /* tools/command/main.cpp, whose main() is renamed for this program */
 
 namespace tandem {
-/* tools/failed_allocation.cpp has operators of its own. */
+/* tools/command/failed_allocation.cpp has operators of its own. */
 std::string failed_allocation() { return {}; }
 size_t failed_allocation_bytes() { return 0; }
 } // namespace tandem

@@ -7,14 +7,14 @@
 #include <tandem/world.h>
 
 #include "host/catalog/catalog.h"
-#include "host/io/animation.h"
-#include "host/io/contact_problem_file.h"
+#include "host/io/contact_problem/file.h"
+#include "host/io/glb/animation.h"
 #include "host/io/json/scene.h"
 #include "tests/heap/attempt.h"
 #include "tests/host/io/gltf/gltf_text.h"
-#include "tests/tools/command_line.h"
-#include "tools/event_file.h"
-#include "tools/image.h"
+#include "tests/tools/command/command_line.h"
+#include "tools/plot/image.h"
+#include "tools/run/event_file.h"
 
 using namespace tandem;
 using namespace tests::heap;

@@ -15,9 +15,9 @@
 #include <tbb/info.h>
 
 #include "tests/heap/attempt.h"
-#include "tests/host/runtime/fault_scenes.h"
+#include "tests/host/runtime/interface/fault_scenes.h"
 #include "tests/host/runtime/opencl/opencl_device.h"
-#include "tools/parallel.h"
+#include "tools/command/parallel.h"
 
 using namespace tandem;
 using namespace tandem::fault_scenes;

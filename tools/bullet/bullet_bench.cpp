@@ -19,11 +19,11 @@
 
 #include "host/catalog/catalog.h"
 #include "host/runtime/make_backend.h"
-#include "tools/broadphase_frames.h"
-#include "tools/measure.h"
-#include "tools/output.h"
-#include "tools/progress.h"
-#include "tools/scene_options.h"
+#include "tools/bench/broadphase_frames.h"
+#include "tools/command/measure.h"
+#include "tools/command/output.h"
+#include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
 
 namespace tandem {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "host/catalog/catalog.h"
 #include "host/runtime/make_backend.h"
-#include "tools/parallel.h"
-#include "tools/progress.h"
+#include "tools/command/parallel.h"
+#include "tools/command/progress.h"
 #include "tools/report/contact_curves.h"
 #include "tools/report/estimate.h"
 

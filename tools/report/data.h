@@ -1,7 +1,7 @@
 /* data.h - a report as CSV and JSON: the same runs, one row or object each. */
 #pragma once
 
-#include "tools/output.h"
+#include "tools/command/output.h"
 #include "tools/report/collect.h"
 
 namespace tandem {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/measure.h"
+#include "tools/command/measure.h"
 
 namespace tandem {
 namespace {

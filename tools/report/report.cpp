@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "host/io/contact_problem_file.h"
+#include "host/io/contact_problem/file.h"
 #include "host/runtime/backend_list.h"
-#include "tools/command.h"
-#include "tools/output.h"
+#include "tools/command/command.h"
+#include "tools/command/output.h"
 #include "tools/report/contact_curves.h"
 #include "tools/report/data.h"
 #include "tools/report/report_page.h"

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "tools/output.h"
-#include "tools/page.h"
+#include "tools/command/output.h"
+#include "tools/plot/page.h"
 
 namespace tandem {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "host/catalog/closed_forms.h"
-#include "tools/parallel.h"
+#include "tools/command/parallel.h"
 
 namespace tandem {
 namespace {

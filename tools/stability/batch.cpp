@@ -5,8 +5,8 @@
 #include <mutex>
 #include <numeric>
 
-#include "tools/parallel.h"
-#include "tools/progress.h"
+#include "tools/command/parallel.h"
+#include "tools/command/progress.h"
 
 namespace tandem::stability {
 namespace {

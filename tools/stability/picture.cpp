@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host/io/animation_geometry.h"
+#include "host/io/glb/geometry.h"
 #include "tools/stability/figures.h"
 
 namespace tandem::stability {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/page.h"
+#include "tools/plot/page.h"
 #include "tools/stability/counts.h"
 #include "tools/stability/picture.h"
 

@@ -1,7 +1,7 @@
 /* results.h - what a run of the cases found, and its JSON and page. */
 #pragma once
 
-#include "tools/output.h"
+#include "tools/command/output.h"
 #include "tools/stability/trial.h"
 
 namespace tandem::stability {

@@ -6,7 +6,7 @@
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
 #include "host/io/json/numbers.h"
-#include "host/io/obj.h"
+#include "host/io/obj/mesh.h"
 
 namespace tandem {
 namespace {

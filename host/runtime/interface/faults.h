@@ -2,8 +2,8 @@
  * move of bytes.
  *
  * After the out-of-memory tests of SQLite. Each place asks strikes() before it does its work, and fails as if the
- * machine had refused; tests/host/runtime/faults_test.cpp lets them fail one by one. Without a hook that is one look at
- * a pointer.
+ * machine had refused; tests/host/runtime/interface/faults_test.cpp lets them fail one by one. Without a hook that is
+ * one look at a pointer.
  */
 #pragma once
 

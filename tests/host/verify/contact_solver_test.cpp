@@ -6,7 +6,7 @@
 #include "host/verify/contact_solver.h"
 #include "shared/problem/residual.h"
 #include "tests/catch.h"
-#include "tests/host/io/contact_problem.h"
+#include "tests/host/io/contact_problem/problems.h"
 #include "tests/shared_data.h"
 
 using namespace tandem;

@@ -3,7 +3,7 @@
  * deep. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
-#include "tools/parallel.h"
+#include "tools/command/parallel.h"
 
 using namespace tandem;
 using namespace tandem::convex_tests;

@@ -1,6 +1,6 @@
 /* Without any OpenCL platform: the ICD loader is pointed at an empty folder in a process of its own. */
 #ifdef TANDEM_COMMAND
-#include "tests/tools/command_line.h"
+#include "tests/tools/command/command_line.h"
 
 TEST_CASE("without an OpenCL platform the refusal is one clear line and status 2")
 {

@@ -1,0 +1,269 @@
+/* bench.cpp - `tandem bench`: how fast one part runs by itself, on any backend. */
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include <tandem/world.h>
+
+#include "host/catalog/catalog.h"
+#include "tools/bench/batching.h"
+#include "tools/bench/broadphase.h"
+#include "tools/bench/narrowphase.h"
+#include "tools/bench/primitives.h"
+#include "tools/bench/rays.h"
+#include "tools/bench/support.h"
+#include "tools/command/command.h"
+#include "tools/command/measure.h"
+#include "tools/command/output.h"
+#include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
+
+namespace tandem {
+namespace {
+
+struct BenchOptions {
+  std::string what, on = "tbb", count, chart;
+  std::vector<std::string> pairs, broadphases, scenes;
+  bool inexact = false;
+  JsonOutput json;
+};
+
+struct Result {
+  uint64_t items = 0;
+  std::string item; /* what is counted: "pairs", "bodies" */
+  Spread milliseconds;
+  Json details = Json::object(); /* further keys of the JSON */
+};
+
+/* The cube of boxes with about so many of them; the benchmark of the step is always the same scene. */
+Result bench_step(const BenchOptions &options, uint64_t count)
+{
+  const auto side = static_cast<uint64_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(count)))));
+  const std::string text = fmt::format("box-grid:nx={0},ny={0},nz={0}", side);
+  World world(load_scene(text), Settings{}, Placement{options.on, {}, options.inexact});
+  constexpr uint64_t steps = 120;
+  Progress progress("simulating", steps);
+  const Measurement measurement = measure(world, steps, [&](uint64_t done) { progress.update(done); });
+  Result result{side * side * side, "bodies", measurement.step_milliseconds, {{"scene", text}}};
+  result.details["stages"] = Json::array();
+  for (const StageTime &stage : measurement.stages)
+    result.details["stages"].push_back({{"name", stage.name}, {"backend", stage.backend}, {"ms", stage.milliseconds}});
+  return result;
+}
+
+Result bench_primitive(const BenchOptions &options, uint64_t count)
+{
+  const bool sort = options.what == "sort";
+  const auto items = static_cast<uint32_t>(count);
+  const std::vector<double> times =
+      sort ? bench_sort(options.on, items, options.inexact) : bench_scan(options.on, items, options.inexact);
+  return {count, sort ? "pairs" : "numbers", spread_of(times)};
+}
+
+/* Every batcher on one list of contacts; exit status 1 if the check finds a batch wrong. */
+int execute_batching(const BenchOptions &options)
+{
+  const uint64_t boxes = options.count.empty() ? 0 : whole_number("--n", options.count, 1, most_bodies);
+  options.json.check();
+  const std::vector<BatchScene> scenes = bench_batching(options.on, boxes, options.inexact);
+  Json json = {{"what", options.what}, {"backend", options.on}, {"scenes", Json::array()}};
+  bool right = true;
+  for (const BatchScene &scene : scenes) {
+    if (!options.json.takes_standard_output())
+      fmt::print("{}on {}: {}", &scene == &scenes.front() ? "" : "\n", options.on, batch_text(scene));
+    json["scenes"].push_back(batch_json(scene));
+    for (const BatchTable &table : scene.tables) right = right && table.right;
+  }
+  options.json.write(json);
+  return right ? 0 : 1;
+}
+
+constexpr const char *broadphase_time = "from bounds that are ready to the sorted pair list";
+
+void print_scene(const BroadphaseScene &scene)
+{
+  fmt::print("{}\n", broadphase_text(scene));
+  std::fflush(stdout);
+}
+
+/* Exit status 1 if any two broadphases give different pairs. */
+int execute_broadphase(const BenchOptions &options)
+{
+  BroadphaseRequest request = broadphase_request(options.broadphases, options.scenes);
+  request.backend = options.on;
+  request.allow_inexact = options.inexact;
+  request.bodies = {1000, 10000, 100000, 1000000};
+  if (!options.count.empty())
+    request.bodies = {static_cast<uint32_t>(whole_number("--n", options.count, 2, most_bodies))};
+  DistinctFiles files;
+  options.json.check(files);
+  files.writes("--chart", options.chart);
+  const bool prints = !options.json.takes_standard_output();
+  const std::vector<BroadphaseScene> scenes = bench_broadphase(
+      request, prints ? print_scene : [](const BroadphaseScene &) {});
+  if (prints) fmt::print("on {}: medians, ms a frame, {}\n", options.on, broadphase_time);
+  const std::vector<std::string> differences = differences_of(scenes);
+  Json json = {{"what", options.what},
+               {"backend", options.on},
+               {"timed", broadphase_time},
+               {"equal", differences.empty()},
+               {"scenes", Json::array()}};
+  for (const BroadphaseScene &scene : scenes) json["scenes"].push_back(broadphase_json(scene));
+  options.json.write(json);
+  if (!options.chart.empty()) write_file("--chart", options.chart, broadphase_chart(scenes, options.on));
+  for (const std::string &line : differences) fmt::print(stderr, "tandem: {}\n", line);
+  return differences.empty() ? 0 : 1;
+}
+
+int execute_narrowphase(const BenchOptions &options)
+{
+  const uint64_t pairs = options.count.empty() ? 4096 : whole_number("--n", options.count, 1, most_bodies / 2);
+  options.json.check();
+  const std::vector<PairTime> times =
+      bench_narrowphase(options.on, static_cast<uint32_t>(pairs), options.pairs, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("{} on {}: {} pairs of each kind\n{}", options.what, options.on, pairs, narrowphase_text(times));
+  options.json.write(
+      {{"what", options.what}, {"backend", options.on}, {"n", pairs}, {"pairs", narrowphase_json(times)}});
+  return 0;
+}
+
+constexpr uint32_t boxes_for_rays = 100000;
+
+int execute_rays(const BenchOptions &options)
+{
+  const auto rays =
+      static_cast<uint32_t>(options.count.empty() ? 1000000 : whole_number("--n", options.count, 1, uint64_t{1} << 26));
+  options.json.check();
+  const std::vector<RayTime> times = bench_rays(options.on, boxes_for_rays, rays, options.inexact);
+  if (!options.json.takes_standard_output())
+    fmt::print("rays on {}: {} rays, {} boxes\n{}", options.on, rays, boxes_for_rays, rays_text(times, rays));
+  options.json.write({{"what", options.what},
+                      {"backend", options.on},
+                      {"n", rays},
+                      {"boxes", boxes_for_rays},
+                      {"times", rays_json(times, rays)}});
+  return 0;
+}
+
+/* Exit status 1 if climbing ever ends at another vertex. */
+int execute_support(const BenchOptions &options)
+{
+  const uint64_t directions =
+      options.count.empty() ? 200000 : whole_number("--n", options.count, 1000, uint64_t{1} << 28);
+  options.json.check();
+  const std::vector<SupportTime> times = bench_support(directions);
+  if (!options.json.takes_standard_output())
+    fmt::print("support: {} directions of each hull\n{}", directions, support_text(times));
+  options.json.write({{"what", options.what}, {"n", directions}, {"hulls", support_json(times)}});
+  return std::any_of(times.begin(), times.end(), [](const SupportTime &time) { return time.differences > 0; }) ? 1 : 0;
+}
+
+void print_result(const BenchOptions &options, const Result &result)
+{
+  const Spread &time = result.milliseconds;
+  fmt::print("{} on {}: {} {}, {:.4f} ms (median; {:.4f} to {:.4f}), {:.4g} million a second\n", options.what,
+             options.on, result.items, result.item, time.median, time.minimum, time.maximum,
+             static_cast<double>(result.items) / std::max(time.median, 1e-9) * 1e-3);
+  if (!result.details.contains("stages")) return;
+  Table table({"stage", "ms/step", "backend"});
+  for (const Json &stage : result.details["stages"])
+    table.add({stage["name"], fmt::format("{:.3f}", stage["ms"].get<double>()), stage["backend"]});
+  fmt::print("{}", table.text("  "));
+}
+
+Json result_json(const BenchOptions &options, const Result &result)
+{
+  const Spread &time = result.milliseconds;
+  Json json = {{"what", options.what},
+               {"backend", options.on},
+               {"n", result.items},
+               {"unit", result.item},
+               {"ms", {{"median", time.median}, {"min", time.minimum}, {"max", time.maximum}}},
+               {"items_per_second", static_cast<double>(result.items) / std::max(time.median, 1e-9) * 1e3}};
+  json.update(result.details);
+  return json;
+}
+
+constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support or step";
+
+/* Options of one benchmark, given to another. */
+void check_options(const BenchOptions &options)
+{
+  if (!options.pairs.empty() && options.what != "narrowphase")
+    throw InputError(
+        fmt::format("--pairs names kinds of bench narrowphase; bench {} has none, leave it out", options.what));
+  if (options.what == "broadphase") return;
+  const auto refuse = [&](const char *option, bool given) {
+    if (given)
+      throw InputError(fmt::format("{} is of bench broadphase; bench {} has none, leave it out", option, options.what));
+  };
+  refuse("--broadphase", !options.broadphases.empty());
+  refuse("--scene", !options.scenes.empty());
+  refuse("--chart", !options.chart.empty());
+}
+
+int execute(const BenchOptions &options)
+{
+  check_options(options);
+  if (options.what == "broadphase") return execute_broadphase(options);
+  if (options.what == "batching") return execute_batching(options);
+  if (options.what == "narrowphase") return execute_narrowphase(options);
+  if (options.what == "rays") return execute_rays(options);
+  if (options.what == "support") return execute_support(options);
+  const bool step = options.what == "step";
+  if (!step && options.what != "sort" && options.what != "scan")
+    throw InputError(fmt::format("bench '{}' is unknown; use {}", options.what, benchmarks));
+  const uint64_t most = step ? most_bodies : uint64_t{1} << 28;
+  const uint64_t count = options.count.empty() ? (step ? 1000 : 1 << 20) : whole_number("--n", options.count, 1, most);
+  options.json.check();
+  const Result result = step ? bench_step(options, count) : bench_primitive(options, count);
+  if (!options.json.takes_standard_output()) print_result(options, result);
+  options.json.write(result_json(options, result));
+  return 0;
+}
+
+} // namespace
+
+Command bench_command(CLI::App &parser)
+{
+  CLI::App *command = parser.add_subcommand(
+      "bench", "time one part by itself: sort, scan, broadphase, batching, narrowphase, rays, support, step");
+  auto options = std::make_shared<BenchOptions>();
+  command
+      ->add_option("WHAT", options->what,
+                   "sort (32-bit keys with values), scan, broadphase (every one on the same moving bodies), batching "
+                   "(scenes of the talks; box-grid with --n), narrowphase (pairs of shapes), rays (against 100,000 "
+                   "boxes), support (farthest vertices of hulls), step (box-grid)")
+      ->required()
+      ->type_name("");
+  command->add_option("--on", options->on, "backend")->type_name("B")->capture_default_str();
+  command
+      ->add_option("--n", options->count,
+                   "how many: 1048576 keys, 1000 to 1000000 bodies of broadphase, 1000000 rays, 4096 pairs of each "
+                   "kind, 1000 bodies of step unless given")
+      ->type_name("N");
+  command->add_option("--pairs", options->pairs, "narrowphase: these kinds alone, as box-box,hull32-hull32")
+      ->delimiter(',')
+      ->check(CLI::IsMember(bench_pair_names()))
+      ->type_name("KIND,...");
+  command->add_option("--broadphase", options->broadphases, "broadphase: these alone, as grid,bvh")
+      ->delimiter(',')
+      ->check(CLI::IsMember(broadphase_names()))
+      ->type_name("NAME,...");
+  command->add_option("--scene", options->scenes, "broadphase: these inputs alone, as spheres,pile")
+      ->delimiter(',')
+      ->check(CLI::IsMember(broadphase_input_names()))
+      ->type_name("NAME,...");
+  command->add_option("--chart", options->chart, "broadphase: write charts of time over bodies, one a scene")
+      ->type_name("FILE.svg");
+  command->add_flag("--inexact", options->inexact, "accept devices that fail the exactness self-test");
+  command->add_option("--json", options->json.path, "write the result as JSON; - for standard output")
+      ->type_name("FILE");
+  return {command, [options] { return execute(*options); }};
+}
+
+} // namespace tandem

@@ -1,0 +1,55 @@
+/* broadphase_frames.h - one broadphase by itself, frame after frame: what `tandem bench broadphase` times.
+ *
+ *    bodies move, begin_step, compute_bounds | broadphase, and its commit where it has one | counts to the host
+ *                                             <------------- the time of a frame ----------->
+ *
+ * Buffers and kernels of a broadphase alone, so that there is room for millions of bodies where a whole step would not
+ * fit.
+ */
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "tools/bench/broadphase_inputs.h"
+
+namespace tandem {
+
+class BroadphaseFrames {
+public:
+  /* All three must outlive this. `pairs`: room for so many to start with; 0: as much as a world begins with. */
+  BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend, uint32_t pairs = 0);
+  ~BroadphaseFrames() { backend_.finish(); }
+
+  /* Milliseconds, the clock read with the backend finished. A frame that finds more pairs than there is room for runs
+   * again with room, and the time is that of the last run. Frames follow each other: 0, 1, 2... */
+  double run(uint32_t frame);
+
+  /* Of the last frame. */
+  uint32_t pairs() const { return plan_.known[COUNT_PAIRS]; }
+  uint64_t hash(); /* of the pair list and of where each body's pairs start */
+  Memory &memory() { return memory_; }
+
+private:
+  void record_kernels();
+  void allocate();
+  void upload();
+  void guess_counts();
+  void move_bodies(uint32_t frame);
+  double find_pairs();
+  void grow(uint32_t needed);
+
+  const MovingBodies &bodies_;
+  const Broadphase &broadphase_;
+  Backend &backend_;
+  Settings settings_;
+  StepPlan plan_;
+  std::vector<Kernel> kernels_;
+  std::vector<bool> touched_;
+  Memory memory_;
+  DirectLauncher launcher_{memory_, backend_};
+  StepLaunches step_{launcher_, plan_, settings_};
+};
+
+} // namespace tandem

@@ -1,0 +1,30 @@
+/* narrowphase.h - `tandem bench narrowphase`: how many manifolds a second, by the shapes that meet and by
+ * method. */
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/command/measure.h"
+#include "tools/command/output.h"
+
+namespace tandem {
+
+struct PairTime {
+  std::string pair, kernel;
+  std::string method; /* --narrowphase, and after a comma --support; empty for shapes with a test of their own */
+  uint32_t pairs = 0, manifolds = 0, points = 0; /* manifolds: pairs with a point */
+  Spread milliseconds;                           /* of the kernels alone */
+};
+
+/* box-box, hull32-hull32 and the like. */
+std::vector<std::string> bench_pair_names();
+
+/* `pairs` separate pairs of each kind, or of those named in `only`. InputError as make_backend. */
+std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs,
+                                        const std::vector<std::string> &only, bool allow_inexact);
+
+std::string narrowphase_text(const std::vector<PairTime> &times);
+Json narrowphase_json(const std::vector<PairTime> &times);
+
+} // namespace tandem

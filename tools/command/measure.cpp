@@ -1,0 +1,104 @@
+/* measure.cpp - see measure.h. */
+#include "tools/command/measure.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "host/runtime/interface/kernel_list.h"
+
+namespace tandem {
+namespace {
+
+constexpr uint64_t profile_every = 8;
+
+/* Of a last half shorter than 8 steps the last step is profiled; a single step is both timed and profiled. */
+bool is_profiled(uint64_t step, uint64_t steps)
+{
+  const uint64_t half = steps - steps / 2;
+  return step >= steps / 2 && (step - steps / 2) % profile_every == std::min(profile_every, half) - 1;
+}
+
+class StageTimes {
+public:
+  void add(World &world)
+  {
+    for (const KernelTime &time : world.take_kernel_times()) {
+      if (time.launches == 0) continue;
+      const Stage stage = row_of(time.kernel).stage;
+      auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry &entry) {
+        return entry.stage == stage && entry.time.backend == time.backend;
+      });
+      if (found == entries_.end()) found = entries_.insert(found, {stage, {name_of(stage), time.backend, 0}});
+      found->time.milliseconds += time.milliseconds;
+    }
+  }
+  std::vector<StageTime> per_step(uint64_t steps)
+  {
+    std::stable_sort(entries_.begin(), entries_.end(),
+                     [](const Entry &a, const Entry &b) { return a.stage < b.stage; });
+    std::vector<StageTime> times;
+    for (const Entry &entry : entries_) {
+      times.push_back(entry.time);
+      times.back().milliseconds /= static_cast<double>(std::max<uint64_t>(steps, 1));
+    }
+    return times;
+  }
+
+private:
+  struct Entry {
+    Stage stage;
+    StageTime time;
+  };
+  std::vector<Entry> entries_;
+};
+
+double profiled_step(World &world, StageTimes &stages)
+{
+  world.set_profiling(true);
+  world.take_kernel_times();
+  const double milliseconds = timed_step(world);
+  stages.add(world);
+  world.set_profiling(false);
+  return milliseconds;
+}
+
+} // namespace
+
+double timed_step(World &world)
+{
+  using Clock = std::chrono::steady_clock;
+  world.finish();
+  const Clock::time_point start = Clock::now();
+  world.step();
+  world.finish();
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+Spread spread_of(std::vector<double> values)
+{
+  if (values.empty()) return {};
+  std::sort(values.begin(), values.end());
+  const size_t middle = values.size() / 2;
+  const double median = values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+  return {median, values.front(), values.back()};
+}
+
+Measurement measure(World &world, uint64_t steps, const std::function<void(uint64_t done)> &after_step)
+{
+  std::vector<double> timed;
+  StageTimes stages;
+  Measurement result;
+  for (uint64_t k = 0; k < steps; ++k) {
+    const bool profiled = is_profiled(k, steps);
+    const double milliseconds = profiled ? profiled_step(world, stages) : timed_step(world);
+    result.profiled_steps += profiled;
+    if (k >= steps / 2 && (!profiled || steps - steps / 2 == 1)) timed.push_back(milliseconds);
+    if (after_step) after_step(k + 1);
+  }
+  result.timed_steps = timed.size();
+  result.step_milliseconds = spread_of(timed);
+  result.stages = stages.per_step(result.profiled_steps);
+  return result;
+}
+
+} // namespace tandem

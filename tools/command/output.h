@@ -1,0 +1,55 @@
+/* output.h - what a command leaves behind: text for people, JSON for scripts, files that can be written.
+ *
+ * A run may take minutes; a path that cannot be written is refused before it starts.
+ */
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/command/distinct_files.h"
+
+namespace tandem {
+
+/* Keys keep the order in which they are added. */
+using Json = nlohmann::ordered_json;
+
+/* InputError naming the option unless `path` can be opened for writing; an existing file is left as it is.
+ * An empty path passes. */
+void check_writable(const std::string &option, const std::string &path);
+
+/* Whole or not at all (host/io/output_file.h); InputError if the disk will not take it. */
+void write_file(const std::string &option, const std::string &path, std::string_view contents);
+
+/* The --json option's value: FILE, "-" for standard output, or empty for none. */
+class JsonOutput {
+public:
+  std::string path;
+
+  void check(DistinctFiles &files) const;
+  void check() const; /* where there is no other file */
+  /* With "-" standard output belongs to the JSON, so commands leave their tables out. */
+  bool takes_standard_output() const { return path == "-"; }
+  void write(const Json &json) const;
+};
+
+/* Rows of cells in aligned columns; the first column is left-aligned, the others by `right`. */
+class Table {
+public:
+  explicit Table(std::vector<std::string> header, bool right = true) : rows_{std::move(header)}, right_(right) {}
+  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  std::string text(const std::string &indent = "") const;
+
+private:
+  std::vector<std::vector<std::string>> rows_;
+  bool right_;
+};
+
+std::string bytes_text(uint64_t bytes); /* "1.5 MiB" */
+std::string hash_text(uint64_t hash);   /* 16 hexadecimal digits */
+
+} // namespace tandem

@@ -1,0 +1,168 @@
+/* scene_options.cpp - see scene_options.h. Numbers are read here rather than by the parser, so that a
+ * bad one is named with what would be right. */
+#include "tools/command/scene_options.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "host/base/out_of_memory.h"
+#include "host/catalog/catalog.h"
+#include "host/io/input_file.h"
+
+namespace tandem {
+namespace {
+
+constexpr uint64_t most_steps = 1'000'000'000;
+
+std::string one_of(const char *what, const std::vector<std::string> &names)
+{
+  return fmt::format("{}: {}", what, fmt::join(names, ", "));
+}
+
+} // namespace
+
+uint64_t whole_number(const std::string &option, const std::string &text, uint64_t lowest, uint64_t highest)
+{
+  uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value < lowest || value > highest)
+    throw InputError(fmt::format("{} '{}': use a whole number from {} to {}", option, text, lowest, highest));
+  return value;
+}
+
+double real_number(const std::string &option, const std::string &text)
+{
+  char *end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || end != text.c_str() + text.size() || !std::isfinite(value))
+    throw InputError(fmt::format("{} '{}': use a finite number", option, text));
+  return value;
+}
+
+SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
+{
+  const Settings defaults;
+  step_ = "1/60";
+  solver_ = defaults.solver;
+  broadphase_ = defaults.broadphase;
+  bounds_ = defaults.bounds;
+  midphase_ = defaults.midphase;
+  narrowphase_ = defaults.narrowphase;
+  support_ = defaults.support;
+  support_cells_ = fmt::format("{}", defaults.support_cells);
+  batching_ = defaults.batching;
+  max_pairs_ = fmt::format("{}", defaults.max_pairs);
+  const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
+    parser.add_option(name, value, what)->type_name(type)->capture_default_str();
+  };
+  parser.add_option("SCENE", scene_, "a file (.json, .gltf, .glb) or name:key=value,...")->required()->type_name("");
+  if (one_backend) option("--on", on_, "backend: serial, tbb[:threads=N,lanes=N], cl, cl:P.D, cl:PART-OF-A-NAME", "B");
+  option("--place", place_, "run a stage or a kernel elsewhere: narrowphase=cl,solve=tbb", "STAGE=B,...");
+  option("--steps", steps_, "how many steps", "N");
+  option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
+  option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
+  option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
+  option("--solver", solver_, one_of("solver", solver_names()), "NAME");
+  option("--broadphase", broadphase_,
+         one_of("broadphase", broadphase_names()) + "; auto: as the scene suggests (`tandem plan` says why)", "NAME");
+  option("--bounds", bounds_, one_of("bounds", bounds_names()), "NAME");
+  option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
+  option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
+  option("--support", support_, one_of("support of hulls", support_names()), "NAME");
+  option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
+  option("--batching", batching_, one_of("batching", batching_names()), "NAME");
+  option("--max-pairs", max_pairs_, "room for pairs never grows past so many: a step that needs more ends the run",
+         "N");
+  parser.add_flag("--check", check_,
+                  "prove in every step that no batch touches a moving body twice and that every contact is in one; "
+                  "exit status 1 if not");
+  parser.add_flag("--no-specialise", no_specialise_,
+                  "build and run every feature, needed or not: the same bits, slower");
+  parser.add_flag("--allow-outside-files", outside_files_,
+                  "let a scene file name files (buffers, OBJ files) outside its own folder");
+  parser.add_flag("--inexact", inexact_, "accept devices that fail the exactness self-test");
+}
+
+void SceneOptions::add_events_flag(CLI::App &parser)
+{
+  parser.add_flag("--events", events_, "with contact events, as `run --events F.json` has them");
+}
+
+Settings SceneOptions::settings() const
+{
+  Settings settings = settings_for(solver_);
+  if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
+  else settings.step = static_cast<float>(real_number("--dt", step_));
+  if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
+  if (!iterations_.empty())
+    settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
+  settings.broadphase = broadphase_;
+  settings.bounds = bounds_;
+  settings.midphase = midphase_;
+  settings.narrowphase = narrowphase_;
+  settings.support = support_;
+  settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
+  settings.batching = batching_;
+  settings.max_pairs = static_cast<uint32_t>(whole_number("--max-pairs", max_pairs_, 1, most_pairs));
+  settings.check = check_;
+  settings.events = events_;
+  settings.specialise = !no_specialise_;
+  validate(settings);
+  return settings;
+}
+
+Placement SceneOptions::placement() const
+{
+  Placement placement;
+  placement.on = on_;
+  if (!place_.empty()) placement.exceptions = parse_placement(place_);
+  placement.allow_inexact = inexact_;
+  return placement;
+}
+
+uint64_t SceneOptions::steps() const { return whole_number("--steps", steps_, 1, most_steps); }
+
+Scene SceneOptions::scene(DistinctFiles &files) const
+{
+  const auto load = [&] {
+    const FilesRead read;
+    Scene scene = load_scene(scene_, outside_files_ ? OutsideFiles::allowed : OutsideFiles::refused);
+    for (const std::string &path : read.paths) files.reads("SCENE", path);
+    for (const std::string &warning : warnings_of(scene, scene_)) fmt::print(stderr, "tandem: {}\n", warning);
+    return scene;
+  };
+  return naming_what_failed([&] { return fmt::format("out of memory: scene {} takes more than there is", scene_); },
+                            load);
+}
+
+std::string SceneOptions::typed_again(const std::string &broadphase) const
+{
+  const Settings defaults;
+  std::string text;
+  const auto add = [&](const char *name, const std::string &value, const std::string &standard) {
+    if (value != standard) text += fmt::format(" {} {}", name, value);
+  };
+  add("--dt", step_, "1/60");
+  add("--substeps", substeps_, "");
+  add("--iterations", iterations_, "");
+  add("--solver", solver_, defaults.solver);
+  add("--broadphase", broadphase, defaults.broadphase);
+  add("--bounds", bounds_, defaults.bounds);
+  add("--midphase", midphase_, defaults.midphase);
+  add("--narrowphase", narrowphase_, defaults.narrowphase);
+  add("--support", support_, defaults.support);
+  add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
+  add("--batching", batching_, defaults.batching);
+  add("--max-pairs", max_pairs_, fmt::format("{}", defaults.max_pairs));
+  if (outside_files_) text += " --allow-outside-files";
+  if (check_) text += " --check";
+  if (events_) text += " --events events.json";
+  if (no_specialise_) text += " --no-specialise";
+  return text;
+}
+
+} // namespace tandem

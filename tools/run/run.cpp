@@ -1,0 +1,279 @@
+/* run.cpp - `tandem run`: simulate a scene, say how long each stage took and what came out. */
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include <tandem/world.h>
+
+#include "host/base/printable.h"
+#include "host/geometry/geometry.h"
+#include "host/io/glb/animation.h"
+#include "host/runtime/memory.h"
+#include "tools/command/command.h"
+#include "tools/command/measure.h"
+#include "tools/command/output.h"
+#include "tools/command/progress.h"
+#include "tools/command/scene_options.h"
+#include "tools/plot/image.h"
+#include "tools/run/event_file.h"
+#include "tools/run/trace.h"
+
+namespace tandem {
+namespace {
+
+struct RunOptions {
+  explicit RunOptions(CLI::App &parser) : scene(parser, true) {}
+  SceneOptions scene;
+  std::string save, image, image_size = "960x540", camera, trace, events;
+  bool allow_quarantine = false;
+  JsonOutput json;
+};
+
+void add_options(CLI::App &parser, RunOptions &options)
+{
+  parser.add_option("--save", options.save, "write the motion as an animation for any glTF viewer")->type_name("F.glb");
+  CLI::Option *image =
+      parser
+          .add_option("--image", options.image,
+                      "draw the scene as it is in the end, by ray casting where the stage queries is placed")
+          ->type_name("F.png");
+  parser.add_option("--image-size", options.image_size, "of the picture, in pixels")
+      ->type_name("WxH")
+      ->capture_default_str()
+      ->needs(image);
+  parser
+      .add_option("--camera", options.camera,
+                  "from where to where the picture is seen; at all bodies but the largest if not given")
+      ->type_name("EX,EY,EZ,TX,TY,TZ")
+      ->needs(image);
+  parser
+      .add_option("--trace", options.trace,
+                  "write a time line of the kernels (Chrome trace events); waits for each kernel, so steps take longer")
+      ->type_name("F.json");
+  parser
+      .add_option("--events", options.events,
+                  "write which bodies begin, go on and cease to touch in each step, and how hard")
+      ->type_name("F.json");
+  parser.add_option("--json", options.json.path, "write the results as JSON; - for standard output")->type_name("FILE");
+  parser.add_flag("--allow-quarantine", options.allow_quarantine,
+                  "exit status 0 also where bodies stopped being finite and were taken out");
+  parser.footer(
+      "Exit status: 0 fine, 1 a body stopped being finite, a batch is wrong, or memory or the room that --max-pairs "
+      "allows did not suffice, 2 bad use or input, or an output that cannot be written.\n"
+      "Timing: the first half of the steps is warm-up; step times are the median, minimum and maximum over the "
+      "last half.\nEvery 8th step of the last half is measured kernel by kernel instead and counts for the "
+      "stages alone.");
+}
+
+void check_files(const RunOptions &options, DistinctFiles &files)
+{
+  const auto [width, height] = size_of_image(options.image_size);
+  if (!options.camera.empty()) camera_from(options.camera, width, height);
+  files.writes("--image", options.image);
+  files.writes("--save", options.save);
+  files.writes("--trace", options.trace);
+  files.writes("--events", options.events);
+  options.json.check(files);
+}
+
+/* The animation while it is recorded; nothing without --save. */
+class Recording {
+public:
+  Recording(const std::string &path, World &world) : world_(world)
+  {
+    if (path.empty()) return;
+    writer_ = std::make_unique<AnimationWriter>(world.scene(), path);
+    add_frame(0);
+  }
+  void add_frame(uint64_t step)
+  {
+    if (!writer_) return;
+    std::vector<Vec3> positions;
+    std::vector<Quat> orientations;
+    for (const BodyState &body : world_.bodies()) {
+      positions.push_back(rounded(body.position));
+      orientations.push_back(body.orientation);
+    }
+    writer_->add_frame(static_cast<double>(step) * static_cast<double>(world_.settings().step), positions,
+                       orientations);
+  }
+  void finish()
+  {
+    if (writer_) writer_->finish();
+  }
+
+private:
+  World &world_;
+  std::unique_ptr<AnimationWriter> writer_;
+};
+
+struct Outcome {
+  std::string scene;
+  uint64_t steps;
+  Measurement measurement;
+  Statistics statistics;
+  uint64_t hash, body_hash;
+};
+
+Json stages_json(const Measurement &measurement)
+{
+  Json stages = Json::array();
+  for (const StageTime &stage : measurement.stages)
+    stages.push_back({{"name", stage.name}, {"backend", stage.backend}, {"ms", stage.milliseconds}});
+  return stages;
+}
+
+Json outcome_json(const Outcome &outcome, World &world, const Placement &placement)
+{
+  const Spread &step = outcome.measurement.step_milliseconds;
+  const Statistics &statistics = outcome.statistics;
+  return {{"scene", outcome.scene},
+          {"backend", placement.on},
+          {"solver", world.settings().solver},
+          {"bodies", world.scene().bodies.size()},
+          {"steps", outcome.steps},
+          {"dt", world.settings().step},
+          {"step_ms", {{"median", step.median}, {"min", step.minimum}, {"max", step.maximum}}},
+          {"stages", stages_json(outcome.measurement)},
+          {"pairs", statistics.pairs},
+          {"contacts", statistics.contacts},
+          {"colors", statistics.colors},
+          {"max_penetration", statistics.max_penetration},
+          {"mean_penetration", statistics.mean_penetration},
+          {"kinetic_energy", statistics.kinetic_energy},
+          {"direct",
+           {{"islands", statistics.direct_islands},
+            {"left", statistics.direct_left},
+            {"stalled", statistics.direct_stalled}}},
+          {"nonfinite", statistics.nonfinite},
+          {"overflow", statistics.overflow},
+          {"memory_bytes", world.memory().total_bytes()},
+          {"kernels_built", world.kernels().size()},
+          {"build_ms", world.build_milliseconds()},
+          {"hash", hash_text(outcome.hash)},
+          {"body_hash", hash_text(outcome.body_hash)}};
+}
+
+std::string stage_table(const Measurement &measurement)
+{
+  Table table({"stage", "ms/step", "backend"});
+  double sum = 0;
+  for (const StageTime &stage : measurement.stages) {
+    table.add({stage.name, fmt::format("{:.3f}", stage.milliseconds), stage.backend});
+    sum += stage.milliseconds;
+  }
+  table.add({"kernels, sum", fmt::format("{:.3f}", sum), ""});
+  const Spread &step = measurement.step_milliseconds;
+  table.add({"whole step", fmt::format("{:.3f}", step.median), ""});
+  return table.text("  ") + fmt::format("  whole step: median of {} steps, {:.3f} to {:.3f} ms\n",
+                                        measurement.timed_steps, step.minimum, step.maximum);
+}
+
+std::string facts_table(const Outcome &outcome, World &world)
+{
+  const Statistics &statistics = outcome.statistics;
+  Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
+  table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
+  table.add({"colours", fmt::format("{}", statistics.colors)});
+  if (world.settings().solver == "direct")
+    table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones",
+                                      statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
+  table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,
+                                        statistics.mean_penetration * 1e3)});
+  table.add({"kinetic energy", fmt::format("{:.6g} J", statistics.kinetic_energy)});
+  table.add({"memory", bytes_text(world.memory().total_bytes())});
+  table.add({"kernels", fmt::format("{}, built in {:.0f} ms", world.kernels().size(), world.build_milliseconds())});
+  table.add({"hash", fmt::format("{} (bodies alone {})", hash_text(outcome.hash), hash_text(outcome.body_hash))});
+  if (world.settings().check)
+    table.add(
+        {"batches", world.batch_fault() ? "WRONG" : fmt::format("free of conflict in all {} steps", outcome.steps)});
+  return table.text("  ");
+}
+
+void print_outcome(const Outcome &outcome, World &world, const Placement &placement)
+{
+  fmt::print("{}: {} bodies, {} steps of {:.6g} s on {}\n\n", outcome.scene, world.scene().bodies.size(), outcome.steps,
+             world.settings().step, placement.on);
+  fmt::print("{}\n{}", stage_table(outcome.measurement), facts_table(outcome, world));
+}
+
+/* What a user must not miss, whatever else is printed. */
+void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
+{
+  for (const Quarantine &quarantine : world.quarantined())
+    fmt::print(stderr, "tandem: body {} '{}' stopped being finite in step {} ({}) and was taken out\n", quarantine.body,
+               printable(quarantine.name), quarantine.step, quarantine.stage);
+  if (!world.quarantined().empty() && !allow_quarantine)
+    fmt::print(
+        stderr,
+        "tandem: {} of {} bodies did not stay finite, so this is no result; --allow-quarantine takes it for one\n",
+        world.quarantined().size(), world.scene().bodies.size());
+  if (outcome.statistics.overflow)
+    fmt::print(stderr, "tandem: {} steps ran again with larger buffers\n", outcome.statistics.overflow);
+}
+
+Outcome simulate(World &world, const RunOptions &options, uint64_t steps)
+{
+  Recording recording(options.save, world);
+  std::optional<Trace> trace;
+  if (!options.trace.empty()) trace.emplace(world);
+  std::optional<EventFile> events;
+  if (!options.events.empty()) events.emplace(options.events, options.scene.scene_text(), world);
+  Progress progress("simulating", steps);
+  Outcome outcome{options.scene.scene_text(), steps, {}, {}, 0, 0};
+  if (trace) trace->begin_step();
+  outcome.measurement = measure(world, steps, [&](uint64_t done) {
+    if (trace) trace->end_step(done - 1);
+    recording.add_frame(done);
+    if (events) events->add_step(done - 1, world);
+    progress.update(done);
+    if (trace) trace->begin_step();
+  });
+  recording.finish();
+  if (events) events->finish();
+  if (trace) write_file("--trace", options.trace, trace->json());
+  outcome.statistics = world.statistics();
+  outcome.hash = world.state_hash();
+  outcome.body_hash = world.body_hash();
+  return outcome;
+}
+
+void save_image(const RunOptions &options, World &world)
+{
+  if (options.image.empty()) return;
+  const auto [width, height] = size_of_image(options.image_size);
+  const Camera camera =
+      options.camera.empty() ? camera_for(world, width, height) : camera_from(options.camera, width, height);
+  write_png(options.image, draw(world, camera), width, height);
+}
+
+int execute(const RunOptions &options)
+{
+  Settings settings = options.scene.settings();
+  settings.events = !options.events.empty();
+  const Placement placement = options.scene.placement();
+  const uint64_t steps = options.scene.steps();
+  DistinctFiles files;
+  check_files(options, files);
+  World world(options.scene.scene(files), settings, placement);
+  const Outcome outcome = simulate(world, options, steps);
+  save_image(options, world);
+  if (!options.json.takes_standard_output()) print_outcome(outcome, world, placement);
+  print_warnings(outcome, world, options.allow_quarantine);
+  options.json.write(outcome_json(outcome, world, placement));
+  if (world.batch_fault()) fmt::print(stderr, "tandem: {}\n", describe(*world.batch_fault()));
+  return world.batch_fault() || (!world.quarantined().empty() && !options.allow_quarantine) ? 1 : 0;
+}
+
+} // namespace
+
+Command run_command(CLI::App &parser)
+{
+  CLI::App *command = parser.add_subcommand("run", "simulate a scene");
+  auto options = std::make_shared<RunOptions>(*command);
+  add_options(*command, *options);
+  return {command, [options] { return execute(*options); }};
+}
+
+} // namespace tandem
