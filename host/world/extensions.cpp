@@ -1,0 +1,63 @@
+/* extensions.cpp - modules of users in a world: their buffers, and their kernels between steps. */
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/runtime/interface/module.h"
+#include "host/world/implementation.h"
+
+namespace tandem {
+
+/* Of a module all that the scene's features allow: its launches may differ from step to step. */
+void World::Implementation::note_rows(Recorder &recorder, const Module &module) const
+{
+  const auto needed = [&](uint32_t feature) { return feature == 0 || (feature & special.features) != 0; };
+  for (size_t i = 0; i < module.kernels(); ++i)
+    if (needed(module.kernel_row(i).feature)) recorder.note(module.kernel(i));
+  for (size_t i = 0; i < module.buffers(); ++i) recorder.touched[index_of(module.buffer(i))] = true;
+}
+
+void World::Implementation::check_kernel(Kernel kernel) const
+{
+  for (const Extension &extension : settings.extensions)
+    if (row_of(kernel).stage == extension.module->stage()) return;
+  throw InputError(fmt::format("run: kernel '{}' is of no module in Settings::extensions", row_of(kernel).name));
+}
+
+void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offset) const
+{
+  const BufferRow &row = row_of(buffer);
+  if (index_of(buffer) < buffer_count || index_of(buffer) >= buffers.needs().touched.size() ||
+      !buffers.needs().touched[index_of(buffer)])
+    throw InputError(fmt::format("write: buffer '{}' is of no module in Settings::extensions", row.name));
+  const size_t unit = row.per_item * size_of(row.element);
+  if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0) return;
+  if (offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
+    throw InputError(fmt::format("write: buffer '{}' has {} bytes, not {} from byte {} on; an item has {}", row.name,
+                                 memory.bytes(buffer), bytes, offset, unit));
+}
+
+void World::Implementation::write(Buffer buffer, const void *from, size_t bytes, size_t offset)
+{
+  check_write(buffer, bytes, offset);
+  if (is_sized_by_writes(buffer) && memory.bytes(buffer) != bytes) {
+    memory.resize(buffer, bytes);
+    buffers.changed();
+  }
+  memory.upload(buffer, from, bytes, offset);
+}
+
+/* Between two steps. What broadphases keep may be of bodies that the kernel has changed. */
+void World::Implementation::run(Kernel kernel, const Values &values, const Slots &slots)
+{
+  check_kernel(kernel);
+  buffers.make_ready(sizes());
+  ++state;
+  begin_launches();
+  StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots);
+  forget_kept(memory);
+  launches_ended = true;
+}
+
+} // namespace tandem

@@ -1,0 +1,142 @@
+/* implementation.cpp - a world is made: a dry run finds what its steps need, and the scene is uploaded. */
+#include "host/world/implementation.h"
+
+#include <algorithm>
+
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/broadphases/choice.h"
+#include "host/pipeline/scene_counts.h"
+#include "host/runtime/recorder.h"
+#include "host/scene/parameters.h"
+#include "shared/batching/limits.h"
+
+namespace tandem {
+namespace {
+
+Settings resolved(Settings settings, const Scene &scene, const Placement &placement)
+{
+  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene, placement.on).name;
+  return settings;
+}
+
+} // namespace
+
+uint32_t first_room(const Scene &scene, const Settings &settings)
+{
+  return static_cast<uint32_t>(std::min<uint64_t>(5 * uint64_t{scene.bodies.size()} + 1024, settings.max_pairs));
+}
+
+World::Implementation::Implementation(const Scene &given, const Settings &chosen, const Placement &placement)
+    : scene(given), settings(resolved(chosen, given, placement)), special(specialise(given, chosen)),
+      hulls(hull_sizes(given, cube_map_cells(chosen))), trees(tree_tables(given)), scene_features(special.features),
+      backends(placement, chosen.specialise ? special.features : all_features()), buffers(memory, backends),
+      launcher(memory, [this](Kernel kernel) -> Backend & { return backends.of(kernel); })
+{
+  launcher.set_on_commit([this] { turn(); });
+  if (!settings.specialise) special.features = all_features();
+  plan.features = special.features;
+  plan.bodies = static_cast<uint32_t>(scene.bodies.size());
+  scene_entries = entries_of({plan.bodies, special.boundless, special.large});
+  plan.capacity_cells = cells_for(plan.bodies);
+  plan.capacity_pairs = first_room(scene, settings);
+  record_kernels();
+  place(placement);
+  buffers.allocate(sizes());
+  upload_scene();
+  guess_counts();
+}
+
+World::Implementation::~Implementation() { backends.finish_at_last(); }
+
+Sizes World::Implementation::sizes() const
+{
+  return {.bodies = plan.bodies,
+          .materials = static_cast<uint32_t>(scene.materials.size()),
+          .hulls = hulls,
+          .trees = trees.sizes,
+          .pairs = plan.capacity_pairs,
+          .cells = plan.capacity_cells,
+          .features = special.features};
+}
+
+/* Kernels and buffers of the tail only once there is one. */
+void World::Implementation::record_kernels()
+{
+  StepPlan all = plan;
+  all.colors = std::max(plan.colors, COLOR_LIMIT);
+  all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
+  Recorder recorder;
+  launch_step(recorder, all, settings);
+  for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
+  buffers.take_needs(std::move(recorder));
+}
+
+void World::Implementation::place(const Placement &placement)
+{
+  backends.place(placement, buffers.needs().kernels);
+  buffers.changed();
+}
+
+void World::Implementation::place_again()
+{
+  backends.place_again(buffers.needs().kernels);
+  buffers.changed();
+}
+
+void World::Implementation::upload_scene()
+{
+  upload_bodies(memory, scene, special.order);
+  upload_shapes(memory, scene, special.order);
+  upload_hulls(memory, scene, cube_map_cells(settings));
+  upload_trees(memory, scene, trees, special.order);
+  trees = {trees.sizes, {}, {}, {}, {}, {}, {}, {}, {}}; /* the buffers hold the rest */
+  upload_materials(memory, scene);
+  upload_parameters();
+  std::vector<uint32_t> counts(COUNT_TOTAL);
+  for (const auto &[entry, value] : scene_entries) counts[entry] = value;
+  counts[CAPACITY_PAIRS] = plan.capacity_pairs;
+  counts[CAPACITY_CELLS] = plan.capacity_cells;
+  memory.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
+  index_of_body.resize(plan.bodies);
+  for (uint32_t i = 0; i < plan.bodies; ++i) index_of_body[special.order[i]] = i;
+}
+
+void World::Implementation::upload_parameters()
+{
+  const Parameters parameters = parameters_of(scene, settings, special.features);
+  memory.upload(Buffer::parameters, &parameters, sizeof parameters);
+}
+
+/* Before the first step the host knows no counts: launches are sized as if the buffers were full. */
+void World::Implementation::guess_counts() noexcept
+{
+  auto &known = plan.known;
+  known.fill(plan.capacity_pairs);
+  known[COUNT_KEPT] = 0;
+  for (const auto &[entry, value] : scene_entries) known[entry] = value;
+  known[COUNT_COMMIT_BODIES] = plan.bodies;
+  known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
+  known[COUNT_CELLS_PLUS_ONE] = plan.capacity_cells + 1;
+  for (uint32_t color = 0; color <= COLOR_LIMIT; ++color)
+    known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
+}
+
+/* Of the state as it is: once for all queries between two changes of it. */
+QueryTarget World::Implementation::query_target()
+{
+  const uint32_t structure = broadphase_named(settings.broadphase).queries;
+  if (structure_state != state) {
+    Recorder recorder;
+    StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
+    launch_query_structure(recorded, structure);
+    for (size_t i = 0; i < recorder.touched.size(); ++i)
+      if (recorder.touched[i] && !buffers.is_queried(buffer_at(i))) buffers.make_room(buffer_at(i), sizes());
+    begin_launches();
+    launch_query_structure(launches, structure);
+    launches_ended = true;
+    structure_state = state;
+  }
+  return {memory, launcher, scene, special.order, structure};
+}
+
+} // namespace tandem

@@ -1,0 +1,102 @@
+/* implementation.h - what a world holds, and what it does in a step; <tandem/world.h> is its face.
+ *
+ * Members stand in the order in which they need each other: backends outlive the memory that lies in their storage. The
+ * functions stand by concern: making a world in implementation.cpp, steps in step_attempts.cpp, modules of users in
+ * extensions.cpp.
+ */
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <tandem/world.h>
+
+#include "host/pipeline/step.h"
+#include "host/runtime/launcher.h"
+#include "host/runtime/memory.h"
+#include "host/scene/body_buffers.h"
+#include "host/scene/hull_buffers.h"
+#include "host/scene/specialise.h"
+#include "host/scene/tree_tables.h"
+#include "host/world/placed_backends.h"
+#include "host/world/queries.h"
+#include "host/world/step_buffers.h"
+
+namespace tandem {
+
+/* A body's number shares a word with the stage that it failed in (COUNT_NONFINITE). */
+constexpr uint32_t body_numbers = 1u << 28;
+
+/* The pairs that there is room for at first; a step that finds more runs again. */
+uint32_t first_room(const Scene &scene, const Settings &settings);
+
+struct World::Implementation {
+  Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
+  ~Implementation(); /* waits: what still runs reads buffers */
+
+  /* --- making a world: implementation.cpp --------------------------------------------------------------------- */
+  Sizes sizes() const;
+  void record_kernels();
+  void place(const Placement &placement);
+  void place_again(); /* where other kernels are needed than before */
+  void upload_scene();
+  void upload_parameters();
+  void guess_counts() noexcept;
+  QueryTarget query_target();
+
+  /* --- a step happens whole or not at all (host/world/carried.h): step_attempts.cpp ---------------------------- */
+  struct Attempt {
+    StepPlan plan;
+    Statistics statistics;
+    size_t quarantined;
+  };
+  void step();
+  void run_until_whole();
+  void turn() noexcept;
+  void turn_back() noexcept;
+  void undo(const Attempt &before) noexcept;
+  void restore_bodies();
+  [[noreturn]] void tell_why_step_failed() const;
+  void begin_launches();
+  void accept();
+  void prepare_repetition(uint32_t status, bool &may_forget);
+  bool near_list_overflows() const;
+  void grow_pairs(uint32_t needed, bool &may_forget);
+  void enlarge(uint32_t pairs);
+  void quarantine_from(uint32_t code);
+  void quarantine(uint32_t index, uint32_t stage);
+
+  /* --- modules of users (host/runtime/interface/module.h): extensions.cpp -------------------------------------- */
+  void note_rows(Recorder &recorder, const Module &module) const;
+  void check_kernel(Kernel kernel) const;
+  void check_write(Buffer buffer, size_t bytes, size_t offset) const;
+  void write(Buffer buffer, const void *from, size_t bytes, size_t offset);
+  void run(Kernel kernel, const Values &values, const Slots &slots);
+
+  Scene scene;
+  Settings settings;
+  Specialisation special;
+  HullSizes hulls;
+  TreeTables trees;
+  uint32_t scene_features; /* what the scene needs, also where all is run */
+  PlacedBackends backends;
+  Memory memory;
+  StepBuffers buffers;
+  PlacedLauncher launcher;
+  StepPlan plan;
+  std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
+  uint64_t state = 1, structure_state = 0; /* the state that is, and the one that the queries' structure is of */
+  bool launches_ended = true;
+  bool turned = false; /* the commit of an unfinished step has begun */
+  bool whole = true;   /* the last step was; after one that failed there is nothing to say of it */
+  /* In an unfinished step, by their index in the buffers; as they were. */
+  std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
+  std::vector<uint32_t> index_of_body;
+  std::vector<Quarantine> quarantined;
+  std::optional<BatchFault> fault;
+  Statistics statistics;
+};
+
+} // namespace tandem

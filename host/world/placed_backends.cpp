@@ -1,0 +1,103 @@
+/* placed_backends.cpp - see placed_backends.h. */
+#include "host/world/placed_backends.h"
+
+#include <exception>
+#include <utility>
+
+#include "host/pipeline/host_stages.h"
+#include "host/runtime/make_backend.h"
+
+namespace tandem {
+namespace {
+
+std::string backend_text(const Placement &placement, Kernel kernel)
+{
+  std::string text = placement.on;
+  for (const auto &[what, where] : placement.exceptions)
+    if (what == name_of(row_of(kernel).stage) || what == row_of(kernel).name) text = where;
+  return text;
+}
+
+} // namespace
+
+void PlacedBackends::finish_at_last() noexcept
+{
+  for (const auto &[text, backend] : backends_) try {
+      backend->finish();
+    } catch (const std::exception &) {}
+}
+
+/* Backends once made are kept: a buffer may live on one that runs no kernel any more. */
+Backend &PlacedBackends::named(const std::string &text, bool allow_inexact)
+{
+  if (const auto known = backends_.find(text); known != backends_.end()) return *known->second;
+  std::unique_ptr<Backend> made = make_backend(text, allow_inexact);
+  made->set_profiling(profiling_);
+  return *backends_.emplace(text, std::move(made)).first->second;
+}
+
+/* Stages of the host run there whatever is said of them; a name that means nothing is refused all the same. */
+Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
+{
+  Backend &as_said = named(backend_text(placement, kernel), placement.allow_inexact);
+  if (row_of(kernel).form != Form::host) return as_said;
+  if (const auto known = backends_.find(host_stages_name); known != backends_.end()) return *known->second;
+  std::unique_ptr<Backend> host = make_host_stages();
+  host->set_profiling(profiling_);
+  return *backends_.emplace(host_stages_name, std::move(host)).first->second;
+}
+
+/* All that can fail comes before the first change of what is placed. */
+void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
+{
+  Placement changed = placement;
+  std::map<Backend *, std::vector<Kernel>> own;
+  for (Kernel kernel : kernels) own[&for_kernel(placement, kernel)].push_back(kernel);
+  for (const auto &[backend, theirs] : own) backend->prepare(features_, theirs);
+  std::vector<Backend *> placed(all_kernels());
+  for (const auto &[backend, theirs] : own)
+    for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
+  placed_ = std::move(placed);
+  wanted_ = std::move(changed);
+}
+
+Backend &PlacedBackends::of(Kernel kernel)
+{
+  Backend *&backend = placed_.at(index_of(kernel));
+  if (!backend) {
+    Backend &chosen = for_kernel(wanted_, kernel);
+    chosen.prepare(features_, {kernel}); /* may fail, and then none is chosen */
+    backend = &chosen;
+  }
+  return *backend;
+}
+
+void PlacedBackends::set_profiling(bool on)
+{
+  profiling_ = on;
+  for (const auto &[text, backend] : backends_) {
+    backend->set_profiling(on);
+    backend->take_kernel_times();
+  }
+}
+
+std::vector<KernelTime> PlacedBackends::take_kernel_times()
+{
+  std::vector<KernelTime> times;
+  for (const auto &[text, backend] : backends_) {
+    const std::vector<Backend::Time> spent = backend->take_kernel_times();
+    for (size_t k = 0; k < spent.size(); ++k)
+      if (spent[k].launches > 0)
+        times.push_back({kernel_at(k), backend->name(), spent[k].nanoseconds * 1e-6, spent[k].launches});
+  }
+  return times;
+}
+
+double PlacedBackends::build_milliseconds() const
+{
+  double total = 0;
+  for (const auto &[text, backend] : backends_) total += backend->build_milliseconds;
+  return total;
+}
+
+} // namespace tandem

@@ -1,0 +1,215 @@
+/* step_attempts.cpp - steps run until they are whole: what overflows grows, what stops being finite is taken out, and a
+ * step that fails leaves the state before it. */
+#include <algorithm>
+#include <new>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "host/base/out_of_memory.h"
+#include "host/pipeline/broadphases/broadphase.h"
+#include "host/world/batch_fault.h"
+#include "host/world/implementation.h"
+#include "shared/broadphase/near_limits.h"
+
+namespace tandem {
+namespace {
+
+/* Each repetition fixes one cause; many in one step means that something is wrong. */
+constexpr size_t most_repetitions = 64;
+
+/* So many bodies of a step that stop being finite are taken out by a repetition each, so that what one of them would
+ * have infected in another pass stays; where there are more, all that are not finite by then. */
+constexpr size_t taken_one_by_one = 32;
+
+constexpr uint32_t most_rounds = 1 << 20;
+
+} // namespace
+
+void World::Implementation::step()
+{
+  launcher.set_step(statistics.steps);
+  ++state;
+  const Attempt before{plan, statistics, quarantined.size()};
+  try {
+    restore_bodies(); /* where the last attempt could not */
+    buffers.make_ready(sizes());
+    run_until_whole();
+  } catch (...) {
+    undo(before);
+    tell_why_step_failed();
+  }
+  whole = true;
+}
+
+void World::Implementation::run_until_whole()
+{
+  bool may_forget = launches_ended && plan.known[COUNT_KEPT] != 0;
+  for (size_t repetition = 0; repetition < most_repetitions + taken_one_by_one; ++repetition) {
+    begin_launches();
+    launch_step(launcher, plan, settings);
+    memory.download(Buffer::counts, plan.known.data(), sizeof plan.known);
+    launches_ended = true;
+    if (plan.known[COUNT_STATUS] == 0) return accept();
+    turn_back();
+    prepare_repetition(plan.known[COUNT_STATUS], may_forget);
+  }
+  throw std::runtime_error(
+      fmt::format("it did not complete in {} repetitions, in which {} bodies did not stay finite (status {})",
+                  most_repetitions + taken_one_by_one, taken_out.size(), plan.known[COUNT_STATUS]));
+}
+
+void World::Implementation::turn() noexcept
+{
+  turn_carried(memory, buffers.carried());
+  turned = true;
+}
+
+void World::Implementation::turn_back() noexcept
+{
+  if (turned) turn_carried(memory, buffers.carried());
+  turned = false;
+}
+
+void World::Implementation::undo(const Attempt &before) noexcept
+{
+  turn_back();
+  launches_ended = whole = false;
+  statistics = before.statistics;
+  quarantined.erase(quarantined.begin() + static_cast<ptrdiff_t>(before.quarantined), quarantined.end());
+  const uint32_t capacity = plan.capacity_pairs;
+  plan = before.plan;
+  plan.capacity_pairs = capacity;
+  if (capacity != before.plan.capacity_pairs) guess_counts();
+  try {
+    restore_bodies();
+  } catch (const std::exception &) { /* the next step does, before all else */
+  }
+}
+
+/* Bodies that were taken out by an attempt that failed later on. */
+void World::Implementation::restore_bodies()
+{
+  for (; !taken_out.empty(); taken_out.pop_back()) write_body(memory, taken_out.back().first, taken_out.back().second);
+}
+
+/* Out of the handler of what went wrong. */
+void World::Implementation::tell_why_step_failed() const
+{
+  const auto told = [&](const char *why) {
+    return fmt::format("step {}: {}; of {} bodies, with room for {} pairs, in {} bytes of buffers; the state is that "
+                       "before the step",
+                       statistics.steps, why, plan.bodies, plan.capacity_pairs, memory.total_bytes());
+  };
+  try {
+    throw;
+  } catch (const OutOfMemory &error) {
+    throw OutOfMemory(told(error.what()));
+  } catch (const std::bad_alloc &) {
+    throw OutOfMemory(told("out of memory"));
+  } catch (const std::runtime_error &error) {
+    throw std::runtime_error(told(error.what()));
+  }
+}
+
+/* Where launches broke off, by an exception that the caller survived, what is kept may be of no launch. */
+void World::Implementation::begin_launches()
+{
+  if (!launches_ended) forget_kept(memory);
+  launches_ended = false;
+}
+
+/* Some rounds and a colour of slack keep a growing scene from repeating every step. Nothing fails once the state has
+ * been accepted. */
+void World::Implementation::accept()
+{
+  if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
+  turned = false;
+  taken_out.clear();
+  ++statistics.steps;
+  plan.rounds = std::clamp<uint32_t>(plan.known[COUNT_ROUNDS] + 3, 4, most_rounds);
+  plan.colors = std::min(plan.known[COUNT_COLORS] + 1, COLOR_LIMIT);
+  if (plan.known[COUNT_COLORS] > COLOR_LIMIT) plan.colors = COLOR_LIMIT + 1;
+}
+
+void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget)
+{
+  const uint32_t needed = plan.known[COUNT_PAIRS_NEEDED];
+  if (status & STATUS_ROUNDS) plan.rounds = std::min(2 * plan.rounds, most_rounds);
+  if (status & STATUS_COLORS) plan.colors = plan.known[COUNT_COLORS];
+  if (plan.colors > COLOR_LIMIT && !(status & STATUS_PAIRS)) enlarge(plan.capacity_pairs);
+  if (status & STATUS_NONFINITE) quarantine_from(plan.known[COUNT_NONFINITE]);
+  plan.known[COUNT_COMMIT_BODIES] = plan.bodies;
+  plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
+  plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
+  plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
+  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last: it forgets what is known */
+}
+
+/* The pairs among what did not fit are not known then. */
+bool World::Implementation::near_list_overflows() const
+{
+  return plan.known[COUNT_NEAR_NEEDED] > uint64_t{NEAR_PER_PAIR} * plan.capacity_pairs;
+}
+
+/* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs
+ * none. */
+void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
+{
+  if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
+  if (needed > settings.max_pairs)
+    throw std::runtime_error(
+        fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
+                    needed == UINT32_MAX || near_list_overflows() ? "at least " : "", needed, settings.max_pairs));
+  ++statistics.overflow;
+  enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
+  guess_counts();
+}
+
+/* Room for so many pairs, and for what the present plan launches; longer scans and sorts take other kernels. */
+void World::Implementation::enlarge(uint32_t pairs)
+{
+  const uint32_t capacity = plan.capacity_pairs;
+  StepBuffers::Needs before = buffers.needs();
+  const auto give_up = [&] {
+    plan.capacity_pairs = capacity;
+    buffers.give_back_needs(std::move(before));
+  };
+  try {
+    plan.capacity_pairs = pairs;
+    record_kernels();
+    place_again();
+    forget_kept(memory);
+    buffers.make_ready(sizes());
+    memory.upload(Buffer::counts, &pairs, sizeof pairs, CAPACITY_PAIRS * sizeof pairs);
+  } catch (const OutOfMemory &error) {
+    give_up();
+    throw OutOfMemory(fmt::format("room for {} pairs and {} colours is needed: {}", pairs, plan.colors, error.what()));
+  } catch (...) {
+    give_up();
+    throw;
+  }
+}
+
+/* code: COUNT_NONFINITE, the first body that is not finite, and where. */
+void World::Implementation::quarantine_from(uint32_t code)
+{
+  const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
+  quarantine(first, stage);
+  if (taken_out.size() > taken_one_by_one)
+    for (const uint32_t body : bodies_not_finite(memory, plan.bodies))
+      if (body != first) quarantine(body, stage);
+  forget_kept(memory);
+}
+
+void World::Implementation::quarantine(uint32_t index, uint32_t stage)
+{
+  static const char *const stages[] = {"start", "solve", "integrate"};
+  const uint32_t body = special.order[index];
+  quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
+  ++statistics.nonfinite;
+  taken_out.emplace_back(index, read_body(memory, index)); /* first: a body that stays as it is can be restored, too */
+  quarantine_body(memory, index);
+}
+
+} // namespace tandem

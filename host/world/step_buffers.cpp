@@ -1,0 +1,85 @@
+/* step_buffers.cpp - see step_buffers.h. */
+#include "host/world/step_buffers.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include <tandem/error.h>
+
+namespace tandem {
+
+bool is_sized_by_writes(Buffer buffer)
+{
+  return index_of(buffer) >= buffer_count && row_of(buffer).capacity == Capacity::NOTHING;
+}
+
+/* Where one side of what is carried over is touched, both are needed. */
+void StepBuffers::take_needs(Recorder recorder)
+{
+  std::vector<bool> &touched = recorder.touched;
+  for (const CarriedBuffer &buffer : carried_) {
+    const bool needed = touched[index_of(buffer.now)] || touched[index_of(buffer.previous)];
+    touched[index_of(buffer.now)] = touched[index_of(buffer.previous)] = needed;
+  }
+  needs_ = {std::move(recorder.kernels), std::move(recorder.touched), std::move(recorder.uses)};
+}
+
+void StepBuffers::give_back_needs(Needs before)
+{
+  needs_ = std::move(before);
+  ready_ = false;
+}
+
+size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
+{
+  return needs_.touched[index_of(buffer)] || is_queried(buffer) ? bytes_of(buffer, sizes) : 0;
+}
+
+/* Of the buffers that grow, those alone carry anything over to the next step that never lose it: they come last, when
+ * the others have let go of their room. */
+void StepBuffers::allocate(const Sizes &sizes)
+{
+  for (size_t i = 0; i < needs_.touched.size(); ++i)
+    if (needs_.touched[i] || queried_[i]) check_size(buffer_at(i), sizes);
+  for (size_t i = 0; i < needs_.touched.size(); ++i) {
+    const Buffer buffer = buffer_at(i);
+    const Lifetime lifetime = row_of(buffer).lifetime;
+    if (is_sized_by_writes(buffer)) continue;
+    if (lifetime == Lifetime::SCENE) memory_.grow(buffer, wanted_bytes(buffer, sizes));
+    else if (!is_carried(lifetime)) memory_.resize(buffer, wanted_bytes(buffer, sizes));
+  }
+  for (const CarriedBuffer &buffer : carried_) memory_.resize(buffer.previous, wanted_bytes(buffer.previous, sizes));
+  for (const CarriedBuffer &buffer : carried_) memory_.grow(buffer.now, wanted_bytes(buffer.now, sizes));
+}
+
+void StepBuffers::make_ready(const Sizes &sizes)
+{
+  if (ready_) return;
+  allocate(sizes);
+  for (const auto &[kernel, buffer] : needs_.uses) memory_.reserve(buffer, backends_.of(kernel).storage());
+  for (const CarriedBuffer &buffer : carried_)
+    for (const auto &[text, backend] : backends_.all())
+      if (memory_.holds(buffer.now, backend->storage())) memory_.reserve(buffer.previous, backend->storage());
+  for (const auto &[text, backend] : backends_.all()) settle(*backend);
+  ready_ = true;
+}
+
+/* Drivers may put allocation off until the work that fills the buffers is done. */
+void StepBuffers::settle(Backend &backend)
+{
+  try {
+    backend.finish();
+  } catch (const std::runtime_error &error) {
+    throw OutOfMemory(
+        fmt::format("out of memory: {} bytes of buffers do not fit: {}", memory_.total_bytes(), error.what()));
+  }
+}
+
+void StepBuffers::make_room(Buffer buffer, const Sizes &sizes)
+{
+  queried_[index_of(buffer)] = true;
+  if (!needs_.touched[index_of(buffer)]) memory_.resize(buffer, bytes_of(buffer, sizes));
+}
+
+} // namespace tandem
