@@ -9,6 +9,6 @@
 
 namespace tandem {
 
-Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t features);
+Parameters parameters_of(const Scene &scene, const Settings &settings, Features features);
 
 } // namespace tandem

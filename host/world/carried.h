@@ -22,6 +22,6 @@ constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STAT
 TANDEM_API void turn_carried(Memory &memory) noexcept;
 
 /* Of all that is carried over, as far as a scene of these features has it. Equal iff the next step will be equal. */
-uint64_t hash_carried(Memory &memory, uint32_t bodies, uint32_t features);
+uint64_t hash_carried(Memory &memory, uint32_t bodies, Features features);
 
 } // namespace tandem

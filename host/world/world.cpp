@@ -17,6 +17,7 @@
 #include "host/pipeline/host_stages.h"
 #include "host/pipeline/layout.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/pipeline/step.h"
 #include "host/runtime/interface/debug.h"
 #include "host/runtime/interface/floating_point.h"
@@ -62,7 +63,8 @@ uint32_t first_room(const Scene &scene, const Settings &settings)
 
 Settings resolved(Settings settings, const Scene &scene, const Placement &placement)
 {
-  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene, placement.on).name;
+  if (settings.broadphase == Broadphase::automatic)
+    settings.broadphase = choose_broadphase(scene, placement.on).broadphase;
   return settings;
 }
 
@@ -463,7 +465,7 @@ struct World::Implementation {
   /* Of the state as it is: once for all queries between two changes of it. */
   QueryTarget query_target()
   {
-    const uint32_t structure = broadphase_named(settings.broadphase).queries;
+    const uint32_t structure = row_of(settings.broadphase).queries;
     if (structure_state != state) {
       Recorder recorder;
       StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
@@ -561,7 +563,7 @@ const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
 const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
-uint32_t World::features() const { return implementation_->special.features; }
+Features World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->kernels; }
 Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backend_of(kernel); }

@@ -306,7 +306,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
             make_vec4(kept * inner(xyz(old_friction), t.first), kept * inner(xyz(old_friction), t.second),
                       kept * old_friction.w, patch.radius));
   store_real(constraints.slop, i, slop_or_deep(parameters, size, deepest));
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
+  if (HAS_FEATURE(parameters, RESTITUTION)) {
     store_row(constraints.bounce, i, make_vec4(wished[0], wished[1], wished[2], wished[3]));
     store_row(constraints.bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }

@@ -171,8 +171,9 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                              GLOBAL const row *split_mass, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                              write_contact_impulses contact_impulses, write_iterates iterates,
-                             GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
+                             GLOBAL row *split_impulse, uint pass, uint momentum, item_index i)
 {
+  uint biased = pass == PASS_BIASED ? 1u : 0u;
   real share = (real)momentum / ((real)momentum + R(3.0));
   uint stride = counts[CAPACITY_PAIRS];
   vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
@@ -183,7 +184,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = c.friction > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec4 old = load_row(contact_impulses.friction, i);
@@ -217,7 +218,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
   if (momentum != 0u) next = extrapolated_push(pressed, load_row(iterates.pushed, i), share);
   store_row(iterates.pushed, i, pressed);
   store_row(contact_impulses.normal, i, next);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row(contact_impulses.bounce, stride + i,
               highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   wrench given = wrench_of_points(c, &s, impulses, next);

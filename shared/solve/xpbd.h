@@ -117,11 +117,11 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   c = press_together(c, &s, wished);
   vec4 pressed = impulses_of(&s);
   store_row(contact_impulses.normal, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row(contact_impulses.bounce, stride + i,
               highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   mask rough = c.friction > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, pressed);
@@ -159,7 +159,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   c = press_together(c, &s, wished);
   store_row_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));

@@ -78,7 +78,7 @@ public:
   Storage &storage() override { return storage_; }
   void finish() override { storage_.wait(); }
 
-  void prepare(uint32_t features, const std::vector<Kernel> &kernels) override
+  void prepare(Features features, const std::vector<Kernel> &kernels) override
   {
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
     const auto start = std::chrono::steady_clock::now();
@@ -132,12 +132,12 @@ private:
   }
 
   /* Of the program of a stage only what is asked for is compiled (but see part_to_build). */
-  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, uint32_t features)
+  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, Features features)
   {
     const EmbeddedProgram &embedded = embedded_program(name_of(stage));
-    std::optional<uint32_t> &readable = readable_[static_cast<size_t>(stage)];
+    std::optional<Features> &readable = readable_[static_cast<size_t>(stage)];
     if (!readable) readable = features_read(embedded); /* a search through its whole text */
-    const uint32_t read = features & *readable;
+    const Features read = features & *readable;
     std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
     std::vector<Kernel> unbuilt;
     for (const Kernel kernel : kernels)
@@ -147,11 +147,11 @@ private:
   }
 
   void build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels, const std::string &options,
-             uint32_t features, std::map<Kernel, cl::Program> &programs)
+             Features features, std::map<Kernel, cl::Program> &programs)
   {
     try {
       const cl::Program program = build_program(context_, part_to_build(embedded, kernels),
-                                                fmt::format("-D FEATURES={:#x}u", features) + options);
+                                                fmt::format("-D FEATURES={:#x}ul", features) + options);
       for (const Kernel kernel : kernels) programs[kernel] = program;
     } catch (const cl::Error &error) {
       fail(row_of(kernels.front()), "creation", error.err());
@@ -186,7 +186,7 @@ private:
   /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a
    * million boxes takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with
    * any limit (docs/results/2026-11-23-h200-registers). */
-  std::string registers_for(Stage stage, uint32_t features) const
+  std::string registers_for(Stage stage, Features features) const
   {
     const bool waits = stage == Stage::setup || stage == Stage::integrate ||
                        (stage == Stage::narrowphase && !(features & FEATURE_CONVEX));
@@ -276,9 +276,9 @@ private:
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: as each has it */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  std::array<std::optional<uint32_t>, stage_count> readable_; /* by stage: the features that its program reads */
-  std::map<std::pair<Stage, uint32_t>, std::map<Kernel, cl::Program>> programs_; /* uint32_t: the features read */
-  std::map<uint32_t, Build> builds_;                                             /* by features */
+  std::array<std::optional<Features>, stage_count> readable_; /* by stage: the features that its program reads */
+  std::map<std::pair<Stage, Features>, std::map<Kernel, cl::Program>> programs_; /* Features: those read */
+  std::map<Features, Build> builds_;                                             /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;
