@@ -117,7 +117,7 @@ public:
 
   const std::string &name() const override { return name_; }
   Storage &storage() override { return storage_; }
-  void prepare(uint32_t, const std::vector<Kernel> &) override {}
+  void prepare(Features, const std::vector<Kernel> &) override {}
   void finish() override {}
   void set_profiling(bool on) override { profiling_ = on; }
   std::vector<Time> take_kernel_times() override { return std::exchange(times_, std::vector<Time>(times_.size())); }

@@ -6,11 +6,17 @@
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
-/* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). */
+/* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). Two words hold a bit for
+ * each and one for the tail. */
 #define COLOR_LIMIT 63u
-#define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
-#define COLOR_NONE 254u     /* touching, not coloured yet */
-#define COLOR_INACTIVE 255u /* pair of bounds that do not touch, or one with a trigger */
+#define COLOR_TAIL COLOR_LIMIT /* sort key of a constraint without a colour of its own */
+#define COLOR_NONE 254u        /* touching, not coloured yet */
+#define COLOR_INACTIVE 255u    /* pair of bounds that do not touch, or one with a trigger */
+
+#define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* where each colour starts, the tail's start and end */
+#if COLOR_LIMIT > 63u
+#error "two words hold the colours of a body"
+#endif
 
 #define INDEX_NONE 0xffffffffu
 
@@ -85,9 +91,8 @@ enum {
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
   BODY_COLOR_START,  /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
-  COLOR_START =
-      BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
-  COUNT_TOTAL = COLOR_START + 63 + 2
+  COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,
+  COUNT_TOTAL = COLOR_START + COLOR_ENTRIES
 };
 
 enum {

@@ -1,4 +1,8 @@
-/* features.h - the rows of features.def as bits, and the test that kernels make of them.
+/* features.h - the rows of features.def as bits of a mask, and the tests that kernels make of it.
+ *
+ * C99 has no enumeration constant beyond an int, so here a feature is the index of its bit, and the tests take its bare
+ * name: HAS_FEATURE(parameters, TREES). The host's constants of the whole mask stand in
+ * host/runtime/interface/features.h.
  *
  * In OpenCL the mask is the compile-time constant FEATURES (-D FEATURES=...), so what a scene does
  * not need costs nothing. MiniCL is compiled ahead, so it reads the mask from the parameters; with
@@ -13,25 +17,24 @@ enum {
   FEATURE_COUNT
 };
 
-enum {
-#define FEATURE(name, what) FEATURE_##name = 1 << FEATURE_INDEX_##name,
-#include "shared/features.def"
-#undef FEATURE
-  FEATURE_ALWAYS = 0
-};
+/* mask: 64 bits, unsigned. */
+#define HAS_BIT(mask, index) ((((mask) >> (index)) & 1u) != 0u)
 
 #ifdef FEATURES
-#define HAS_FEATURE(parameters, bit) (((FEATURES) & (uint)(bit)) != 0u)
+#define IS_BUILT(index) HAS_BIT((ulong)(FEATURES), index)
+#define HAS_FEATURE(parameters, name) IS_BUILT(FEATURE_INDEX_##name)
 /* For what cannot be true of a scene without the feature: a compiler of devices then leaves it out. The shape of a
  * query need not be one of the scene's. */
 #ifdef ASKED_ABOUT_ANY_SHAPE
-#define MAY_OCCUR(bit) (((FEATURES) & (uint)(bit)) != 0u || ((bit) & (FEATURE_HULL | FEATURE_ROUND)) != 0)
+#define MAY_OCCUR(name)                                                            \
+  (IS_BUILT(FEATURE_INDEX_##name) || FEATURE_INDEX_##name == FEATURE_INDEX_HULL || \
+   FEATURE_INDEX_##name == FEATURE_INDEX_ROUND)
 #else
-#define MAY_OCCUR(bit) (((FEATURES) & (uint)(bit)) != 0u)
+#define MAY_OCCUR(name) IS_BUILT(FEATURE_INDEX_##name)
 #endif
 #else
-#define HAS_FEATURE(parameters, bit) (((parameters)->features & (uint)(bit)) != 0u)
-#define MAY_OCCUR(bit) 1
+#define HAS_FEATURE(parameters, name) HAS_BIT((parameters)->features, FEATURE_INDEX_##name)
+#define MAY_OCCUR(name) 1
 #endif
 
 #endif

@@ -1,6 +1,6 @@
 /* parameters.h - the numbers of a step that are the same for every item.
- * Derived on the host by host/scene/parameters.cpp from the settings of a run; plain 32-bit fields so that
- * every compiler lays them out alike. */
+ * Derived on the host by host/scene/parameters.cpp from the settings of a run; reals, then one number of 64 bits that
+ * stands at a multiple of its own size, so that every compiler lays them out alike. */
 #ifndef TANDEM_SHARED_PARAMETERS_H
 #define TANDEM_SHARED_PARAMETERS_H
 
@@ -33,8 +33,7 @@ typedef struct {
   PARAMETER_REAL restitution_speed;    /* m/s, slower impacts do not bounce */
   PARAMETER_REAL hybrid_cell;          /* m, cell of the hybrid broadphase: what is larger is not in its grid */
   PARAMETER_REAL inverse_batch_cell;   /* 1/m, cells of two-stage batching */
-  uint features;                       /* FEATURE_ bits */
-  uint reserved;
+  ulong features;                      /* a bit for each row of features.def; an even number of reals stands before */
 } Parameters;
 #endif
 

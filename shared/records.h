@@ -22,7 +22,7 @@ SHARED mask is_continuous(natural traits) { return (traits & TRAIT_CONTINUOUS) !
 SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side,
                              natural body)
 {
-  return HAS_FEATURE(parameters, FEATURE_TREES) ? load_natural(pair_leaf, pair * 4u + side * 2u) : body;
+  return HAS_FEATURE(parameters, TREES) ? load_natural(pair_leaf, pair * 4u + side * 2u) : body;
 }
 
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low`

@@ -19,6 +19,13 @@ inline auto ContainsSubstring(const std::string &part) { return Contains(part); 
 } // namespace Catch::Matchers
 #endif
 
+#include <tandem/settings.h>
+
+/* Choices of settings are shown by name. */
+template <tandem::Choice T> struct Catch::StringMaker<T> {
+  static std::string convert(T choice) { return tandem::name_of(choice); }
+};
+
 namespace tests {
 
 /* Read and cleared by tests/main.cpp when a test case ends. */

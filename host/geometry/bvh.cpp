@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t most_q = 65535;
 constexpr size_t bins = 16;
 
-void grow(Bounds &bounds, const Bounds &other)
+void grow(AxisAlignedBox &bounds, const AxisAlignedBox &other)
 {
   for (size_t axis = 0; axis < 3; ++axis) {
     bounds.lower[axis] = std::min(bounds.lower[axis], other.lower[axis]);
@@ -25,14 +25,14 @@ void grow(Bounds &bounds, const Bounds &other)
   }
 }
 
-double side(const Bounds &box, size_t axis) { return double(box.upper[axis]) - box.lower[axis]; }
+double side(const AxisAlignedBox &box, size_t axis) { return double(box.upper[axis]) - box.lower[axis]; }
 
-double half_area(const Bounds &box)
+double half_area(const AxisAlignedBox &box)
 {
   return side(box, 0) * side(box, 1) + side(box, 1) * side(box, 2) + side(box, 2) * side(box, 0);
 }
 
-double doubled_center(const Bounds &box, size_t axis) { return double(box.lower[axis]) + box.upper[axis]; }
+double doubled_center(const AxisAlignedBox &box, size_t axis) { return double(box.lower[axis]) + box.upper[axis]; }
 
 /* The least q in 0 .. most_q + 1 for which `reached`, which stays true from there on. */
 template <class Reached> uint32_t first_q(const Reached &reached)
@@ -47,7 +47,7 @@ template <class Reached> uint32_t first_q(const Reached &reached)
 }
 
 /* The step is rounded up until the last q reaches the upper bound in the arithmetic of the kernels. */
-Quantisation quantisation_of(const Bounds &whole, const std::string &where)
+Quantisation quantisation_of(const AxisAlignedBox &whole, const std::string &where)
 {
   Quantisation result;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -63,7 +63,7 @@ Quantisation quantisation_of(const Bounds &whole, const std::string &where)
   return result;
 }
 
-void check(std::span<const Bounds> boxes, const std::string &where)
+void check(std::span<const AxisAlignedBox> boxes, const std::string &where)
 {
   if (boxes.empty()) throw InputError(fmt::format("{}: a hierarchy needs at least one box", where));
   if (boxes.size() >= size_t{1} << 30)
@@ -80,7 +80,8 @@ void check(std::span<const Bounds> boxes, const std::string &where)
 
 class HierarchyBuilder {
 public:
-  HierarchyBuilder(std::span<const Bounds> boxes, const std::string &where) : boxes_(boxes), order_(boxes.size())
+  HierarchyBuilder(std::span<const AxisAlignedBox> boxes, const std::string &where)
+      : boxes_(boxes), order_(boxes.size())
   {
     std::iota(order_.begin(), order_.end(), 0u);
     bvh_.quantisation = quantisation_of(bounds({0, boxes.size(), 0}), where);
@@ -116,7 +117,7 @@ private:
   };
 
   struct Bin {
-    Bounds box;
+    AxisAlignedBox box;
     size_t count = 0;
 
     void add(const Bin &other)
@@ -134,15 +135,15 @@ private:
     size_t axis;
     double lower, scale;
 
-    size_t bin(const Bounds &box) const
+    size_t bin(const AxisAlignedBox &box) const
     {
       return std::min(bins - 1, size_t((doubled_center(box, axis) - lower) * scale));
     }
   };
 
-  Bounds bounds(const Range &range) const
+  AxisAlignedBox bounds(const Range &range) const
   {
-    Bounds result = boxes_[order_[range.begin]];
+    AxisAlignedBox result = boxes_[order_[range.begin]];
     for (size_t i = range.begin + 1; i < range.end; ++i) grow(result, boxes_[order_[i]]);
     return result;
   }
@@ -219,7 +220,7 @@ private:
     }
   }
 
-  std::span<const Bounds> boxes_;
+  std::span<const AxisAlignedBox> boxes_;
   std::vector<uint32_t> order_;
   Bvh bvh_;
 };
@@ -228,13 +229,13 @@ private:
 
 uint32_t depth_bound(size_t primitives) { return 2 * uint32_t(std::bit_width(primitives - 1)) + 8; }
 
-Bvh build_bvh(std::span<const Bounds> boxes, const std::string &where)
+Bvh build_bvh(std::span<const AxisAlignedBox> boxes, const std::string &where)
 {
   check(boxes, where);
   return HierarchyBuilder(boxes, where).build();
 }
 
-QuantisedBounds quantised(const Quantisation &quantisation, const Bounds &box)
+QuantisedBounds quantised(const Quantisation &quantisation, const AxisAlignedBox &box)
 {
   QuantisedBounds result;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -246,9 +247,9 @@ QuantisedBounds quantised(const Quantisation &quantisation, const Bounds &box)
   return result;
 }
 
-Bounds dequantised(const Quantisation &quantisation, const QuantisedBounds &bounds)
+AxisAlignedBox dequantised(const Quantisation &quantisation, const QuantisedBounds &bounds)
 {
-  Bounds result;
+  AxisAlignedBox result;
   for (size_t axis = 0; axis < 3; ++axis) {
     result.lower[axis] = quantisation.coordinate(axis, bounds.lower[axis]);
     result.upper[axis] = quantisation.coordinate(axis, bounds.upper[axis]);

@@ -71,13 +71,13 @@ uint32_t depth_bound(size_t primitives);
 
 /* Throws InputError for no boxes, boxes whose lower bound is not at most the upper (NaN), infinite ones, and 2^30 boxes
  * or more. */
-Bvh build_bvh(std::span<const Bounds> boxes, const std::string &where);
+Bvh build_bvh(std::span<const AxisAlignedBox> boxes, const std::string &where);
 
 /* The least box of 16 bits that contains `box` when computed back; `box` lies within the quantised bounds. */
-QuantisedBounds quantised(const Quantisation &quantisation, const Bounds &box);
-Bounds dequantised(const Quantisation &quantisation, const QuantisedBounds &bounds);
+QuantisedBounds quantised(const Quantisation &quantisation, const AxisAlignedBox &box);
+AxisAlignedBox dequantised(const Quantisation &quantisation, const QuantisedBounds &bounds);
 
-inline bool overlap(const Bounds &a, const Bounds &b)
+inline bool overlap(const AxisAlignedBox &a, const AxisAlignedBox &b)
 {
   bool result = true;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -86,7 +86,7 @@ inline bool overlap(const Bounds &a, const Bounds &b)
 }
 
 /* Calls visit(primitive) for each whose quantised box overlaps `box` (touching counts), as a kernel walks: no stack. */
-template <class Visit> void for_each_overlap(const Bvh &bvh, const Bounds &box, const Visit &visit)
+template <class Visit> void for_each_overlap(const Bvh &bvh, const AxisAlignedBox &box, const Visit &visit)
 {
   for (size_t i = 0; i < bvh.nodes.size();) {
     const BvhNode &node = bvh.nodes[i];

@@ -17,7 +17,7 @@
 namespace tandem {
 namespace {
 
-double longest_side(const Bounds &bounds)
+double longest_side(const AxisAlignedBox &bounds)
 {
   double longest = 0;
   for (size_t axis = 0; axis < 3; ++axis) longest = std::max(longest, double(bounds.upper[axis]) - bounds.lower[axis]);
@@ -33,7 +33,7 @@ struct Normalised {
 
 Normalised normalised(std::span<const Vec3> points)
 {
-  const Bounds bounds = bounds_of(points);
+  const AxisAlignedBox bounds = bounds_of(points);
   const Vector center = (vector_of(bounds.lower) + vector_of(bounds.upper)) / 2;
   int exponent;
   std::frexp(longest_side(bounds), &exponent);
@@ -230,7 +230,7 @@ void renumber(std::vector<Polygon> &faces, const std::vector<uint32_t> &kept)
 
 double hull_tolerance_of(std::span<const Vec3> points)
 {
-  const Bounds bounds = bounds_of(points);
+  const AxisAlignedBox bounds = bounds_of(points);
   double largest = 0;
   for (size_t axis = 0; axis < 3; ++axis)
     largest = std::max({largest, std::abs(double(bounds.lower[axis])), std::abs(double(bounds.upper[axis]))});

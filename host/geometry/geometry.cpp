@@ -21,9 +21,9 @@ struct PointHash {
 
 } // namespace
 
-Bounds bounds_of(std::span<const Vec3> points)
+AxisAlignedBox bounds_of(std::span<const Vec3> points)
 {
-  Bounds bounds{points[0], points[0]};
+  AxisAlignedBox bounds{points[0], points[0]};
   for (const Vec3 &p : points)
     for (size_t axis = 0; axis < 3; ++axis) {
       bounds.lower[axis] = std::min(bounds.lower[axis], p[axis]);

@@ -24,13 +24,13 @@ using Rotation = std::array<double, 4>;   /* x y z w, unit length */
 using Triangle = std::array<uint32_t, 3>; /* indices of vertices, counter-clockwise seen from outside */
 
 /* Axis-aligned: all x with lower <= x <= upper. */
-struct Bounds {
+struct AxisAlignedBox {
   Vec3 lower{}, upper{};
-  bool operator==(const Bounds &) const = default;
+  bool operator==(const AxisAlignedBox &) const = default;
 };
 
 /* Of at least one point. */
-Bounds bounds_of(std::span<const Vec3> points);
+AxisAlignedBox bounds_of(std::span<const Vec3> points);
 
 /* The points with their coordinates multiplied axis by axis. A negative factor mirrors: a hull of the points takes no
  * notice, triangles are inside out afterwards. Throws InputError where a factor is zero or not finite. */

@@ -267,9 +267,9 @@ std::vector<Triangle> turned_round(std::span<const Triangle> triangles)
   return result;
 }
 
-std::vector<Bounds> triangle_bounds(const TriangleMesh &mesh)
+std::vector<AxisAlignedBox> triangle_bounds(const TriangleMesh &mesh)
 {
-  std::vector<Bounds> result;
+  std::vector<AxisAlignedBox> result;
   for (const Triangle &t : mesh.triangles) {
     const Vec3 corners[] = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     result.push_back(bounds_of(corners));

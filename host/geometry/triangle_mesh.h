@@ -86,6 +86,6 @@ std::string cleaning_note(const TriangleMesh &mesh);
 TANDEM_API std::vector<Triangle> turned_round(std::span<const Triangle> triangles);
 
 /* One box a triangle, for a bvh. */
-std::vector<Bounds> triangle_bounds(const TriangleMesh &mesh);
+std::vector<AxisAlignedBox> triangle_bounds(const TriangleMesh &mesh);
 
 } // namespace tandem

@@ -19,7 +19,7 @@ struct Sizes {
   TreeSizes trees;
   uint32_t pairs = 0; /* capacity */
   uint32_t cells = 0; /* capacity */
-  uint32_t features = 0;
+  Features features = 0;
 };
 
 /* 0 for a buffer whose feature the scene lacks. */

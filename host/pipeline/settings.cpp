@@ -1,7 +1,8 @@
 /* settings.cpp - which settings and placements make sense; see settings.h. */
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <span>
+#include <type_traits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,8 @@
 
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/setting_rows.h"
+#include "host/pipeline/solvers/solvers.h"
 #include "host/runtime/backend_list.h"
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/interface/module.h"
@@ -23,10 +26,65 @@ constexpr float longest_step = 10.0f; /* s; nothing physical is left of a longer
 constexpr uint32_t most_passes = 1000;
 constexpr uint32_t most_cells = 256;
 
-void check_name(const char *what, const std::string &name, const std::vector<std::string> &accepted)
+constexpr BoundsRow bounds_rows[] = {{Bounds::affine, "affine"}, {Bounds::tight, "tight"}};
+
+constexpr MidphaseRow midphase_rows[] = {{Midphase::walk, "walk"}, {Midphase::subtrees, "subtrees"}};
+
+constexpr NarrowphaseRow narrowphase_rows[] = {{Narrowphase::sat, "sat", CONVEX_AXES},
+                                               {Narrowphase::gjk_epa, "gjk-epa", CONVEX_EXPANSION},
+                                               {Narrowphase::gjk_sampled, "gjk-sampled", CONVEX_SAMPLED},
+                                               {Narrowphase::sat_split, "sat-split", CONVEX_AXES},
+                                               {Narrowphase::cube_map, "cube-map", CONVEX_FIELDS}};
+
+constexpr SupportRow support_rows[] = {{Support::brute_force, "brute-force", SUPPORT_BRUTE_FORCE},
+                                       {Support::hill_climbing, "hill-climbing", SUPPORT_HILL_CLIMBING},
+                                       {Support::cube_map, "cube-map", SUPPORT_CUBE_MAP}};
+
+static_assert(are_in_order(bounds_rows) && are_in_order(midphase_rows) && are_in_order(narrowphase_rows) &&
+              are_in_order(support_rows));
+
+/* Of each enum: what messages call it, and its rows. */
+template <class T> struct Setting;
+template <> struct Setting<Solver> {
+  static constexpr const char *what = "solver";
+  static auto rows() { return solvers(); }
+};
+template <> struct Setting<Broadphase> {
+  static constexpr const char *what = "broadphase";
+  static auto rows() { return broadphase_rows(); }
+};
+template <> struct Setting<Bounds> {
+  static constexpr const char *what = "bounds";
+  static auto rows() { return std::span<const BoundsRow>(bounds_rows); }
+};
+template <> struct Setting<Midphase> {
+  static constexpr const char *what = "midphase";
+  static auto rows() { return std::span<const MidphaseRow>(midphase_rows); }
+};
+template <> struct Setting<Narrowphase> {
+  static constexpr const char *what = "narrowphase";
+  static auto rows() { return std::span<const NarrowphaseRow>(narrowphase_rows); }
+};
+template <> struct Setting<Support> {
+  static constexpr const char *what = "support";
+  static auto rows() { return std::span<const SupportRow>(support_rows); }
+};
+template <> struct Setting<Batching> {
+  static constexpr const char *what = "batching";
+  static auto rows() { return batchers(); }
+};
+
+template <class T> [[noreturn]] void refuse(const std::string &given)
 {
-  if (std::find(accepted.begin(), accepted.end(), name) == accepted.end())
-    throw InputError(fmt::format("{} '{}' is unknown; use {}", what, name, fmt::join(accepted, ", ")));
+  std::vector<const char *> accepted;
+  for (const auto &row : Setting<T>::rows()) accepted.push_back(row.name);
+  throw InputError(fmt::format("{} {} is unknown; use {}", Setting<T>::what, given, fmt::join(accepted, ", ")));
+}
+
+template <class T> void check_choice(T choice)
+{
+  if (static_cast<size_t>(choice) >= Setting<T>::rows().size())
+    refuse<T>(fmt::format("number {}", static_cast<unsigned>(choice)));
 }
 
 void check_count(const char *what, uint32_t value)
@@ -70,40 +128,58 @@ std::string stage_list()
 
 } // namespace
 
-std::vector<std::string> bounds_names() { return {"affine", "tight"}; }
-std::vector<std::string> midphase_names() { return {"walk", "subtrees"}; }
-std::vector<std::string> narrowphase_names() { return {"sat", "gjk-epa", "gjk-sampled", "sat-split", "cube-map"}; }
-/* In the order of SUPPORT_ in shared/narrowphase/hull_support.h. */
-std::vector<std::string> support_names() { return {"brute-force", "hill-climbing", "cube-map"}; }
+template <Choice T> const char *name_of(T choice)
+{
+  check_choice(choice);
+  return row_in(Setting<T>::rows(), choice).name;
+}
+
+template <Choice T> T parse_setting(const std::string &name)
+{
+  for (const auto &row : Setting<T>::rows())
+    if (name == row.name) return row.choice;
+  refuse<T>(fmt::format("'{}'", name));
+}
+
+template <Choice T> std::vector<T> choices()
+{
+  std::vector<T> all;
+  for (const auto &row : Setting<T>::rows()) all.push_back(row.choice);
+  if constexpr (std::is_same_v<T, Broadphase>) std::erase(all, Broadphase::automatic);
+  return all;
+}
+
+template <Choice T> std::vector<std::string> choice_names()
+{
+  std::vector<std::string> names;
+  for (const T choice : choices<T>()) names.emplace_back(name_of(choice));
+  return names;
+}
+
+#define INSTANTIATE(T)                                             \
+  template TANDEM_API const char *name_of<T>(T choice);            \
+  template TANDEM_API T parse_setting<T>(const std::string &name); \
+  template TANDEM_API std::vector<T> choices<T>();                 \
+  template TANDEM_API std::vector<std::string> choice_names<T>();
+INSTANTIATE(Solver)
+INSTANTIATE(Broadphase)
+INSTANTIATE(Bounds)
+INSTANTIATE(Midphase)
+INSTANTIATE(Narrowphase)
+INSTANTIATE(Support)
+INSTANTIATE(Batching)
+#undef INSTANTIATE
 
 uint32_t narrowphase_method(const Settings &settings)
 {
-  static const std::map<std::string, uint32_t> methods{{"sat", CONVEX_AXES},
-                                                       {"gjk-epa", CONVEX_EXPANSION},
-                                                       {"gjk-sampled", CONVEX_SAMPLED},
-                                                       {"sat-split", CONVEX_AXES},
-                                                       {"cube-map", CONVEX_FIELDS}};
-  const std::vector<std::string> names = support_names();
-  return methods.at(settings.narrowphase) |
-         static_cast<uint32_t>(std::find(names.begin(), names.end(), settings.support) - names.begin()) << 8;
+  return row_in(Setting<Narrowphase>::rows(), settings.narrowphase).code |
+         row_in(Setting<Support>::rows(), settings.support).code << 8;
 }
+
 uint32_t cube_map_cells(const Settings &settings)
 {
-  return settings.support == "brute-force" && settings.narrowphase != "cube-map" ? 0 : settings.support_cells;
-}
-
-std::vector<std::string> broadphase_names()
-{
-  std::vector<std::string> names;
-  for (const Broadphase &broadphase : broadphases()) names.emplace_back(broadphase.name);
-  return names;
-}
-
-std::vector<std::string> batching_names()
-{
-  std::vector<std::string> names;
-  for (const Batcher &batcher : batchers()) names.emplace_back(batcher.name);
-  return names;
+  const bool uses_none = settings.support == Support::brute_force && settings.narrowphase != Narrowphase::cube_map;
+  return uses_none ? 0 : settings.support_cells;
 }
 
 void validate(const Settings &settings)
@@ -117,19 +193,17 @@ void validate(const Settings &settings)
   if (settings.step / substeps < 1e-9f)
     throw InputError(fmt::format("time step {} s in {} substeps: a substep must be at least 1e-9 s", settings.step,
                                  settings.substeps));
-  check_name("solver", settings.solver, solver_names());
-  std::vector<std::string> broadphases = broadphase_names();
-  broadphases.emplace_back("auto");
-  check_name("broadphase", settings.broadphase, broadphases);
-  check_name("bounds", settings.bounds, bounds_names());
-  check_name("midphase", settings.midphase, midphase_names());
-  check_name("narrowphase", settings.narrowphase, narrowphase_names());
-  check_name("support", settings.support, support_names());
+  check_choice(settings.solver);
+  check_choice(settings.broadphase);
+  check_choice(settings.bounds);
+  check_choice(settings.midphase);
+  check_choice(settings.narrowphase);
+  check_choice(settings.support);
   if (settings.support_cells < 1 || settings.support_cells > most_cells)
     throw InputError(fmt::format("support cells {}: use 1 to {}", settings.support_cells, most_cells));
   if (settings.max_pairs < 1 || settings.max_pairs > most_pairs)
     throw InputError(fmt::format("at most {} pairs: use 1 to {}", settings.max_pairs, most_pairs));
-  check_name("batching", settings.batching, batching_names());
+  check_choice(settings.batching);
   check_extensions(settings.extensions);
   check_number("contact stiffness", settings.contact_hertz, "Hz", false);
   check_number("contact damping ratio", settings.contact_damping_ratio, "(no unit)", true);

@@ -10,6 +10,7 @@
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "host/pipeline/step_launches.h"
 #include "shared/body_codes.h"
@@ -38,7 +39,7 @@ public:
     if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     run_extensions(StepPoint::constraints);
-    solver_named(settings().solver).launch(*this);
+    row_of(settings().solver).launch(*this);
     if (has(FEATURE_CONTINUOUS)) keep_out_of_walls();
     run_extensions(StepPoint::solved);
     commit();
@@ -48,13 +49,13 @@ private:
   void find_pairs()
   {
     run(Kernel::compute_bounds);
-    if (settings().bounds == "tight" && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
-    broadphase_named(settings().broadphase).launch(*this);
+    if (settings().bounds == Bounds::tight && has(FEATURE_CONVEX)) run(Kernel::tighten_bounds);
+    row_of(settings().broadphase).launch(*this);
   }
 
   void find_leaf_pairs()
   {
-    const bool by_subtree = settings().midphase == "subtrees";
+    const bool by_subtree = settings().midphase == Midphase::subtrees;
     if (by_subtree) run(Kernel::group_body_pairs);
     if (by_subtree) run_pair_groups(Kernel::count_leaf_pairs_by_subtree, GROUP_PAIRS);
     else run(Kernel::count_leaf_pairs);
@@ -97,7 +98,7 @@ private:
 
   void collide_convexes(uint32_t method)
   {
-    if (settings().narrowphase == "sat-split")
+    if (settings().narrowphase == Narrowphase::sat_split)
       for (Kernel kernel :
            {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts})
         run(kernel, {method});
@@ -107,7 +108,7 @@ private:
 
   void color_contacts()
   {
-    const Batcher &batcher = batcher_named(settings().batching);
+    const BatcherRow &batcher = row_of(settings().batching);
     run(Kernel::match_pairs, {batcher.keeps_colors ? 1u : 0u});
     batcher.launch(*this);
     run(Kernel::color_keys);
@@ -141,7 +142,7 @@ private:
       run(Kernel::clear_cached, {1}, {Buffer::cached_rolling_impulse});
       run(Kernel::cache_rolling);
     }
-    if (const auto keep = solver_named(settings().solver).commit) keep(*this);
+    if (const auto keep = row_of(settings().solver).commit) keep(*this);
     run_extensions(StepPoint::commit);
   }
 

@@ -13,7 +13,7 @@ namespace tandem {
 /* What the host knows when it launches a step: sizes of launches, never of results. Launching too few
  * colours or rounds shows in the status, and the step runs again with more. */
 struct StepPlan {
-  uint32_t features = 0;
+  Features features = 0;
   uint32_t bodies = 0;
   uint32_t capacity_pairs = 0;
   uint32_t capacity_cells = 0;

@@ -16,7 +16,7 @@ public:
   const StepPlan &plan() const { return plan_; }
   const Settings &settings() const { return settings_; }
   Launcher &launcher() { return launcher_; }
-  bool has(uint32_t feature) const { return (plan_.features & feature) != 0; }
+  bool has(Features feature) const { return (plan_.features & feature) != 0; }
 
   /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
   void run(Kernel kernel, const Values &values = {}, const Slots &slots = {});

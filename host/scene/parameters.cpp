@@ -35,7 +35,7 @@ float inverse_batch_cell(const Scene &scene)
 
 } // namespace
 
-Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t features)
+Parameters parameters_of(const Scene &scene, const Settings &settings, Features features)
 {
   const double h = static_cast<double>(settings.step) / settings.substeps;
   /* Above a fifth of the substep rate the bias lifts under load faster than the leak lets sink, and tall columns

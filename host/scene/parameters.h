@@ -2,6 +2,7 @@
 #pragma once
 
 #include <tandem/scene.h>
+#include <tandem/features.h>
 #include <tandem/settings.h>
 
 #include "shared/parameters.h"
@@ -9,6 +10,6 @@
 
 namespace tandem {
 
-Parameters parameters_of(const Scene &scene, const Settings &settings, uint32_t features);
+Parameters parameters_of(const Scene &scene, const Settings &settings, Features features);
 
 } // namespace tandem

@@ -6,9 +6,8 @@
 
 #include <tandem/settings.h>
 
+#include "host/runtime/interface/features.h"
 #include "host/scene/shape_bounds.h"
-#include "shared/body_codes.h"
-#include "shared/features.h"
 
 namespace tandem {
 namespace {
@@ -52,12 +51,12 @@ bool any_shape(const Scene &scene, std::initializer_list<ShapeType> types)
   });
 }
 
-uint32_t convex_features(const Scene &scene)
+Features convex_features(const Scene &scene)
 {
   const bool general =
       std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
   if (!general) return 0;
-  uint32_t features = FEATURE_CONVEX;
+  Features features = FEATURE_CONVEX;
   if (any_shape(scene, {ShapeType::half_space})) features |= FEATURE_CONVEX_HALF_SPACE;
   if (any_shape(scene, {ShapeType::hull})) features |= FEATURE_HULL;
   if (any_shape(scene, {ShapeType::capsule, ShapeType::cylinder})) features |= FEATURE_ROUND;
@@ -66,35 +65,39 @@ uint32_t convex_features(const Scene &scene)
 }
 
 /* Polytopes find their depth by axes; triangles, and all else that is not sampled, by expansion. */
-uint32_t narrowphase_features(const Scene &scene, uint32_t features, const Settings &settings)
+Features narrowphase_features(const Scene &scene, Features features, const Settings &settings)
 {
   if ((features & FEATURE_CONVEX) == 0) return 0;
-  const uint32_t method = narrowphase_method(settings) & 255u;
-  if (method == CONVEX_SAMPLED)
-    return uint32_t{FEATURE_SAMPLED} | ((features & FEATURE_TREES) != 0 ? uint32_t{FEATURE_EXPANSION} : 0u);
-  if (method == CONVEX_EXPANSION) return FEATURE_EXPANSION;
-  if (method == CONVEX_FIELDS) return uint32_t{FEATURE_FIELDS} | uint32_t{FEATURE_EXPANSION};
+  switch (settings.narrowphase) {
+  case Narrowphase::gjk_sampled: return FEATURE_SAMPLED | ((features & FEATURE_TREES) != 0 ? FEATURE_EXPANSION : 0);
+  case Narrowphase::gjk_epa: return FEATURE_EXPANSION;
+  case Narrowphase::cube_map: return FEATURE_FIELDS | FEATURE_EXPANSION;
+  case Narrowphase::sat:
+  case Narrowphase::sat_split: break;
+  }
   const bool others = any_shape(scene, {ShapeType::sphere, ShapeType::capsule, ShapeType::cylinder, ShapeType::mesh});
-  return uint32_t{FEATURE_AXES} | (others ? uint32_t{FEATURE_EXPANSION} : 0u) |
-         (settings.narrowphase == "sat-split" ? uint32_t{FEATURE_SAT_SPLIT} : 0u);
+  return FEATURE_AXES | (others ? FEATURE_EXPANSION : 0) |
+         (settings.narrowphase == Narrowphase::sat_split ? FEATURE_SAT_SPLIT : 0);
 }
 
-uint32_t support_features(uint32_t features, const Settings &settings)
+Features support_features(Features features, const Settings &settings)
 {
   if ((features & FEATURE_HULL) == 0) return 0;
-  const uint32_t support = narrowphase_method(settings) >> 8;
-  return support == SUPPORT_HILL_CLIMBING ? uint32_t{FEATURE_HILL_CLIMBING}
-         : support == SUPPORT_CUBE_MAP    ? uint32_t{FEATURE_CUBE_MAP}
-                                          : 0u;
+  switch (settings.support) {
+  case Support::hill_climbing: return FEATURE_HILL_CLIMBING;
+  case Support::cube_map: return FEATURE_CUBE_MAP;
+  case Support::brute_force: break;
+  }
+  return 0;
 }
 
-uint32_t pair_features(const Presence &present)
+Features pair_features(const Presence &present)
 {
   const auto meets = [&](ShapeType first, ShapeType second) {
     const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
     return (present.dynamic[a] && (present.dynamic[b] || present.fixed[b])) || (present.dynamic[b] && present.fixed[a]);
   };
-  uint32_t features = 0;
+  Features features = 0;
   if (meets(ShapeType::sphere, ShapeType::sphere)) features |= FEATURE_SPHERE_SPHERE;
   if (meets(ShapeType::sphere, ShapeType::box)) features |= FEATURE_SPHERE_BOX;
   if (meets(ShapeType::box, ShapeType::box)) features |= FEATURE_BOX_BOX;
@@ -140,18 +143,18 @@ bool filters(const Scene &scene)
   return result;
 }
 
-uint32_t features_of(const Material &material)
+Features features_of(const Material &material)
 {
-  uint32_t features = 0;
+  Features features = 0;
   if (material.static_friction > 0 || material.dynamic_friction > 0) features |= FEATURE_FRICTION;
   if (material.restitution > 0) features |= FEATURE_RESTITUTION;
   if (material.rolling_friction > 0 || material.spinning_friction > 0) features |= FEATURE_ROLLING;
   return features;
 }
 
-uint32_t body_features(const Scene &scene)
+Features body_features(const Scene &scene)
 {
-  uint32_t features = 0;
+  Features features = 0;
   for (const Body &body : scene.bodies) {
     for_each_material(scene, body, [&](const Material &material) { features |= features_of(material); });
     if (spins_unevenly(scene, body)) features |= FEATURE_GYROSCOPIC;
@@ -231,7 +234,12 @@ Vec3 inverse_inertia_of(const Scene &scene, const Body &body)
   return inverse;
 }
 
-uint32_t all_features() { return (1u << FEATURE_COUNT) - 1; }
+Features all_features()
+{
+  Features all = 0;
+  for (int index = 0; index < FEATURE_COUNT; ++index) all |= feature_of_index(index);
+  return all;
+}
 
 Specialisation specialise(const Scene &scene, const Settings &settings)
 {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <tandem/export.h>
+#include <tandem/features.h>
 #include <tandem/scene.h>
 
 namespace tandem {
@@ -20,7 +21,7 @@ constexpr size_t most_large_bodies = 64;
 constexpr float large_ratio = 4.0f;
 
 struct Specialisation {
-  uint32_t features = 0; /* FEATURE_ bits */
+  Features features = 0; /* FEATURE_ bits */
   /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid,
    * so that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as
    * large, as their bounds are. */
@@ -32,7 +33,7 @@ struct Specialisation {
 Specialisation specialise(const Scene &scene, const Settings &settings);
 
 /* All that the shapes of a scene could need, for comparing builds: every feature set. */
-uint32_t all_features();
+Features all_features();
 
 /* The median of bounding_radius over the bodies of finite size; 0 for none. */
 float median_radius(const Scene &scene);

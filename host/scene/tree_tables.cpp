@@ -29,12 +29,12 @@ uint32_t count_of(size_t n)
 /* A part of a shape, with the box around it in the shape's frame. */
 struct Leaf {
   uint32_t child, triangle; /* INDEX_NONE: the shape itself; no triangle */
-  Bounds box;
+  AxisAlignedBox box;
 };
 
-Bounds bounds_of_box(const ShapeBox &box)
+AxisAlignedBox bounds_of_box(const ShapeBox &box)
 {
-  Bounds bounds;
+  AxisAlignedBox bounds;
   for (size_t k = 0; k < 3; ++k) {
     bounds.lower[k] = std::nextafter(box.center[k] - box.half_extents[k], -HUGE_VALF);
     bounds.upper[k] = std::nextafter(box.center[k] + box.half_extents[k], HUGE_VALF);
@@ -111,7 +111,7 @@ private:
 
   void add_tree(const std::vector<Leaf> &leaves, const std::string &where)
   {
-    std::vector<Bounds> boxes;
+    std::vector<AxisAlignedBox> boxes;
     for (const Leaf &leaf : leaves) boxes.push_back(leaf.box);
     const Bvh bvh = build_bvh(boxes, where);
     const auto &[origin, step] = bvh.quantisation;

@@ -271,12 +271,12 @@ Comparison compare_backends(const Scene &scene, const ComparisonRequest &request
 {
   if (request.backends.size() < 2) throw InputError("comparing takes at least two backends: serial,tbb");
   BroadphaseChoice choice{request.settings.broadphase, "as asked"};
-  if (choice.name == "auto")
+  if (choice.broadphase == Broadphase::automatic)
     choice = choose_broadphase(scene, request.backends.front()); /* each on its own choice would run other kernels */
   ComparisonRequest decided = request;
-  decided.settings.broadphase = choice.name;
+  decided.settings.broadphase = choice.broadphase;
   Comparison comparison = Lockstep(scene, decided).run();
-  comparison.broadphase = choice.name;
+  comparison.broadphase = choice.broadphase;
   comparison.broadphase_why = choice.why;
   return comparison;
 }

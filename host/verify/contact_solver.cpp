@@ -73,9 +73,9 @@ void check_range(const ContactProblem &problem, double mean)
                         i, own, mean, widest));
 }
 
-class Solver {
+class ProblemSolver {
 public:
-  Solver(const ContactProblem &problem, Backend &backend)
+  ProblemSolver(const ContactProblem &problem, Backend &backend)
       : contacts_(problem.contacts), levels_(contact_levels(problem)), backend_(backend), launcher_(memory_, backend)
   {
     std::vector<Kernel> kernels = {Kernel::reduce_real_tiles, Kernel::reduce_real_partials};
@@ -91,7 +91,7 @@ public:
         double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
     scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and found at once */
   }
-  ~Solver() { backend_.finish(); }
+  ~ProblemSolver() { backend_.finish(); }
 
   void sweep(const std::string &solver)
   {
@@ -254,7 +254,7 @@ ContactSolution solve_contact_problem(const ContactProblem &problem, const Conta
   const double mean = mean_of_diagonal(problem);
   if (settings.solver != "nsgs") check_range(problem, mean);
   const Units units = units_of(problem, mean);
-  Solver solver(in_units(problem, units), backend);
+  ProblemSolver solver(in_units(problem, units), backend);
   ContactSolution solution;
   backend.finish();
   const auto begin = std::chrono::steady_clock::now();

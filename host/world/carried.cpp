@@ -40,7 +40,7 @@ void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noe
   for (const CarriedBuffer &buffer : carried) memory.exchange(buffer.now, buffer.previous);
 }
 
-uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, uint32_t features)
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features)
 {
   const uint32_t pairs = memory.read<uint32_t>(Buffer::cached_start, 1, bodies).front();
   uint64_t hash = 0;

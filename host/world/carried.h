@@ -23,6 +23,6 @@ constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STAT
 TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
 /* Of these buffers, as far as a scene of these features has them. Equal iff the next step will be equal. */
-uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, uint32_t features);
+uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features);
 
 } // namespace tandem

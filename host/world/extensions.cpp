@@ -12,7 +12,7 @@ namespace tandem {
 /* Of a module all that the scene's features allow: its launches may differ from step to step. */
 void World::Implementation::note_rows(Recorder &recorder, const Module &module) const
 {
-  const auto needed = [&](uint32_t feature) { return feature == 0 || (feature & special.features) != 0; };
+  const auto needed = [&](Features feature) { return feature == 0 || (feature & special.features) != 0; };
   for (size_t i = 0; i < module.kernels(); ++i)
     if (needed(module.kernel_row(i).feature)) recorder.note(module.kernel(i));
   for (size_t i = 0; i < module.buffers(); ++i) recorder.touched[index_of(module.buffer(i))] = true;

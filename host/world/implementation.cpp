@@ -6,6 +6,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/broadphases/choice.h"
 #include "host/pipeline/scene_counts.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/runtime/recorder.h"
 #include "host/scene/parameters.h"
 #include "shared/batching/limits.h"
@@ -15,7 +16,8 @@ namespace {
 
 Settings resolved(Settings settings, const Scene &scene, const Placement &placement)
 {
-  if (settings.broadphase == "auto") settings.broadphase = choose_broadphase(scene, placement.on).name;
+  if (settings.broadphase == Broadphase::automatic)
+    settings.broadphase = choose_broadphase(scene, placement.on).broadphase;
   return settings;
 }
 
@@ -124,7 +126,7 @@ void World::Implementation::guess_counts() noexcept
 /* Of the state as it is: once for all queries between two changes of it. */
 QueryTarget World::Implementation::query_target()
 {
-  const uint32_t structure = broadphase_named(settings.broadphase).queries;
+  const uint32_t structure = row_of(settings.broadphase).queries;
   if (structure_state != state) {
     Recorder recorder;
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);

@@ -80,7 +80,7 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
-  uint32_t scene_features; /* what the scene needs, also where all is run */
+  Features scene_features; /* what the scene needs, also where all is run */
   PlacedBackends backends;
   Memory memory;
   StepBuffers buffers;

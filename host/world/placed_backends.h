@@ -16,7 +16,7 @@ namespace tandem {
 /* Outlives the memory of its world, which lives in the backends' storage. */
 class PlacedBackends {
 public:
-  PlacedBackends(const Placement &placement, uint32_t features) : wanted_(placement), features_(features) {}
+  PlacedBackends(const Placement &placement, Features features) : wanted_(placement), features_(features) {}
   /* Moves these kernels, and from their next launch on all others. InputError or a device's std::runtime_error leave
    * everything as it was. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
@@ -36,7 +36,7 @@ private:
   Backend &for_kernel(const Placement &placement, Kernel kernel);
 
   Placement wanted_;
-  uint32_t features_;
+  Features features_;
   std::map<std::string, std::unique_ptr<Backend>> backends_; /* by the text that names them */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
   bool profiling_ = false;                                   /* of backends made later, too */

@@ -70,7 +70,7 @@ const Scene &World::scene() const { return implementation_->scene; }
 const Settings &World::settings() const { return implementation_->settings; }
 const std::vector<Quarantine> &World::quarantined() const { return implementation_->quarantined; }
 const std::optional<BatchFault> &World::batch_fault() const { return implementation_->fault; }
-uint32_t World::features() const { return implementation_->special.features; }
+Features World::features() const { return implementation_->special.features; }
 std::vector<Kernel> World::kernels() const { return implementation_->buffers.needs().kernels; }
 Memory &World::memory() { return implementation_->memory; }
 Backend &World::backend_of(Kernel kernel) { return implementation_->backends.of(kernel); }

@@ -17,7 +17,7 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/match.h"
 
-#define BODY_MARKS 4u /* words of a body: 64 colours, and 64 colours again where doubled */
+#define BODY_MARKS 4u /* words of a body: a bit a colour, and again one where it is doubled */
 
 SHARED void clear_body_marks_item(GLOBAL uint *body_marks, uint i)
 {

@@ -78,7 +78,7 @@ SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL co
 /* A pair with a trigger is found and reported, but nothing of it is solved. */
 SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, uint a, uint b)
 {
-  return HAS_FEATURE(parameters, FEATURE_TRIGGER) ? is_trigger(body_traits[a] | body_traits[b]) : 0u;
+  return HAS_FEATURE(parameters, TRIGGER) ? is_trigger(body_traits[a] | body_traits[b]) : 0u;
 }
 
 SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
@@ -93,7 +93,7 @@ SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pai
 {
   uint a = pairs.a[i], b = pairs.b[i];
   uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);
-  if (HAS_FEATURE(parameters, FEATURE_TREES) && cached != INDEX_NONE && manifold_count[i] > 0u)
+  if (HAS_FEATURE(parameters, TREES) && cached != INDEX_NONE && manifold_count[i] > 0u)
     cached = matching_manifold(manifold_normal, run_of_pair(pairs.a, pairs.b, counts[COUNT_PAIRS], i),
                                cached_pairs.normal, run_of_cached(cached_pairs.start, cached_pairs.b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_pairs.color[cached];

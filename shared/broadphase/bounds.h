@@ -39,7 +39,7 @@ SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL con
 {
   natural shape = shape_of(load_natural(body_traits, body));
   vec3 extent = half_extents(shape, size, rotation);
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return extent;
+  if (!HAS_FEATURE(parameters, CONVEX)) return extent;
   return choose3(shape == (natural)SHAPE_OTHER, posed_half_extents(body_shape_pose, body, rotation), extent);
 }
 /* Of the centre and of the sums below: two ulps. */
@@ -74,7 +74,7 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
                        minimum(R(0.0), minimum(drift.z, fallen.z)));
   vec3 high = make_vec3(maximum(R(0.0), maximum(drift.x, fallen.x)), maximum(R(0.0), maximum(drift.y, fallen.y)),
                         maximum(R(0.0), maximum(drift.z, fallen.z)));
-  if (HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) {
+  if (HAS_FEATURE(parameters, CONTINUOUS)) {
     /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
     real way = maximum(length_of(drift), length_of(fallen)) + turn * radius;
     vec3 anywhere = make_vec3(way, way, way);

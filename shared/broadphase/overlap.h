@@ -37,15 +37,14 @@ SHARED int trigger_meets(uint traits_a, uint traits_b)
 /* Solids: one of them must be pushed to move. */
 SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint traits_b)
 {
-  if (HAS_FEATURE(parameters, FEATURE_TRIGGER) && is_trigger(traits_a | traits_b))
-    return trigger_meets(traits_a, traits_b);
+  if (HAS_FEATURE(parameters, TRIGGER) && is_trigger(traits_a | traits_b)) return trigger_meets(traits_a, traits_b);
   return motion_of(traits_a) == (uint)MOTION_DYNAMIC || motion_of(traits_b) == (uint)MOTION_DYNAMIC;
 }
 
 /* Each accepts the other's groups. Numbers of shapes: those of bodies, or of children behind them. */
 SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint *body_filter, uint a, uint b)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_FILTER)) return 1;
+  if (!HAS_FEATURE(parameters, FILTER)) return 1;
   return (body_filter[2u * a] & body_filter[2u * b + 1u]) != 0u &&
          (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }

@@ -107,7 +107,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
 
   quat q = quat_from(load_row(solver_orientation, i));
   quat next = turned(q, scale(m.angular, h));
-  if (HAS_FEATURE(parameters, FEATURE_GYROSCOPIC)) {
+  if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* Per body, so that a body's bits do not depend on what else is in the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
     spin s = turn_freely(q, m.angular, xyz(mass), h);

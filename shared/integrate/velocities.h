@@ -15,7 +15,7 @@ SHARED void integrate_velocities_item(GLOBAL const Parameters *parameters, GLOBA
   mask moves = m.inverse_mass > R(0.0);
   real pull = choose(moves, load_row(body_mass, i * 2u).w * h, (real)R(0.0));
   m.linear = add_scaled(m.linear, gravity_of(parameters), pull);
-  if (HAS_FEATURE(parameters, FEATURE_DAMPING)) {
+  if (HAS_FEATURE(parameters, DAMPING)) {
     vec4 damping = load_row(body_mass, i * 2u + 1u);
     m.linear = scale(m.linear, R(1.0) / (R(1.0) + h * damping.x));
     m.angular = scale(m.angular, R(1.0) / (R(1.0) + h * damping.y));

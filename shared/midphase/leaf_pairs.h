@@ -80,8 +80,7 @@ SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 of
   real turn = length_of(motion_a.angular) * radius_a + length_of(motion_b.angular) * radius_b;
   real margin = scene->parameters->speculative_distance + scene->parameters->step * turn +
                 R(1e-6) * (length_of(offset) + radius_a + radius_b);
-  if (!HAS_FEATURE(scene->parameters, FEATURE_CONTINUOUS) ||
-      !is_continuous(scene->shapes.traits[a] | scene->shapes.traits[b]))
+  if (!HAS_FEATURE(scene->parameters, CONTINUOUS) || !is_continuous(scene->shapes.traits[a] | scene->shapes.traits[b]))
     return margin;
   return margin + way_anywhere(scene, motion_a) + way_anywhere(scene, motion_b);
 }

@@ -29,7 +29,7 @@ SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const 
                               uint side)
 {
   body_part part = {body, body, INDEX_NONE};
-  if (!HAS_FEATURE(parameters, FEATURE_TREES)) return part;
+  if (!HAS_FEATURE(parameters, TREES)) return part;
   part.shape = pair_leaf[i * 4u + side * 2u];
   part.triangle = pair_leaf[i * 4u + side * 2u + 1u];
   return part;
@@ -63,7 +63,7 @@ SHARED manifold contact_of_parts(GLOBAL const Parameters *parameters, const conv
                                  real reach, real thickness, uint method)
 {
   mask triangles = is_triangle(first) || is_triangle(second);
-  if (HAS_FEATURE(parameters, FEATURE_TREES) && triangles)
+  if (HAS_FEATURE(parameters, TREES) && triangles)
     return triangle_contact(first, second, reach, thickness, parameters->slop);
   return convex_contact(first, second, reach, parameters->slop, method);
 }
@@ -159,7 +159,7 @@ SHARED void collide_convex_item(read_part_pairs pairs, read_shapes shapes, read_
                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                 write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX)) return; /* nothing then is left for a compiler of devices to do */
+  if (!HAS_FEATURE(parameters, CONVEX)) return; /* nothing then is left for a compiler of devices to do */
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
@@ -174,7 +174,7 @@ SHARED void collide_convex_half_space_item(read_part_pairs pairs, read_shapes sh
 {
   uint a = pairs.a[i], b = pairs.b[i], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
   int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX_HALF_SPACE)) return;
+  if (!HAS_FEATURE(parameters, CONVEX_HALF_SPACE)) return;
   if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
   uint body = body_first ? a : b, plane = body_first ? b : a;
   hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);

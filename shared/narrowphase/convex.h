@@ -31,10 +31,10 @@ typedef struct {
   hull_tables tables;
 } convex;
 
-SHARED mask is_hull(const convex *shape) { return MAY_OCCUR(FEATURE_HULL) && shape->kind == (uint)SHAPE_HULL; }
-SHARED mask is_cylinder(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) && shape->kind == (uint)SHAPE_CYLINDER; }
-SHARED mask is_capsule(const convex *shape) { return MAY_OCCUR(FEATURE_ROUND) && shape->kind == (uint)SHAPE_CAPSULE; }
-SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(FEATURE_TREES) && shape->kind == (uint)SHAPE_TRIANGLE; }
+SHARED mask is_hull(const convex *shape) { return MAY_OCCUR(HULL) && shape->kind == (uint)SHAPE_HULL; }
+SHARED mask is_cylinder(const convex *shape) { return MAY_OCCUR(ROUND) && shape->kind == (uint)SHAPE_CYLINDER; }
+SHARED mask is_capsule(const convex *shape) { return MAY_OCCUR(ROUND) && shape->kind == (uint)SHAPE_CAPSULE; }
+SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(TREES) && shape->kind == (uint)SHAPE_TRIANGLE; }
 
 /* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other
  * than 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */

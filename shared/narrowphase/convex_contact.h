@@ -65,9 +65,9 @@ SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 
 {
   core_contact found = {up, R(-1e30)};
   mask rough = 1;
-  if (MAY_OCCUR(FEATURE_SAMPLED) && method == (uint)CONVEX_SAMPLED) {
+  if (MAY_OCCUR(SAMPLED) && method == (uint)CONVEX_SAMPLED) {
     found = sampled_penetration(a, b, up, hint);
-  } else if (MAY_OCCUR(FEATURE_EXPANSION)) {
+  } else if (MAY_OCCUR(EXPANSION)) {
     epa_result expanded = penetration_by_expansion(a, b, up, tolerance);
     found = expanded.contact;
     rough = expanded.error > tolerance + R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b)) +
@@ -120,7 +120,7 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
   real radii = core_radius(a) + core_radius(b),
        noise = R(4.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
   real lead = lead_of_faces(a, b, slop);
-  mask by_axes = MAY_OCCUR(FEATURE_AXES) && method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b);
+  mask by_axes = MAY_OCCUR(AXES) && method == (uint)CONVEX_AXES && is_polytope(a) && is_polytope(b);
   core_contact contact = {pair.up, R(-1e30)};
   if (by_axes) {
     contact = separating_hull_axis(a, b, lead, reach).contact;
@@ -130,7 +130,7 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
    * rounding. */
   core_meeting met = {contact, 0, b->center};
   contact_patch patch;
-  mask found = MAY_OCCUR(FEATURE_FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) &&
+  mask found = MAY_OCCUR(FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) &&
                field_patch(&patch, a, b, reach, minimum(reach, lead));
   if (found) return kept_within(placed_manifold(&pair, &patch), reach);
   for (int attempt = by_axes ? 0 : 1; attempt < 3 && !found; ++attempt) {

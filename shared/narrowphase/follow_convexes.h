@@ -73,7 +73,7 @@ SHARED void follow_convexes_item(read_part_pairs pairs, read_shapes shapes, read
                                  GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_CONVEX) || manifolds.count[i] < TO_FOLLOW) return;
+  if (!HAS_FEATURE(parameters, CONVEX) || manifolds.count[i] < TO_FOLLOW) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);

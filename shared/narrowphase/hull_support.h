@@ -161,9 +161,9 @@ SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull
 /* size: half extents of a box around the hull, centred at the origin of its axes. */
 SHARED natural hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
-  if (MAY_OCCUR(FEATURE_HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING)
+  if (MAY_OCCUR(HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING)
     return climbed_vertex(tables, hull, direction, size);
-  if (MAY_OCCUR(FEATURE_CUBE_MAP) && tables->support == (uint)SUPPORT_CUBE_MAP)
+  if (MAY_OCCUR(CUBE_MAP) && tables->support == (uint)SUPPORT_CUBE_MAP)
     return vertex_of_cube_map(tables, hull, direction);
   return highest_vertex(tables, hull, direction);
 }

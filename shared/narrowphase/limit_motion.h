@@ -97,7 +97,7 @@ SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_part_pai
                               read_surfaces surfaces, GLOBAL const row *positions, GLOBAL const row *orientations,
                               GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_CONTINUOUS)) return;
+  if (!HAS_FEATURE(parameters, CONTINUOUS)) return;
   uint a = pairs.a[i], b = pairs.b[i];
   mask moves_a = motion_of(shapes.traits[a]) == (uint)MOTION_DYNAMIC,
        moves_b = motion_of(shapes.traits[b]) == (uint)MOTION_DYNAMIC;

@@ -20,7 +20,7 @@ SHARED void find_separating_axis_item(read_part_pairs pairs, read_shapes shapes,
                                       read_bodies bodies, GLOBAL const Parameters *parameters,
                                       write_separating_axes axes, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
+  if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   convex_query query;
   int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
   axes.state[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
@@ -38,7 +38,7 @@ SHARED void find_clipping_faces_item(read_part_pairs pairs, read_shapes shapes, 
                                      read_bodies bodies, GLOBAL const Parameters *parameters, read_separating_axes axes,
                                      GLOBAL uint *faces, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
+  if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   faces[i * 2u] = faces[i * 2u + 1u] = INDEX_NONE;
   if (axes.state[i] != SPLIT_CLIP) return;
   convex_query query;
@@ -56,7 +56,7 @@ SHARED void clip_faces_item(read_part_pairs pairs, read_shapes shapes, read_surf
                             GLOBAL const Parameters *parameters, GLOBAL const uint *counts, read_separating_axes axes,
                             GLOBAL const uint *faces, write_clipped_points clipped, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT)) return;
+  if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   clipped.count[i] = INDEX_NONE;
   if (axes.state[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
@@ -113,7 +113,7 @@ SHARED void reduce_contacts_item(read_part_pairs pairs, read_shapes shapes, read
                                  read_separating_axes axes, GLOBAL const uint *faces, read_clipped_points clipped,
                                  write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, FEATURE_SAT_SPLIT) || axes.state[i] == SPLIT_OF_OTHERS) return;
+  if (!HAS_FEATURE(parameters, SAT_SPLIT) || axes.state[i] == SPLIT_OF_OTHERS) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   if (axes.state[i] == SPLIT_APART ||

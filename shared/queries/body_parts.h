@@ -64,7 +64,7 @@ SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, ve
   walk.center = center;
   walk.node = 0u;
   walk.end = 1u;
-  walk.has_tree = HAS_FEATURE(scene->parameters, FEATURE_TREES) && scene->body_trees[body * 2u] != INDEX_NONE;
+  walk.has_tree = HAS_FEATURE(scene->parameters, TREES) && scene->body_trees[body * 2u] != INDEX_NONE;
   if (!walk.has_tree) return walk;
   quat turned = quat_from(load_row(scene->orientations, body)), own = quat_from(load_row(scene->poses, body * 4u + 1u));
   mat3 rotation = rotation_of(quat_multiply(turned, own));

@@ -379,7 +379,7 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
   store_row(constraints.normal_impulse, i,
             make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
   store_real(constraints.slop, i, slop_or_deep(parameters, s.size, points.deepest));
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION)) {
+  if (HAS_FEATURE(parameters, RESTITUTION)) {
     store_row(constraints.bounce, i, make_vec4(points.wished[0], points.wished[1], points.wished[2], points.wished[3]));
     store_row(constraints.bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }

@@ -188,7 +188,7 @@ SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts c
   vec4 pressed = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
   store_row(duals.normal, i, pressed);
   store_row(duals.friction, i, make_vec4(f.first, f.second, f.twist, load_row(duals.friction, i).w));
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
 }
 

@@ -353,7 +353,7 @@ SHARED vec4 highest_impulses(vec4 highest, vec4 pressed)
 SHARED void keep_highest_impulses(GLOBAL const Parameters *parameters, GLOBAL row *constraint_bounce, uint stride,
                                   vec4 pressed, item_index i)
 {
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
 }
 
@@ -376,7 +376,7 @@ SHARED void settle_impact(GLOBAL const Parameters *parameters, read_contacts con
     c = press_once(parameters, c, &s, moved, patches.points, stride, slop, biased, i);
   vec4 pressed = impulses_of(&s);
   store_row_if(at_impact, contact_impulses.normal, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row_if(at_impact, contact_impulses.bounce, stride + i,
                  highest_impulses(load_row(contact_impulses.bounce, stride + i), pressed));
   vec4 changes = make_vec4(pressed.x - before.x, pressed.y - before.y, pressed.z - before.z, pressed.w - before.w);
@@ -402,7 +402,7 @@ SHARED void solve_contacts_item(GLOBAL const Parameters *parameters, read_contac
   drift moved = load_drift(solver_delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
   mask rough = c.friction > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     mask stale = masses_are_stale(moved, shift, center_a, center_b);
     solved sliding = solve_friction(c, stale, shift, center_a, center_b, friction, pressure);

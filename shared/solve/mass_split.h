@@ -248,15 +248,16 @@ SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 presse
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                              GLOBAL const row *split_mass, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                              write_contact_impulses contact_impulses, write_iterates iterates,
-                             GLOBAL row *split_impulse, uint biased, uint momentum, item_index i)
+                             GLOBAL row *split_impulse, uint pass, uint momentum, item_index i)
 {
+  uint biased = pass == PASS_BIASED ? 1u : 0u;
   uint stride = counts[CAPACITY_PAIRS];
   split_row r = load_split_row(contacts, split_mass, solver_bodies, stride, momentum, i);
   vec4 impulses = load_row(contact_impulses.normal, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = r.c.friction > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
     rubbed = solve_split_friction(&r, rough, patches, stride, pressure, contact_impulses.friction, iterates.rubbed, i);
   }

@@ -1,11 +1,12 @@
-/* pass.h - what a pass over the constraints of a substep does; the kernels and the host's solvers both name them. */
+/* pass.h - what a pass over the constraints of a substep does; the kernels and the host's solvers all take these. */
 #ifndef TANDEM_SHARED_SOLVE_PASS_H
 #define TANDEM_SHARED_SOLVE_PASS_H
 
 enum {
   PASS_BIASED,   /* penetration is pushed out */
   PASS_RELAXING, /* without bias; gathers the warm start of the next substep */
-  PASS_LAST      /* without bias; no substep follows, or it is warm-started otherwise */
+  PASS_LAST,     /* without bias; no substep follows, or it is warm-started otherwise */
+  PASS_BOUNCING  /* with the wished speeds of restitution; host/pipeline/solvers/islands.h alone */
 };
 
 #endif

@@ -42,8 +42,9 @@ SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, 
 SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                              GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
                              GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint biased, item_index i)
+                             GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint pass, item_index i)
 {
+  uint biased = pass == PASS_BIASED ? 1u : 0u;
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   vec4 old = load_row(constraint_normal_impulse, i);
@@ -63,7 +64,7 @@ SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts 
   }
   vec4 pressed = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
   store_row(constraint_normal_impulse, i, pressed);
-  if (HAS_FEATURE(parameters, FEATURE_RESTITUTION))
+  if (HAS_FEATURE(parameters, RESTITUTION))
     store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
   store_contact_motion(solver_velocity, c);
 }

@@ -137,7 +137,7 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   store_row(contact_impulses.normal, i, pressed);
   keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
   mask rough = c.friction > R(0.0);
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     solved held = xpbd_hold(parameters, c, moved, shift, patches, stride, load_row(constraint_slip, i),
                             limit_of(c, pressed), friction, i);
     c = with_motion_if(rough, c, held.c);
@@ -170,7 +170,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   c = press_together(c, &s, wished);
   store_row_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
-  if (HAS_FEATURE(parameters, FEATURE_FRICTION) && any_of(rough)) {
+  if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
     vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));

@@ -72,7 +72,7 @@ public:
 private:
   void begin(const Row &row)
   {
-    Settings settings = settings_for(row.solver);
+    Settings settings = settings_for(parse_setting<Solver>(row.solver));
     settings.events = true;
     world_.emplace(load_scene(row.scene), settings, Placement{backend_, {}, false});
     last_ = {row.scene, row.solver, 0, {}, {}, {}};

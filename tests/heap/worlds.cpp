@@ -38,10 +38,11 @@ Settings short_step(Settings settings)
 std::vector<Case> heap_cases()
 {
   std::vector<Case> all = cases();
-  all.push_back({"box-stack:n=4,height=1", with("direct", "sap", true), "islands"});
+  all.push_back({"box-stack:n=4,height=1", with(Solver::direct, Broadphase::sap, true), "islands"});
+  all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with(Solver::jacobi, Broadphase::brute_force, false),
+                 "hulls, split masses"});
   all.push_back(
-      {TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with("jacobi", "brute-force", false), "hulls, split masses"});
-  all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json", with("soft-step", "grid", true), "meshes"});
+      {TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json", with(Solver::soft_step, Broadphase::grid, true), "meshes"});
   for (Case &c : all) c.settings = short_step(c.settings);
   return all;
 }
@@ -228,16 +229,17 @@ TEST_CASE(
 
 TEST_CASE("heap: a step in which buffers grow leaves the state as it was where it fails")
 {
-  for (const auto &[broadphase, stride] : {std::pair<const char *, uint64_t>{"grid", 1}, {"trees", 17}, {"sap3", 17}})
+  for (const auto &[broadphase, stride] :
+       {std::pair<Broadphase, uint64_t>{Broadphase::grid, 1}, {Broadphase::trees, 17}, {Broadphase::sap3, 17}})
     for (const int meeting : {0, 2}) {
-      const Settings settings = short_step(with("soft-step", broadphase, true));
+      const Settings settings = short_step(with(Solver::soft_step, broadphase, true));
       const Scene scene = slanted_rods(meeting);
       const size_t at = first_growth(scene, settings);
       CHECK((at > 0) == (meeting > 0));
       fail_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
       fail_everywhere_in_step({scene, settings, two_threads, at}, 53);
     }
-  fail_everywhere_in_step({crowd(52), short_step(with("soft-step", "grid", true)), serial, 0},
+  fail_everywhere_in_step({crowd(52), short_step(with(Solver::soft_step, Broadphase::grid, true)), serial, 0},
                           131); /* more colours than there are launches for, too */
 }
 
@@ -259,7 +261,7 @@ TEST_CASE("heap: steps that fail here and there leave nothing behind", "[sanitiz
                              [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }},
                             61);
   }
-  const Settings settings = short_step(with("soft-step", "grid", true));
+  const Settings settings = short_step(with(Solver::soft_step, Broadphase::grid, true));
   const Scene scene = slanted_rods(2);
   fail_everywhere_in_step({scene, settings, serial, first_growth(scene, settings)}, 211);
 }
@@ -299,7 +301,8 @@ TEST_CASE("heap: what reads a world or asks it something changes nothing where i
 TEST_CASE("heap: what fails in a task of another thread reaches who asked for the step", "[sanitizer]")
 {
   if (tbb::info::default_concurrency() < 2) tests::skip("one processor: TBB has no other threads");
-  const Story story{load_scene("box-stack:n=64,height=1"), short_step(with("direct", "grid", false)), serial, 1};
+  const Story story{load_scene("box-stack:n=64,height=1"), short_step(with(Solver::direct, Broadphase::grid, false)),
+                    serial, 1};
   const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
   uint64_t elsewhere = 0;
   for (uint64_t nth = 0;; nth += 5) {

@@ -91,7 +91,7 @@ TEST_CASE("several threads take part in the steps of scenes of more than a task'
     CAPTURE(scene);
     CHECK(threads_seen(world, 3) > 1);
   }
-  for (const char *solver : {"pgs", "nncg", "jacobi", "xpbd", "avbd"}) {
+  for (const Solver solver : {Solver::pgs, Solver::nncg, Solver::jacobi, Solver::xpbd, Solver::avbd}) {
     Settings settings;
     settings.solver = solver;
     World world(load_scene("box-grid:nx=9,ny=5,nz=9"), settings, on("tbb:threads=4,lanes=4"));

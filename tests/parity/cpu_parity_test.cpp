@@ -19,7 +19,7 @@ TEST_CASE("parity on CPU: meshes and compounds of every kind") { require_parity(
 TEST_CASE("parity on CPU: trees by subtrees")
 {
   Settings settings;
-  settings.midphase = "subtrees";
+  settings.midphase = Midphase::subtrees;
   for (const std::string &scene : {std::string("compounds:n=40"), std::string("hulls-on-mesh:n=40"), few_trees()}) {
     require_parity(scene, cpu_backends(), 30, settings);
     CHECK(state_after(scene, "tbb", 60, settings) == state_after(scene, "serial", 60));
@@ -34,7 +34,7 @@ TEST_CASE("parity on CPU: pairs that grow in number") { require_parity(imploding
 
 TEST_CASE("parity on CPU: every narrowphase of every shape")
 {
-  for (const std::string &narrowphase : narrowphase_names()) {
+  for (const Narrowphase narrowphase : choices<Narrowphase>()) {
     Settings settings;
     settings.narrowphase = narrowphase;
     CAPTURE(narrowphase);
@@ -45,8 +45,8 @@ TEST_CASE("parity on CPU: every narrowphase of every shape")
 /* The other narrowphases see the pairs of the same list. */
 TEST_CASE("parity on CPU: every broadphase, and both bounds, of every shape")
 {
-  for (const std::string &broadphase : broadphase_names())
-    for (const std::string &bounds : bounds_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>())
+    for (const Bounds bounds : choices<Bounds>()) {
       Settings settings;
       settings.broadphase = broadphase;
       settings.bounds = bounds;
@@ -61,8 +61,8 @@ TEST_CASE("parity on CPU: what must not change a result of convex shapes")
   for (const std::string &scene : {std::string("convex-hulls:n=60"), every_shape()}) {
     const uint64_t expected = state_after(scene, "serial", 60);
     Settings split, climbing;
-    split.narrowphase = "sat-split";
-    climbing.support = "hill-climbing";
+    split.narrowphase = Narrowphase::sat_split;
+    climbing.support = Support::hill_climbing;
     CHECK(state_after(scene, "serial", 60, split) == expected);
     CHECK(state_after(scene, "tbb:threads=2", 60, climbing) == expected);
   }
@@ -70,7 +70,7 @@ TEST_CASE("parity on CPU: what must not change a result of convex shapes")
 
 TEST_CASE("parity on CPU: supports of hulls")
 {
-  for (const std::string &support : support_names()) {
+  for (const Support support : choices<Support>()) {
     Settings settings;
     settings.support = support;
     CAPTURE(support);
@@ -83,7 +83,7 @@ TEST_CASE("parity on CPU: every broadphase")
 {
   const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled",
                                              "tbb:threads=7"};
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     Settings settings;
     settings.broadphase = broadphase;
     require_parity("mixed:n=60", backends, 30, settings);
@@ -95,7 +95,7 @@ TEST_CASE("parity on CPU: every batching, width and number of threads")
 {
   const std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled",
                                              "tbb:threads=1,lanes=1", "tbb:threads=7"};
-  for (const std::string &batching : batching_names()) {
+  for (const Batching batching : choices<Batching>()) {
     Settings settings;
     settings.batching = batching;
     settings.check = true;
@@ -109,7 +109,7 @@ TEST_CASE("parity on CPU: every batching, width and number of threads")
 TEST_CASE("parity on CPU: broadphases lead to one state")
 {
   const uint64_t expected = state_after("mixed:n=100", "serial", 40);
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     Settings settings;
     settings.broadphase = broadphase;
     CAPTURE(broadphase);
@@ -125,7 +125,7 @@ TEST_CASE("parity on CPU: a few bodies of every shape", "[sanitizer]")
                                            every_shape(), few_trees()};
   for (const std::string &scene : scenes) require_parity(scene, backends, 5);
   Settings settings;
-  settings.midphase = "subtrees";
+  settings.midphase = Midphase::subtrees;
   require_parity(few_trees(), backends, 5, settings);
   require_parity("hulls-on-mesh:n=20", backends, 2, settings);
 }

@@ -29,7 +29,7 @@ std::vector<std::string> backends_of_the_cpu()
 const Backend &backend_of_islands(const Placement &placement)
 {
   static std::unique_ptr<World> world;
-  world = std::make_unique<World>(load_scene("spheres:n=4"), settings_for("direct"), placement);
+  world = std::make_unique<World>(load_scene("spheres:n=4"), settings_for(Solver::direct), placement);
   return world->backend_of(Kernel::solve_islands);
 }
 
@@ -38,13 +38,13 @@ const Backend &backend_of_islands(const Placement &placement)
 TEST_CASE("parity on CPU: the solver direct")
 {
   for (const std::string &scene : direct_scenes())
-    require_parity(scene, backends_of_the_cpu(), 20, settings_for("direct"));
+    require_parity(scene, backends_of_the_cpu(), 20, settings_for(Solver::direct));
 }
 
 TEST_CASE("parity on OpenCL: the solver direct")
 {
   require_pocl();
-  Settings settings = settings_for("direct");
+  Settings settings = settings_for(Solver::direct);
   settings.specialise = false; /* one build for all scenes */
   for (const std::string &scene : direct_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 12, settings);
 }
@@ -62,8 +62,8 @@ TEST_CASE("parity on CPU: a stage of the host stays there wherever it is placed,
 TEST_CASE("parity on OpenCL: islands solved on the host between stages on a device")
 {
   require_pocl();
-  const uint64_t expected = state_after("mixed:n=20", "serial", 8, settings_for("direct"));
-  World world(load_scene("mixed:n=20"), settings_for("direct"),
+  const uint64_t expected = state_after("mixed:n=20", "serial", 8, settings_for(Solver::direct));
+  World world(load_scene("mixed:n=20"), settings_for(Solver::direct),
               Placement{"tbb", {{"setup", "cl:pocl"}, {"integrate", "cl:pocl"}}, false});
   for (int k = 0; k < 8; ++k) world.step();
   CHECK(world.state_hash() == expected);
@@ -73,7 +73,7 @@ TEST_CASE("parity on OpenCL: islands solved on the host between stages on a devi
 TEST_CASE("parity on CPU: the solver direct in double does not round what passes through it")
 {
   const auto position = [](bool observed) {
-    World world(load_scene("mixed:n=8"), settings_for("direct"), Placement{"reference", {}, false});
+    World world(load_scene("mixed:n=8"), settings_for(Solver::direct), Placement{"reference", {}, false});
     if (observed)
       world.set_observer(
           [&](const Launch &) { world.memory().acquire(Buffer::solver_velocity, host_storage(), Access::in); });

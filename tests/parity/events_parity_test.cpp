@@ -58,7 +58,7 @@ TEST_CASE("parity on CPU: triggers", "[sanitizer]")
 
 TEST_CASE("parity on CPU: events with every solver")
 {
-  for (const std::string &solver : solver_names()) {
+  for (const Solver solver : choices<Solver>()) {
     Settings settings = settings_for(solver);
     settings.events = true;
     require_parity("mixed:n=40", {"serial", "serial:order=shuffled", "tbb:threads=7"}, 30, settings);

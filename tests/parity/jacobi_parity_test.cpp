@@ -20,15 +20,15 @@ Settings all_features(Settings settings)
 
 TEST_CASE("parity on CPU: jacobi", "[sanitizer]")
 {
-  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 12, settings_for("jacobi"));
-  require_parity("mixed:n=60", cpu, 25, settings_for("jacobi"));
-  require_parity("spheres:n=60,height=0,restitution=0.5", cpu, 25, settings_for("jacobi"));
+  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 12, settings_for(Solver::jacobi));
+  require_parity("mixed:n=60", cpu, 25, settings_for(Solver::jacobi));
+  require_parity("spheres:n=60,height=0,restitution=0.5", cpu, 25, settings_for(Solver::jacobi));
 }
 
 TEST_CASE("parity on CPU: the tail")
 {
   require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 12, {});
-  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 6, settings_for("jacobi"));
+  require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 6, settings_for(Solver::jacobi));
 }
 
 /* Long enough for a second level of the tree. */
@@ -41,14 +41,14 @@ TEST_CASE("parity on OpenCL: jacobi and the tail")
 {
   require_pocl();
   const std::vector<std::string> backends = {"serial", "cl:pocl"};
-  require_parity("mixed:n=60", backends, 15, all_features(settings_for("jacobi")));
-  require_parity(physics_tests::laden_slab(35), backends, 3, all_features(settings_for("jacobi")));
+  require_parity("mixed:n=60", backends, 15, all_features(settings_for(Solver::jacobi)));
+  require_parity(physics_tests::laden_slab(35), backends, 3, all_features(settings_for(Solver::jacobi)));
   require_parity(physics_tests::laden_slab(13, 0.5f), backends, 8, all_features({}));
 }
 
 TEST_CASE("jacobi and the tail are the same in a specialised build")
 {
-  for (const std::string &solver : {std::string("jacobi"), std::string("soft-step")}) {
+  for (const Solver solver : {Solver::jacobi, Solver::soft_step}) {
     Settings settings = settings_for(solver);
     World special(physics_tests::laden_slab(12), settings, {"serial", {}, false});
     World general(physics_tests::laden_slab(12), all_features(settings), {"serial", {}, false});

@@ -36,10 +36,10 @@ TEST_CASE("parity on OpenCL: pairs that grow in number")
 TEST_CASE("parity on OpenCL: every broadphase")
 {
   require_pocl();
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     Settings settings = all_features();
     settings.broadphase = broadphase;
-    settings.bounds = "tight";
+    settings.bounds = Bounds::tight;
     settings.pair_events = true;
     require_parity("mixed:n=60", {"serial", "cl:pocl"}, 20, settings);
     require_parity("box-grid:nx=11,ny=10,nz=11", {"serial", "cl:pocl"}, 3, settings);
@@ -49,7 +49,7 @@ TEST_CASE("parity on OpenCL: every broadphase")
 TEST_CASE("parity on OpenCL: every batching")
 {
   require_pocl();
-  for (const std::string &batching : batching_names()) {
+  for (const Batching batching : choices<Batching>()) {
     Settings settings = all_features();
     settings.batching = batching;
     settings.check = true;
@@ -60,7 +60,7 @@ TEST_CASE("parity on OpenCL: every batching")
 TEST_CASE("parity on OpenCL: every narrowphase")
 {
   require_pocl();
-  for (const std::string &narrowphase : narrowphase_names()) {
+  for (const Narrowphase narrowphase : choices<Narrowphase>()) {
     Settings settings = all_features();
     settings.narrowphase = narrowphase;
     CAPTURE(narrowphase);
@@ -73,7 +73,7 @@ TEST_CASE("parity on OpenCL: trees by subtrees")
 {
   require_pocl();
   Settings settings = all_features();
-  settings.midphase = "subtrees";
+  settings.midphase = Midphase::subtrees;
   require_parity(few_trees(), {"serial", "cl:pocl"}, 20, settings);
 }
 
@@ -83,7 +83,7 @@ TEST_CASE("parity on OpenCL: trees by subtrees, other sizes of work-groups")
 {
   require_pocl();
   ComparisonRequest request;
-  request.settings.midphase = "subtrees";
+  request.settings.midphase = Midphase::subtrees;
   request.backends = {"serial", "cl:pocl"};
   request.steps = 3;
   for (const char *stage : {"parallel", "broadphase", "narrowphase", "batching", "setup", "solve", "integrate"})

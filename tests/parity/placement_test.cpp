@@ -25,7 +25,7 @@ size_t backends_in_use(World &world)
 
 /* Each frame every kernel moves; each frame's state is that of a world where nothing moves. */
 void require_same_states(const std::string &scene, const std::vector<std::string> &backends, uint64_t steps,
-                         uint64_t seed, const std::string &broadphase = "grid")
+                         uint64_t seed, Broadphase broadphase = Broadphase::grid)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -53,7 +53,7 @@ TEST_CASE("parity on CPU: kernels placed at random in each frame", "[sanitizer]"
     require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, seed);
   require_same_states(every_shape(), {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 3);
   require_same_states(few_trees(), {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 3);
-  for (const char *keeping : {"trees", "sap3", "bvh"})
+  for (const Broadphase keeping : {Broadphase::trees, Broadphase::sap3, Broadphase::bvh})
     require_same_states("mixed:n=40", {"serial", "tbb:threads=4", "serial:order=backward"}, 30, 4, keeping);
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("parity on OpenCL: kernels placed at random in each frame")
   require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 30, 1);
   require_same_states("box-grid:nx=4,ny=4,nz=4", {"serial", "tbb", "cl:pocl"}, 30, 2);
   require_same_states(every_shape(), {"serial", "tbb", "cl:pocl"}, 30, 3);
-  for (const char *keeping : {"trees", "sap3", "bvh"})
+  for (const Broadphase keeping : {Broadphase::trees, Broadphase::sap3, Broadphase::bvh})
     require_same_states("mixed:n=60", {"serial", "tbb", "cl:pocl"}, 20, 4, keeping);
   require_same_states(few_trees(), {"serial", "tbb", "cl:pocl"}, 30, 3);
 }

@@ -15,27 +15,27 @@ const std::vector<std::string> cpu = {
 
 TEST_CASE("parity of position solvers on CPU", "[sanitizer]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
-  CAPTURE(name);
-  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 8, settings_for(name));
-  require_parity("mixed:n=60", cpu, 25, settings_for(name));
-  require_parity("spheres:n=100,height=0,restitution=0.5", cpu, 20, settings_for(name));
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
+  CAPTURE(solver);
+  require_parity("box-grid:nx=4,ny=4,nz=4", cpu, 8, settings_for(solver));
+  require_parity("mixed:n=60", cpu, 25, settings_for(solver));
+  require_parity("spheres:n=100,height=0,restitution=0.5", cpu, 20, settings_for(solver));
 }
 
 TEST_CASE("parity on OpenCL: position solvers")
 {
   require_pocl();
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
-  Settings settings = settings_for(name);
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
+  Settings settings = settings_for(solver);
   settings.specialise = false;
-  CAPTURE(name);
+  CAPTURE(solver);
   require_parity("mixed:n=60", {"serial", "cl:pocl"}, 15, settings);
 }
 
 TEST_CASE("parity of position solvers: specialised or not")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
-  Settings settings = settings_for(name);
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
+  Settings settings = settings_for(solver);
   const uint64_t specialised = state_after("falling-boxes:n=60,height=0", "tbb", 25, settings);
   settings.specialise = false;
   CHECK(state_after("falling-boxes:n=60,height=0", "serial", 25, settings) == specialised);

@@ -18,8 +18,7 @@ struct Answers {
   size_t found = 0;
 };
 
-Answers ask(const std::string &scene, const std::string &broadphase, const std::string &backend, size_t queries,
-            int steps)
+Answers ask(const std::string &scene, Broadphase broadphase, const std::string &backend, size_t queries, int steps)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -88,11 +87,11 @@ bool same_bits(const std::vector<std::vector<RayHit>> &a, const std::vector<std:
 void require_equal_answers(const std::string &scene, const std::vector<std::string> &backends, size_t queries,
                            int steps)
 {
-  const Answers expected = ask(scene, "bvh", "serial", queries, steps);
+  const Answers expected = ask(scene, Broadphase::bvh, "serial", queries, steps);
   CAPTURE(scene);
   REQUIRE(expected.found > queries / 4);
   for (const std::string &backend : backends)
-    for (const char *broadphase : {"bvh", "grid", "brute-force"}) {
+    for (const Broadphase broadphase : {Broadphase::bvh, Broadphase::grid, Broadphase::brute_force}) {
       CAPTURE(backend, broadphase);
       const Answers found = ask(scene, broadphase, backend, queries, steps);
       CHECK(same_bits(found.rays, expected.rays));

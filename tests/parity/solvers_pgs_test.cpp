@@ -58,7 +58,7 @@ void require_same(const Scene &scene, const Settings &settings, const std::vecto
   CHECK(comparison.kernels_compared > 10 * steps * (backends.size() - 1));
 }
 
-Settings settings_of(const std::string &solver, uint32_t substeps, uint32_t iterations)
+Settings settings_of(Solver solver, uint32_t substeps, uint32_t iterations)
 {
   Settings settings = settings_for(solver);
   settings.substeps = substeps;
@@ -70,7 +70,7 @@ Settings settings_of(const std::string &solver, uint32_t substeps, uint32_t iter
 
 TEST_CASE("parity on CPU: pgs and nncg")
 {
-  for (const char *solver : {"pgs", "nncg"}) {
+  for (const Solver solver : {Solver::pgs, Solver::nncg}) {
     require_same(load_scene("mixed:n=40"), settings_of(solver, 1, 4), processors, 25);
     require_same(load_scene("spheres:n=60,height=0,restitution=0.5"), settings_of(solver, 2, 3), processors, 20);
     require_same(load_scene("box-grid:nx=4,ny=4,nz=4"), settings_of(solver, 1, 4), processors, 10);
@@ -80,20 +80,20 @@ TEST_CASE("parity on CPU: pgs and nncg")
 /* More constraints than a tile of the reduction. */
 TEST_CASE("parity on CPU: nncg over several tiles of its sums")
 {
-  require_same(load_scene("spheres:n=2500,height=0"), settings_of("nncg", 1, 3), {"serial", "tbb:threads=7,lanes=8"},
-               2);
+  require_same(load_scene("spheres:n=2500,height=0"), settings_of(Solver::nncg, 1, 3),
+               {"serial", "tbb:threads=7,lanes=8"}, 2);
 }
 
 TEST_CASE("parity on CPU: pgs, nncg and rolling friction with a tail")
 {
-  for (const char *solver : {"soft-step", "pgs", "nncg"})
+  for (const Solver solver : {Solver::soft_step, Solver::pgs, Solver::nncg})
     require_same(laden_slab(), settings_of(solver, 1, 3), {"serial", "serial:order=backward", "tbb:threads=7,lanes=8"},
                  4);
 }
 
 TEST_CASE("parity on CPU: rolling friction")
 {
-  for (const char *solver : {"soft-step", "pgs", "nncg"}) {
+  for (const Solver solver : {Solver::soft_step, Solver::pgs, Solver::nncg}) {
     require_same(rolling("spheres:n=60,height=0,restitution=0.5"), settings_of(solver, 2, 2), processors, 20);
     require_same(rolling("mixed:n=30"), settings_of(solver, 1, 3), processors, 20);
   }
@@ -101,7 +101,7 @@ TEST_CASE("parity on CPU: rolling friction")
 
 TEST_CASE("parity on CPU: pgs and nncg with all features built in")
 {
-  for (const char *solver : {"soft-step", "pgs", "nncg"}) {
+  for (const Solver solver : {Solver::soft_step, Solver::pgs, Solver::nncg}) {
     Settings everything = settings_for(solver);
     everything.specialise = false;
     for (const char *scene : {"mixed:n=40", "box-grid:nx=3,ny=3,nz=3"})
@@ -112,7 +112,7 @@ TEST_CASE("parity on CPU: pgs and nncg with all features built in")
 TEST_CASE("parity on OpenCL: pgs, nncg and rolling friction")
 {
   require_pocl();
-  for (const char *solver : {"pgs", "nncg", "soft-step"}) {
+  for (const Solver solver : {Solver::pgs, Solver::nncg, Solver::soft_step}) {
     Settings settings = settings_of(solver, 1, 4);
     settings.specialise = false;
     require_same(load_scene("mixed:n=40"), settings, devices, 12);

@@ -15,8 +15,8 @@ void require_same_state(const std::string &scene, const std::string &backend, ui
   CHECK(state_after(scene, backend, steps, settings) == state_after(scene, backend, steps, everything));
 }
 
-void require_same_state_on_pocl(const std::string &scene, const std::string &narrowphase = "sat",
-                                const std::string &support = "brute-force")
+void require_same_state_on_pocl(const std::string &scene, Narrowphase narrowphase = Narrowphase::sat,
+                                Support support = Support::brute_force)
 {
   Settings settings;
   settings.narrowphase = narrowphase;
@@ -51,9 +51,12 @@ TEST_CASE("parity on OpenCL: specialised mixed") { require_same_state_on_pocl(sm
 TEST_CASE("parity on OpenCL: specialised trees") { require_same_state_on_pocl(few_trees()); }
 TEST_CASE("parity on OpenCL: specialised shapes") { require_same_state_on_pocl(every_shape()); }
 TEST_CASE("parity on OpenCL: specialised convex-hulls") { require_same_state_on_pocl(small_scenes()[7]); }
-TEST_CASE("parity on OpenCL: specialised gjk-sampled") { require_same_state_on_pocl(small_scenes()[7], "gjk-sampled"); }
+TEST_CASE("parity on OpenCL: specialised gjk-sampled")
+{
+  require_same_state_on_pocl(small_scenes()[7], Narrowphase::gjk_sampled);
+}
 TEST_CASE("parity on OpenCL: specialised cube-map and hill-climbing")
 {
-  require_same_state_on_pocl(small_scenes()[7], "cube-map", "hill-climbing");
+  require_same_state_on_pocl(small_scenes()[7], Narrowphase::cube_map, Support::hill_climbing);
 }
 TEST_CASE("parity on OpenCL: specialised rolling") { require_same_state_on_pocl(small_scenes()[8]); }

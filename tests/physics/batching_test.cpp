@@ -68,7 +68,7 @@ Scene laden_slab()
 
 TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer]")
 {
-  const std::string batching = GENERATE(from_range(batching_names()));
+  const Batching batching = GENERATE(from_range(choices<Batching>()));
   const std::string name = GENERATE("box-grid:nx=4,ny=4,nz=4", "mixed:n=150", "spheres:n=150");
   Settings settings;
   settings.batching = batching;
@@ -89,7 +89,7 @@ TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer
 TEST_CASE("a body that touches more than 63 others goes to the tail and still works", "[physics]")
 {
   Settings settings;
-  settings.batching = GENERATE(from_range(batching_names()));
+  settings.batching = GENERATE(from_range(choices<Batching>()));
   settings.check = true;
   CAPTURE(settings.batching);
   World world(laden_slab(), settings);

@@ -83,7 +83,7 @@ TEST_CASE("bodies of one colour share no constraint, and colours are those of a 
 {
   const std::vector<Scene> scenes{load_scene("box-grid:nx=5,ny=5,nz=5"), load_scene("pyramid:rows=12"), laden_slab(12)};
   for (const Scene &scene : scenes) {
-    World world(scene, settings_for("avbd"));
+    World world(scene, settings_for(Solver::avbd));
     for (int i = 0; i < 3; ++i) {
       run(world, 5);
       const Coloring coloring = coloring_of(world);

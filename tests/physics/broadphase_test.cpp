@@ -60,7 +60,7 @@ Scene scene_of(const std::string &name)
   return load_scene(name);
 }
 
-std::vector<uint64_t> hashes_with(const std::string &broadphase, const Scene &scene)
+std::vector<uint64_t> hashes_with(Broadphase broadphase, const Scene &scene)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -82,8 +82,8 @@ TEST_CASE("every broadphase leads to the bits of brute force", "[physics]")
                                     "pyramid:rows=8", "many sizes", "flat", "one point", "scattered");
   CAPTURE(name);
   const Scene scene = scene_of(name);
-  const std::vector<uint64_t> oracle = hashes_with("brute-force", scene);
-  for (const std::string &broadphase : broadphase_names()) {
+  const std::vector<uint64_t> oracle = hashes_with(Broadphase::brute_force, scene);
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     CAPTURE(broadphase);
     CHECK(hashes_with(broadphase, scene) == oracle);
   }
@@ -122,13 +122,13 @@ TEST_CASE("pairs come near once, persist and leave once, and touch only while th
 
 TEST_CASE("pair events of a crowd are the differences of its lists of pairs")
 {
-  const std::string name = GENERATE("mixed:n=120", "compounds:n=30"),
-                    broadphase = GENERATE("grid", "sap3", "trees", "bvh");
+  const std::string name = GENERATE("mixed:n=120", "compounds:n=30");
+  const Broadphase broadphase = GENERATE(Broadphase::grid, Broadphase::sap3, Broadphase::trees, Broadphase::bvh);
   Settings settings;
   settings.pair_events = true;
   settings.broadphase = broadphase;
   World world(load_scene(name), settings);
-  settings.broadphase = "brute-force";
+  settings.broadphase = Broadphase::brute_force;
   World oracle(load_scene(name), settings);
   std::set<std::pair<uint32_t, uint32_t>> before;
   size_t ends = 0;
@@ -168,23 +168,23 @@ TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and cha
   const auto choice = [](const std::string &scene, const char *backend) {
     return choose_broadphase(scene_of(scene), backend);
   };
-  CHECK(choice("scattered", "serial").name == "brute-force");
-  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "tbb").name == "trees");
-  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "cl").name == "brute-force");
-  CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").name == "grid");
+  CHECK(choice("scattered", "serial").broadphase == Broadphase::brute_force);
+  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "tbb").broadphase == Broadphase::trees);
+  CHECK(choice("box-grid:nx=6,ny=6,nz=6", "cl").broadphase == Broadphase::brute_force);
+  CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").broadphase == Broadphase::grid);
   CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").why.find("1729 bodies, of which 1 are") != std::string::npos);
   Scene sizes = empty_scene();
   for (int i = 0; i < 300; ++i) add_body(sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
   Scene many_sizes = empty_scene();
   for (int i = 0; i < 2000; ++i)
     add_body(many_sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
-  CHECK(choose_broadphase(many_sizes, "cl").name == "trees");
+  CHECK(choose_broadphase(many_sizes, "cl").broadphase == Broadphase::trees);
   CHECK(choose_broadphase(many_sizes, "cl").why.find("667 are more than") != std::string::npos);
   for (const std::string name : {"scattered", "falling-boxes:n=150", "many sizes"}) {
     CAPTURE(name);
-    CHECK(hashes_with("auto", scene_of(name)) == hashes_with("brute-force", scene_of(name)));
+    CHECK(hashes_with(Broadphase::automatic, scene_of(name)) == hashes_with(Broadphase::brute_force, scene_of(name)));
   }
   Settings settings;
-  settings.broadphase = "auto";
-  CHECK(World(sizes, settings).settings().broadphase == "trees");
+  settings.broadphase = Broadphase::automatic;
+  CHECK(World(sizes, settings).settings().broadphase == Broadphase::trees);
 }

@@ -16,7 +16,7 @@ namespace {
 
 using Kind = ContactEvent::Kind;
 
-Settings with_events(const std::string &solver = "soft-step")
+Settings with_events(Solver solver = Solver::soft_step)
 {
   Settings settings = settings_for(solver);
   settings.events = true;
@@ -95,7 +95,7 @@ void require_oracle(World &world, const EventOracle &oracle)
 
 TEST_CASE("a dropped ball begins to touch once and then persists for as long as it rests", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   CAPTURE(solver);
   World world(ball_above_ground(2, 0), with_events(solver), {"serial", {}});
   const std::string history = run_history(world, 240);
@@ -112,7 +112,7 @@ TEST_CASE("a dropped ball begins to touch once and then persists for as long as 
 
 TEST_CASE("what a bouncing ball's events carry is its change of momentum, in every step", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   const float restitution = GENERATE(0.0f, 0.5f, 1.0f);
   CAPTURE(solver, restitution);
   Scene scene = ball_above_ground(1.7, restitution);
@@ -138,7 +138,8 @@ TEST_CASE("what a bouncing ball's events carry is its change of momentum, in eve
 /* Without friction nothing else acts, so the events of a pile must account for the momentum of each body by itself. */
 TEST_CASE("the events of a smooth pile account for the momentum of every body in every step", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "pgs", "nncg", "jacobi", "xpbd", "direct");
+  const Solver solver =
+      GENERATE(Solver::soft_step, Solver::pgs, Solver::nncg, Solver::jacobi, Solver::xpbd, Solver::direct);
   CAPTURE(solver);
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
@@ -211,7 +212,7 @@ TEST_CASE("a contact ends also where the pair is gone from the list: carried off
 
 TEST_CASE("every event of a random pile, against the oracle", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "jacobi");
+  const Solver solver = GENERATE(Solver::soft_step, Solver::jacobi);
   Scene scene = load_scene("mixed:n=60");
   Random random(3);
   for (int i = 0; i < 6; ++i) {
@@ -327,8 +328,8 @@ TEST_CASE("an impulse that has faded away has no place of its own: the event nam
           "[physics]")
 {
   size_t faded = 0;
-  for (const auto &[solver, scene] : {std::pair("pgs", "mixed:n=32"), std::pair("pgs", "mixed:n=40"),
-                                      std::pair("nncg", "mixed:n=16"), std::pair("nncg", "mixed:n=48")}) {
+  for (const auto &[solver, scene] : {std::pair(Solver::pgs, "mixed:n=32"), std::pair(Solver::pgs, "mixed:n=40"),
+                                      std::pair(Solver::nncg, "mixed:n=16"), std::pair(Solver::nncg, "mixed:n=48")}) {
     Settings settings = settings_for(solver); /* whose impulses fade to denormal numbers */
     settings.events = true;
     World world(load_scene(scene), settings);

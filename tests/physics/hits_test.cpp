@@ -111,7 +111,7 @@ int behind_the_sheets(const Scene &scene, const Settings &settings)
 
 TEST_CASE("what hits hardly ever passes: one in a hundred of fast bodies that friction sets spinning", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "pgs");
+  const Solver solver = GENERATE(Solver::soft_step, Solver::pgs);
   const Shape sheet = box_shape(6, 0.005f, 6), mesh = mesh_of_box(6, 0.005f, 6), hull = hull_of_box(6, 0.005f, 6);
   CAPTURE(solver);
   const int through_box = behind_the_sheets(thrown_at_sheets(sheet, 1500), settings_for(solver));
@@ -136,7 +136,7 @@ TEST_CASE("what hits is noticed: fast boxes and hulls that start beside what the
 
 TEST_CASE("what hits is noticed in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   const Shape box = box_shape(float(half), float(half), float(half));
   CAPTURE(solver);
   CHECK(unnoticed(hits(box, box, 500), settings_for(solver)) == 0);
@@ -144,7 +144,7 @@ TEST_CASE("what hits is noticed in every solver", "[physics]")
 
 TEST_CASE("what hits is noticed: turning moves no plane that a body is pushed into, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double speed : {3.0, 20.0}) {
     /* What touches already follows, and so turns some of what it leaves: soft-step comes 0.12 deep at 3 m/s. */
     const double without = deepest(struck_from_above(speed, 0), settings_for(solver)),

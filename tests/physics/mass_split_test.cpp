@@ -33,12 +33,12 @@ Drift momentum_drift(const Scene &scene, const Settings &settings, const std::st
 
 TEST_CASE("a body of very many constraints keeps momentum", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "jacobi", "pgs", "nncg", "direct");
+  const Solver solver = GENERATE(Solver::soft_step, Solver::jacobi, Solver::pgs, Solver::nncg, Solver::direct);
   const float restitution = GENERATE(0.0f, 0.5f);
   const int side = GENERATE(12, 36);
   const Drift drift = momentum_drift(laden_slab(side, restitution), settings_for(solver), "tbb", side == 12 ? 30 : 6);
-  INFO(solver << ", " << side * side << " boxes, restitution " << restitution << ": momentum " << drift.linear
-              << ", angular " << drift.angular);
+  INFO(name_of(solver) << ", " << side * side << " boxes, restitution " << restitution << ": momentum " << drift.linear
+                       << ", angular " << drift.angular);
   CHECK(drift.linear < 1e-5);
   CHECK(drift.angular < 1e-5);
 }
@@ -61,7 +61,7 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
     body.linear_velocity = {0, float(-speed), 0};
     scene.bodies.push_back(body);
   }
-  World world(scene, settings_for("jacobi"));
+  World world(scene, settings_for(Solver::jacobi));
   run(world, 20);
   const double joint = side * side * mass * -speed / (side * side * mass + plate_mass);
   double worst = 0;
@@ -74,7 +74,7 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
  * item they sank in by 6.1 mm and never came to rest. */
 TEST_CASE("a tail carries its load at rest", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "pgs", "nncg", "xpbd", "direct");
+  const Solver solver = GENERATE(Solver::soft_step, Solver::pgs, Solver::nncg, Solver::xpbd, Solver::direct);
   Scene scene = laden_slab(20, 0, {0, -10, 0}, 0);
   add_ground(scene);
   World world(scene, settings_for(solver));
@@ -87,7 +87,8 @@ TEST_CASE("a tail carries its load at rest", "[physics]")
   const std::vector<BodyState> now = world.bodies();
   for (size_t i = 0; i < now.size(); ++i)
     moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
-  INFO(solver << ", 400 boxes on a slab: moved " << moved << " m, penetration " << world.statistics().max_penetration);
+  INFO(name_of(solver) << ", 400 boxes on a slab: moved " << moved << " m, penetration "
+                       << world.statistics().max_penetration);
   CHECK(moved < 0.02);
 }
 

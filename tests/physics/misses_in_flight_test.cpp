@@ -120,7 +120,7 @@ Scene thrown(uint64_t seed, double step, const Throws &throws)
 
 TEST_CASE("what misses goes on: in flight past what stands, spins or falls beside it, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double step : {1.0 / 60, 1.0 / 120})
     for (const Throws &throws : {Throws{}, Throws{true}, Throws{false, 30}}) {
       CAPTURE(solver, step, throws.is_free, throws.spin);
@@ -131,14 +131,14 @@ TEST_CASE("what misses goes on: in flight past what stands, spins or falls besid
 /* Contacts are followed along the chord of the step, from which gravity bends the way by g step^2 / 8: 1.4 mm. */
 TEST_CASE("what misses goes on: in flight in steps of a thirtieth of a second, by more than the way bends", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   CAPTURE(solver);
   CHECK(farthest_from_free_fall(thrown(12, 1.0 / 30, {false, 0, 0.002}), settings_for(solver), 1.0 / 30, steps) < 5e-4);
 }
 
 TEST_CASE("what hits without friction feels no spin: balls that graze balls which something turns", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   Random random(5);
   Scene still = empty_scene({0, 0, 0});
   still.materials[0].static_friction = still.materials[0].dynamic_friction = 0;
@@ -172,7 +172,7 @@ TEST_CASE("what hits without friction feels no spin: balls that graze balls whic
 TEST_CASE("what misses goes on: boxes that fall below one another, one of them along a wall, in every solver",
           "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double gap : {0.0001, 0.001, 0.005}) {
     Scene scene = empty_scene();
     scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;

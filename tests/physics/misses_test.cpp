@@ -313,7 +313,7 @@ Scene past_at_every_moment(bool driven, double spin, double speed, double cleara
 
 TEST_CASE("what misses goes on while it falls, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (uint64_t seed : {1, 2, 3})
     for (double step : {1.0 / 60, 1.0 / 30}) {
       CAPTURE(solver, seed, step);
@@ -323,7 +323,7 @@ TEST_CASE("what misses goes on while it falls, in every solver", "[physics]")
 
 TEST_CASE("what misses goes on: bodies that spin beside free ones, and past what turns", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (uint64_t seed : {1, 2, 3}) {
     CAPTURE(solver, seed);
     Settings coarse = settings_for(solver);
@@ -355,7 +355,7 @@ TEST_CASE("what misses goes on: slow cubes, face to face with what they pass", "
 
 TEST_CASE("what misses goes on: balls past balls that turn in place, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
     Settings settings = settings_for(solver);
     settings.step = float(step);
@@ -367,7 +367,7 @@ TEST_CASE("what misses goes on: balls past balls that turn in place, in every so
 
 TEST_CASE("what misses goes on: balls past balls that spin, at every moment of a step, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (const auto &[driven, spin, speed, clearance, hertz] :
        {std::tuple(true, 2.0, 100.0, 0.005, 60), std::tuple(false, 20.0, 100.0, 0.005, 60),
         std::tuple(true, 150.0, 30.0, 0.01, 60), std::tuple(false, 150.0, 30.0, 0.01, 60),
@@ -381,7 +381,7 @@ TEST_CASE("what misses goes on: balls past balls that spin, at every moment of a
 
 TEST_CASE("what misses goes on: balls that spin past round bodies that spin, all free, in every solver", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (double step : {1.0 / 60, 1.0 / 240}) {
     CAPTURE(solver, step);
     CHECK(farthest_from_free_fall(past_round_spinners(7, step), settings_for(solver), step, 12) < 5e-4);
@@ -390,7 +390,7 @@ TEST_CASE("what misses goes on: balls that spin past round bodies that spin, all
 
 TEST_CASE("what misses goes on in every solver, and with continuous collision", "[physics]")
 {
-  const std::string solver = GENERATE(from_range(solver_names()));
+  const Solver solver = GENERATE(from_range(choices<Solver>()));
   for (Obstacle obstacle : obstacles)
     for (double speed : {5.0, 100.0}) {
       CAPTURE(solver, int(obstacle), speed);

@@ -98,7 +98,7 @@ TEST_CASE("bodies in one place in empty space part, keep their momentum and hard
  * drives them to any speed. The slabs' rims move at 38 m/s, and what bounces between two of them gains twice that. */
 TEST_CASE("bodies that fly through each other gain no speed by friction", "[physics]")
 {
-  const std::string solver = GENERATE("soft-step", "pgs");
+  const Solver solver = GENERATE(Solver::soft_step, Solver::pgs);
   CAPTURE(solver);
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);

@@ -26,7 +26,7 @@ Scene crowd(double apart)
 
 BodyState at(double x) { return {{x, 0, 0}, {0, 0, 0, 1}, {0, 0, 0}, {0, 0, 0}}; }
 
-Settings limited(const std::string &broadphase, uint32_t most)
+Settings limited(Broadphase broadphase, uint32_t most)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -48,7 +48,7 @@ std::string failure_of(World &world)
 
 TEST_CASE("a step with more pairs than are allowed fails whole with every broadphase, and the world goes on")
 {
-  for (const std::string &broadphase : broadphase_names())
+  for (const Broadphase broadphase : choices<Broadphase>())
     for (const char *on : {"serial", "tbb:threads=2"}) {
       CAPTURE(broadphase, on);
       World world(crowd(2), limited(broadphase, all_pairs / 2), Placement{on, {}, false});
@@ -70,21 +70,21 @@ TEST_CASE("a step with more pairs than are allowed fails whole with every broadp
 
 TEST_CASE("a message names all pairs that need room, or says that it names the least")
 {
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     World world(crowd(0), limited(broadphase, 10), Placement{"serial", {}, false});
     const std::string message = failure_of(world), begin = "step 0: room for ";
     CAPTURE(broadphase, message);
     REQUIRE(message.find(begin) == 0);
     const bool is_least = message.find("at least ") == begin.size();
     const uint64_t needed = std::stoull(message.substr(begin.size() + (is_least ? 9 : 0)));
-    CHECK(is_least == (broadphase == "trees"));
+    CHECK(is_least == (broadphase == Broadphase::trees));
     CHECK((is_least ? needed > 10 && needed < all_pairs : needed == all_pairs));
   }
 }
 
 TEST_CASE("as many pairs as are allowed are found, none fewer, and they change no bit")
 {
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     CAPTURE(broadphase);
     World exact(crowd(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}),
         free(crowd(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
@@ -114,7 +114,7 @@ struct InRows {
 
 InRows in_rows_by_brute_force()
 {
-  World world(crowd(in_a_row), limited("brute-force", most_pairs), Placement{"serial", {}, false});
+  World world(crowd(in_a_row), limited(Broadphase::brute_force, most_pairs), Placement{"serial", {}, false});
   world.step();
   const uint32_t pairs = world.statistics().pairs;
   exchange_neighbours(world);
@@ -129,7 +129,7 @@ InRows in_rows_by_brute_force()
 TEST_CASE("a broadphase that keeps its list needs no more room for pairs than others")
 {
   const auto [most, hash] = in_rows_by_brute_force();
-  for (const char *broadphase : {"sap3", "trees", "grid"}) {
+  for (const Broadphase broadphase : {Broadphase::sap3, Broadphase::trees, Broadphase::grid}) {
     CAPTURE(broadphase, most);
     World world(crowd(in_a_row), limited(broadphase, most), Placement{"serial", {}, false});
     CHECK(failure_of(world).empty());
@@ -138,7 +138,7 @@ TEST_CASE("a broadphase that keeps its list needs no more room for pairs than ot
     CHECK(world.statistics().pairs <= most);
     CHECK(world.state_hash() == hash);
   }
-  World free(crowd(in_a_row), limited("sap3", most_pairs), Placement{"serial", {}, false});
+  World free(crowd(in_a_row), limited(Broadphase::sap3, most_pairs), Placement{"serial", {}, false});
   free.step();
   exchange_neighbours(free);
   free.step();
@@ -148,8 +148,8 @@ TEST_CASE("a broadphase that keeps its list needs no more room for pairs than ot
 
 TEST_CASE("pairs of leaves count against the limit too")
 {
-  for (const char *midphase : {"walk", "subtrees"}) {
-    Settings settings = limited("grid", 20);
+  for (const Midphase midphase : {Midphase::walk, Midphase::subtrees}) {
+    Settings settings = limited(Broadphase::grid, 20);
     settings.midphase = midphase;
     World world(load_scene("compounds:n=20"), settings, Placement{"serial", {}, false});
     std::string message;
@@ -161,8 +161,8 @@ TEST_CASE("pairs of leaves count against the limit too")
 
 TEST_CASE("a limit of pairs that makes no sense is refused")
 {
-  CHECK_THROWS_AS(World(crowd(2), limited("grid", 0)), InputError);
-  CHECK_THROWS_AS(World(crowd(2), limited("grid", most_pairs + 1)), InputError);
+  CHECK_THROWS_AS(World(crowd(2), limited(Broadphase::grid, 0)), InputError);
+  CHECK_THROWS_AS(World(crowd(2), limited(Broadphase::grid, most_pairs + 1)), InputError);
 }
 
 /* 12 x 256 x 256 words of cube maps a hull: 5,462 of them pass 2^32. */

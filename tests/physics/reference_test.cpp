@@ -76,7 +76,7 @@ TEST_CASE("reference: spin about a principal axis turns by its angle to the roun
 TEST_CASE("reference: any single stage runs in double inside a float step", "[physics][reference]")
 {
   const std::string stage = GENERATE("broadphase", "narrowphase", "batching", "setup", "solve", "integrate");
-  const std::string broadphase = GENERATE("grid", "sap");
+  const Broadphase broadphase = GENERATE(Broadphase::grid, Broadphase::sap);
   Settings settings;
   settings.broadphase = broadphase;
   World world(small_heap(), settings, Placement{"serial", {{stage, "reference"}}, false});

@@ -159,7 +159,7 @@ TEST_CASE("overflow grows the buffers, repeats the step and loses no contact", "
   const Shape shape = GENERATE(sphere_shape(0.4f), box_shape(0.4f, 0.3f, 0.2f));
   const uint32_t n = 200;
   std::vector<uint64_t> hashes;
-  for (const std::string broadphase : {"brute-force", "sap", "grid"}) {
+  for (const Broadphase broadphase : {Broadphase::brute_force, Broadphase::sap, Broadphase::grid}) {
     Settings settings;
     settings.broadphase = broadphase;
     World world(crowd(shape, int(n)), settings);

@@ -33,13 +33,13 @@ Scene balls_on_floor(float rolling, float spinning)
 
 Body &add_ball(Scene &scene, float z) { return add_body(scene, Motion::dynamic, sphere_shape(radius), {0, radius, z}); }
 
-const std::vector<std::string> solvers_with_rolling{"soft-step", "pgs", "nncg"};
+const std::vector<Solver> solvers_with_rolling{Solver::soft_step, Solver::pgs, Solver::nncg};
 
 } // namespace
 
 TEST_CASE("a rolling ball slows down by 5/7 of its coefficient times g over its radius, and stops", "[physics]")
 {
-  for (const std::string &solver : solvers_with_rolling) {
+  for (const Solver solver : solvers_with_rolling) {
     CAPTURE(solver);
     Scene scene = balls_on_floor(0.02f, 0);
     const double deceleration = 5.0 / 7 * double(0.02f) * gravity / radius, speed = 1;
@@ -67,7 +67,7 @@ TEST_CASE("a rolling ball slows down by 5/7 of its coefficient times g over its 
 
 TEST_CASE("a ball stays on a slope below atan of coefficient over radius, and rolls down a steeper one", "[physics]")
 {
-  for (const std::string &solver : solvers_with_rolling) {
+  for (const Solver solver : solvers_with_rolling) {
     CAPTURE(solver);
     const float coefficient = 0.05f;
     Scene scene = balls_on_floor(coefficient, 0);
@@ -96,7 +96,7 @@ TEST_CASE("a ball stays on a slope below atan of coefficient over radius, and ro
 
 TEST_CASE("a spinning ball loses 5/2 of its coefficient times g over its radius squared, and stops", "[physics]")
 {
-  for (const std::string &solver : solvers_with_rolling) {
+  for (const Solver solver : solvers_with_rolling) {
     CAPTURE(solver);
     Scene scene = balls_on_floor(0, 0.01f);
     add_ball(scene, 0).angular_velocity = {0, 2, 0};
@@ -113,7 +113,7 @@ TEST_CASE("a spinning ball loses 5/2 of its coefficient times g over its radius 
 
 TEST_CASE("without spinning friction a ball spins on, and without rolling friction it rolls on", "[physics]")
 {
-  for (const std::string &solver : solvers_with_rolling) {
+  for (const Solver solver : solvers_with_rolling) {
     CAPTURE(solver);
     Scene scene = balls_on_floor(0.02f, 0);
     add_ball(scene, 0).angular_velocity = {0, 2, 0};

@@ -82,7 +82,7 @@ Scene collision(uint64_t seed, float friction, float restitution)
 TEST_CASE("collisions of every shape conserve linear and angular momentum", "[physics]")
 {
   const float friction = GENERATE(0.0f, 0.6f), restitution = GENERATE(0.0f, 0.5f, 1.0f);
-  const std::string narrowphase = GENERATE(from_range(narrowphase_names()));
+  const Narrowphase narrowphase = GENERATE(from_range(choices<Narrowphase>()));
   for (uint64_t seed : {1, 2, 3}) {
     Settings settings;
     settings.narrowphase = narrowphase;
@@ -177,13 +177,13 @@ TEST_CASE("a hundred hulls settle with less than a centimetre of penetration", "
  * is. */
 TEST_CASE("every narrowphase carries a pile of every shape", "[physics]")
 {
-  const std::string narrowphase = GENERATE(from_range(narrowphase_names()));
+  const Narrowphase narrowphase = GENERATE(from_range(choices<Narrowphase>()));
   Settings settings;
   settings.narrowphase = narrowphase;
   World world(load_scene("shapes:n=100"), settings);
   const Pile pile = settled(world, 420); /* one shape wedged among others sinks for a while */
   CAPTURE(narrowphase, pile.deepest, pile.lowest, pile.farthest);
-  CHECK(pile.deepest < (narrowphase == "gjk-sampled" ? 0.015 : 0.01));
+  CHECK(pile.deepest < (narrowphase == Narrowphase::gjk_sampled ? 0.015 : 0.01));
   CHECK(pile.lowest > 0.05);
   CHECK(pile.farthest < 7);
 }

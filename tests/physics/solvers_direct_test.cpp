@@ -11,7 +11,7 @@ namespace {
 
 Settings direct(double step = 1.0 / 60, uint32_t substeps = 4)
 {
-  Settings settings = settings_for("direct");
+  Settings settings = settings_for(Solver::direct);
   settings.step = float(step);
   settings.substeps = substeps;
   return settings;
@@ -151,7 +151,7 @@ TEST_CASE("direct: a heavy box stands on a light one, where the soft step sinks"
 {
   const float ratio = GENERATE(1000.0f, 10000.0f);
   const Scene scene = stack({1, ratio});
-  const Stand exact = stand(scene, direct(), 120), soft = stand(scene, settings_for("soft-step"), 120);
+  const Stand exact = stand(scene, direct(), 120), soft = stand(scene, settings_for(Solver::soft_step), 120);
   INFO("1 : " << ratio << ": direct " << exact.deepest << " m deep, soft-step " << soft.deepest << "; stalled "
               << exact.stalled);
   CHECK(exact.deepest < 0.001);

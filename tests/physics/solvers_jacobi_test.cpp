@@ -11,7 +11,7 @@ namespace {
 
 Settings jacobi(uint32_t iterations = 0)
 {
-  Settings settings = settings_for("jacobi");
+  Settings settings = settings_for(Solver::jacobi);
   if (iterations > 0) settings.iterations = iterations;
   return settings;
 }

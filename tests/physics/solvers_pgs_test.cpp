@@ -11,10 +11,10 @@ using namespace tandem::physics_tests;
 namespace {
 
 struct Case {
-  const char *solver;
+  Solver solver;
   uint32_t substeps, iterations; /* 0: the solver's own */
 };
-const std::vector<Case> cases{{"pgs", 0, 0}, {"nncg", 0, 0}, {"pgs", 4, 2}, {"nncg", 4, 3}};
+const std::vector<Case> cases{{Solver::pgs, 0, 0}, {Solver::nncg, 0, 0}, {Solver::pgs, 4, 2}, {Solver::nncg, 4, 3}};
 
 Settings settings_of(const Case &c)
 {
@@ -26,7 +26,7 @@ Settings settings_of(const Case &c)
 
 std::string name_of(const Case &c)
 {
-  return std::string(c.solver) + ", substeps " + std::to_string(c.substeps) + ", iterations " +
+  return std::string(name_of(c.solver)) + ", substeps " + std::to_string(c.substeps) + ", iterations " +
          std::to_string(c.iterations);
 }
 
@@ -152,7 +152,7 @@ private:
 
 /* After so many sweeps of the first step, which has nothing to warm start from: relative to the residual of no
  * impulse. */
-double residual_after(const std::string &solver, uint32_t sweeps, const Scene &scene)
+double residual_after(Solver solver, uint32_t sweeps, const Scene &scene)
 {
   Settings settings = settings_for(solver);
   settings.iterations = sweeps;
@@ -233,7 +233,7 @@ TEST_CASE("pgs and nncg: a block of boxes stays bounded", "[physics]")
  * double their error with every sweep. */
 TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweeps", "[physics]")
 {
-  for (const char *solver : {"pgs", "nncg"})
+  for (const Solver solver : {Solver::pgs, Solver::nncg})
     for (uint32_t iterations : {10u, 40u}) {
       Settings settings = settings_for(solver);
       settings.iterations = iterations;
@@ -254,8 +254,8 @@ TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweep
         grown = std::max(grown, (now - before) / start);
         before = now;
       }
-      INFO(solver << ", " << iterations << " sweeps: energy grown within ten steps " << grown
-                  << " of that at the start, left " << before / start);
+      INFO(name_of(solver) << ", " << iterations << " sweeps: energy grown within ten steps " << grown
+                           << " of that at the start, left " << before / start);
       CHECK(grown < 0.005);
       CHECK(before < 0.7 * start);
     }
@@ -327,10 +327,10 @@ TEST_CASE("pgs and nncg: a closed system keeps its momentum and gains no energy"
 TEST_CASE("pgs and nncg: more sweeps bring the impulses nearer to the solution", "[physics]")
 {
   const Scene scene = load_scene("pyramid:rows=10");
-  for (const char *solver : {"pgs", "nncg"}) {
+  for (const Solver solver : {Solver::pgs, Solver::nncg}) {
     const double few = residual_after(solver, 4, scene), some = residual_after(solver, 16, scene),
                  many = residual_after(solver, 64, scene);
-    INFO(solver << ": residual after 4, 16, 64 sweeps " << few << ", " << some << ", " << many);
+    INFO(name_of(solver) << ": residual after 4, 16, 64 sweeps " << few << ", " << some << ", " << many);
     CHECK(some < 0.7 * few);
     CHECK(many < 0.5 * some);
   }
@@ -341,7 +341,8 @@ TEST_CASE("nncg needs at most half the sweeps of pgs", "[physics]")
   for (const char *name : {"box-stack:n=20,height=20", "pyramid:rows=12"}) {
     const Scene scene = load_scene(name);
     for (uint32_t sweeps : {20u, 40u}) {
-      const double pgs = residual_after("pgs", 2 * sweeps, scene), nncg = residual_after("nncg", sweeps, scene);
+      const double pgs = residual_after(Solver::pgs, 2 * sweeps, scene),
+                   nncg = residual_after(Solver::nncg, sweeps, scene);
       INFO(name << ": residual of pgs after " << 2 * sweeps << " sweeps " << pgs << ", of nncg after " << sweeps << " "
                 << nncg);
       CHECK(nncg < pgs);

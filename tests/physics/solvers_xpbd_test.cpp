@@ -98,10 +98,10 @@ Drift collide(const Settings &settings, float friction, float restitution)
 
 TEST_CASE("position solvers: a stack of ten boxes stands", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
-  const Standing standing = stand(column(10, 1), settings_for(name), 300);
-  INFO(name << ": moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest "
-            << standing.deepest << " m");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
+  const Standing standing = stand(column(10, 1), settings_for(solver), 300);
+  INFO(name_of(solver) << ": moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest "
+                       << standing.deepest << " m");
   CHECK(standing.moved < 0.01);
   CHECK(standing.sideways < 0.001);
   CHECK(standing.deepest < 0.005);
@@ -109,25 +109,25 @@ TEST_CASE("position solvers: a stack of ten boxes stands", "[physics]")
 
 TEST_CASE("position solvers: a stack stands 20 km from the origin", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
-  const Standing standing = stand(column(5, 1, {20000, 0, -20000}), settings_for(name), 300);
-  INFO(name << ": moved " << standing.moved << " m, deepest " << standing.deepest << " m");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
+  const Standing standing = stand(column(5, 1, {20000, 0, -20000}), settings_for(solver), 300);
+  INFO(name_of(solver) << ": moved " << standing.moved << " m, deepest " << standing.deepest << " m");
   CHECK(standing.moved < 0.008);
   CHECK(standing.deepest < 0.005);
 }
 
 TEST_CASE("position solvers: a grid of boxes and a pyramid stay bounded", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   for (const char *scene : {"box-grid:nx=4,ny=8,nz=4", "pyramid:rows=8"}) {
-    World world(load_scene(scene), settings_for(name));
+    World world(load_scene(scene), settings_for(solver));
     double deepest = 0, highest = 0;
     for (int i = 0; i < 12; ++i) {
       run(world, 10);
       deepest = std::max(deepest, world.statistics().max_penetration);
     }
     for (const BodyState &state : world.bodies()) highest = std::max(highest, double(state.position[1]));
-    INFO(name << " on " << scene << ": deepest " << deepest << " m, highest centre " << highest << " m");
+    INFO(name_of(solver) << " on " << scene << ": deepest " << deepest << " m, highest centre " << highest << " m");
     CHECK(all_finite(world.bodies()));
     CHECK(deepest < 0.02);
     CHECK(highest > 7);
@@ -136,11 +136,11 @@ TEST_CASE("position solvers: a grid of boxes and a pyramid stay bounded", "[phys
 
 TEST_CASE("position solvers: free fall is exact to rounding", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(0.5f, 0.4f, 0.3f), {0, 100, 0}).linear_velocity = {3, 2, 0};
-  World world(scene, settings_for(name));
+  World world(scene, settings_for(solver));
   run(world, 120);
   const BodyState body = world.bodies()[1];
   CHECK(body.position[0] == Approx(6).epsilon(1e-6));
@@ -150,7 +150,7 @@ TEST_CASE("position solvers: free fall is exact to rounding", "[physics]")
 
 TEST_CASE("position solvers: a box on an incline slips at atan mu, and then as fast as friction lets it", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   const std::vector<double> coefficients{0.2, 0.5, 0.9};
   std::vector<double> angles;
@@ -161,14 +161,14 @@ TEST_CASE("position solvers: a box on an incline slips at atan mu, and then as f
       add_incline(scene, material, angles.back(), 2.0f * float(angles.size()));
     }
   }
-  World world(scene, settings_for(name));
+  World world(scene, settings_for(solver));
   const std::vector<BodyState> start = world.bodies();
   run(world, 120);
   const std::vector<BodyState> now = world.bodies();
   for (size_t i = 0; i < angles.size(); ++i) {
     const double mu = coefficients[i / 2];
     const double slid = (vector_of(now[2 * i + 1].position) - vector_of(start[2 * i + 1].position)).norm();
-    INFO(name << ", mu " << mu << ": slid " << slid << " m in 2 s at " << angles[i] / radians << " degrees");
+    INFO(name_of(solver) << ", mu " << mu << ": slid " << slid << " m in 2 s at " << angles[i] / radians << " degrees");
     if (i % 2 == 0) CHECK(slid < 0.01);
     else CHECK(slid == Approx(0.5 * 4 * gravity * (std::sin(angles[i]) - mu * std::cos(angles[i]))).epsilon(0.06));
   }
@@ -176,7 +176,7 @@ TEST_CASE("position solvers: a box on an incline slips at atan mu, and then as f
 
 TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   add_ground(scene);
   const std::vector<float> restitutions{0.3f, 0.5f, 0.8f, 1.0f};
@@ -185,12 +185,12 @@ TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
     add_body(scene, Motion::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0}).material =
         material;
   }
-  World world(scene, settings_for(name));
+  World world(scene, settings_for(solver));
   run(world, 45); /* falls for 0.632 s, 38 steps */
   for (size_t i = 0; i < restitutions.size(); ++i) {
     const BodyState ball = world.bodies()[i + 1];
     const double speed = ball.linear_velocity[1], height = ball.position[1] - 0.25 + speed * speed / (2 * gravity);
-    INFO(name << ", e " << restitutions[i] << ": returns to " << height / 2);
+    INFO(name_of(solver) << ", e " << restitutions[i] << ": returns to " << height / 2);
     CHECK(height / 2 == Approx(restitutions[i] * restitutions[i]).epsilon(0.03));
   }
 }
@@ -199,21 +199,21 @@ TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
  * applies every impulse to both bodies. */
 TEST_CASE("position solvers: momentum of a closed system", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   const float restitution = GENERATE(0.0f, 0.5f);
-  const Drift drift = collide(settings_for(name), 0.6f, restitution);
-  INFO(name << ", restitution " << restitution << ": momentum " << drift.linear << ", angular " << drift.angular
-            << ", energy grown " << drift.energy << ", contacts " << drift.contacts);
+  const Drift drift = collide(settings_for(solver), 0.6f, restitution);
+  INFO(name_of(solver) << ", restitution " << restitution << ": momentum " << drift.linear << ", angular "
+                       << drift.angular << ", energy grown " << drift.energy << ", contacts " << drift.contacts);
   CHECK(drift.contacts > 20);
-  CHECK(drift.linear < (name == "xpbd" ? 1e-5 : 0.02));
-  CHECK(drift.angular < (name == "xpbd" ? 1e-5 : 0.1));
+  CHECK(drift.linear < (solver == Solver::xpbd ? 1e-5 : 0.02));
+  CHECK(drift.angular < (solver == Solver::xpbd ? 1e-5 : 0.1));
   CHECK(drift.energy < (restitution == 0 ? 1e-3 : 0.02));
 }
 
 TEST_CASE("avbd holds a thousand times the mass on top of a stack", "[physics]")
 {
   const int height = GENERATE(2, 5);
-  const Standing standing = stand(column(height, 1000), settings_for("avbd"), 300);
+  const Standing standing = stand(column(height, 1000), settings_for(Solver::avbd), 300);
   INFO(height << " boxes: moved " << standing.moved << " m, sideways " << standing.sideways << " m, deepest "
               << standing.deepest << " m");
   CHECK(standing.moved < 0.2);
@@ -223,16 +223,16 @@ TEST_CASE("avbd holds a thousand times the mass on top of a stack", "[physics]")
 /* The same stack with more work. */
 TEST_CASE("position solvers: more substeps or iterations, less penetration", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   const bool substeps = GENERATE(true, false);
   std::vector<double> sunk;
   for (uint32_t times : {1u, 2u, 4u}) {
-    Settings settings = settings_for(name);
+    Settings settings = settings_for(solver);
     (substeps ? settings.substeps : settings.iterations) *= times;
     sunk.push_back(stand(column(10, 1), settings, 100).moved);
   }
-  INFO(name << (substeps ? ", substeps" : ", iterations") << ": sunk by " << sunk[0] << ", " << sunk[1] << ", "
-            << sunk[2] << " m");
+  INFO(name_of(solver) << (substeps ? ", substeps" : ", iterations") << ": sunk by " << sunk[0] << ", " << sunk[1]
+                       << ", " << sunk[2] << " m");
   CHECK(sunk[1] < 0.8 * sunk[0]);
   CHECK(sunk[2] < std::max(0.8 * sunk[1], 1e-4)); /* both have converged, to what warm start and rounding leave */
 }
@@ -240,7 +240,7 @@ TEST_CASE("position solvers: more substeps or iterations, less penetration", "[p
 /* A slab under more boxes than there are colours, for the tail of constraints and for long lists of a body. */
 TEST_CASE("position solvers: a body of many neighbours", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   add_ground(scene);
   add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
@@ -248,12 +248,12 @@ TEST_CASE("position solvers: a body of many neighbours", "[physics]")
     add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
              {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f})
         .mass = 0.5f;
-  const Standing standing = stand(scene, settings_for(name), 60);
-  INFO(name << ": moved " << standing.moved << " m, deepest " << standing.deepest << " m");
+  const Standing standing = stand(scene, settings_for(solver), 60);
+  INFO(name_of(solver) << ": moved " << standing.moved << " m, deepest " << standing.deepest << " m");
   CHECK(standing.moved < 0.01);
   CHECK(standing.deepest < 0.01);
-  World serial(scene, settings_for(name), Placement{"serial", {}, false}),
-      threads(scene, settings_for(name), Placement{"tbb:threads=7,lanes=8", {}, false});
+  World serial(scene, settings_for(solver), Placement{"serial", {}, false}),
+      threads(scene, settings_for(solver), Placement{"tbb:threads=7,lanes=8", {}, false});
   run(serial, 5);
   run(threads, 5);
   CHECK(serial.state_hash() == threads.state_hash());
@@ -262,9 +262,9 @@ TEST_CASE("position solvers: a body of many neighbours", "[physics]")
 /* The same kernels in double: rounding moves a stack by less than a micrometre. */
 TEST_CASE("position solvers on the reference backend", "[physics]")
 {
-  const std::string name = GENERATE(as<std::string>{}, "xpbd", "avbd");
+  const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   const Scene scene = column(5, 1);
-  World single(scene, settings_for(name)), reference(scene, settings_for(name), Placement{"reference", {}, false});
+  World single(scene, settings_for(solver)), reference(scene, settings_for(solver), Placement{"reference", {}, false});
   run(single, 60);
   run(reference, 60);
   const std::vector<BodyState> rounded = single.bodies();
@@ -273,7 +273,7 @@ TEST_CASE("position solvers on the reference backend", "[physics]")
   for (size_t i = 0; i < exact.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
       apart = std::max(apart, std::abs(exact[i].position[axis] - double(rounded[i].position[axis])));
-  INFO(name << ": " << apart << " m between float and double after 60 steps");
+  INFO(name_of(solver) << ": " << apart << " m between float and double after 60 steps");
   CHECK(apart < 2e-5);
   CHECK(apart > 0);
 }
@@ -300,7 +300,7 @@ TEST_CASE("xpbd: a slab comes to rest under a load of many times its mass, and g
   const auto [side, substeps] = GENERATE(table<int, uint32_t>({{20, 5}, {20, 8}, {20, 20}, {30, 8}}));
   Scene scene = laden_slab(side, 0, {0, float(-gravity), 0}, 0);
   add_ground(scene);
-  Settings settings = settings_for("xpbd");
+  Settings settings = settings_for(Solver::xpbd);
   settings.substeps = substeps;
   World world(scene, settings);
   const double start = mechanical_energy(world);

@@ -8,7 +8,7 @@ using namespace tandem::physics_tests;
 
 TEST_CASE("a body whose moments are infinite about two axes turns about the third alone", "[physics]")
 {
-  for (const std::string &solver : solver_names()) {
+  for (const Solver solver : choices<Solver>()) {
     Scene scene = empty_scene();
     add_ground(scene);
     Body &tilted = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 1.5, 0});

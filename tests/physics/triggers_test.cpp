@@ -22,7 +22,7 @@ double distance_to_box(const Vector &p, const Vector &half) { return (p.cwiseAbs
 
 TEST_CASE("a ball through a trigger: begin and end in their steps, on the same path to the bit", "[physics][trigger]")
 {
-  const std::string broadphase = GENERATE("grid", "sap", "brute-force");
+  const Broadphase broadphase = GENERATE(Broadphase::grid, Broadphase::sap, Broadphase::brute_force);
   Scene scene = empty_scene();
   Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.2f), {-2, 3, 0.1});
   ball.linear_velocity = {4, 0, 0.1f};
@@ -189,7 +189,7 @@ TEST_CASE("a trigger that falls is reported by what it falls through, and rests 
 
 TEST_CASE("batches are proven with triggers among them", "[physics][trigger]")
 {
-  for (const std::string &batching : batching_names()) {
+  for (const Batching batching : choices<Batching>()) {
     Scene scene = empty_scene();
     add_ground(scene);
     for (int i = 0; i < 30; ++i) {

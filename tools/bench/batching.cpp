@@ -49,7 +49,7 @@ public:
     prepare_kernels();
   }
 
-  BatchTable run(const Batcher &batcher, bool keep)
+  BatchTable run(const BatcherRow &batcher, bool keep)
   {
     std::vector<double> times;
     for (int k = 0; k < repetitions; ++k) times.push_back(batch(batcher, keep));
@@ -83,7 +83,7 @@ private:
   }
 
   /* The rounds are those of the last time, as in a run that has settled; too few are not timed. */
-  double batch(const Batcher &batcher, bool keep)
+  double batch(const BatcherRow &batcher, bool keep)
   {
     using Clock = std::chrono::steady_clock;
     for (;;) {
@@ -143,7 +143,7 @@ BatchScene batch_scene(const std::string &text, const std::string &backend, bool
   result.pairs = counts[COUNT_PAIRS];
   result.constraints = counts[COUNT_CONSTRAINTS];
   Bench bench(world, world.backend_of(Kernel::match_pairs));
-  for (const Batcher &batcher : batchers()) {
+  for (const BatcherRow &batcher : batchers()) {
     result.tables.push_back(bench.run(batcher, false));
     if (batcher.keeps_colors) result.tables.push_back(bench.run(batcher, true));
   }

@@ -252,7 +252,7 @@ Command bench_command(CLI::App &parser)
       ->type_name("KIND,...");
   command->add_option("--broadphase", options->broadphases, "broadphase: these alone, as grid,bvh")
       ->delimiter(',')
-      ->check(CLI::IsMember(broadphase_names()))
+      ->check(CLI::IsMember(choice_names<Broadphase>()))
       ->type_name("NAME,...");
   command->add_option("--scene", options->scenes, "broadphase: these inputs alone, as spheres,pile")
       ->delimiter(',')

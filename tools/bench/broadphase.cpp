@@ -93,7 +93,7 @@ std::vector<BroadphaseRun> run_all(const BroadphaseRequest &request, const Broad
 {
   std::vector<BroadphaseRun> runs;
   uint64_t wanted = 0, done = 0;
-  for (const Broadphase &broadphase : request.broadphases) {
+  for (const BroadphaseRow &broadphase : request.broadphases) {
     runs.push_back({broadphase.name, bodies, reason_to_skip(smaller, broadphase.name, bodies), {}, {}, {}, {}});
     if (runs.back().skipped.empty()) wanted += warm_frames + timed_frames;
   }
@@ -193,7 +193,7 @@ BroadphaseRequest broadphase_request(const std::vector<std::string> &names, cons
     return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
   };
   for (const std::string &scene : scenes) broadphase_input_named(scene);
-  for (const Broadphase &broadphase : broadphases())
+  for (const BroadphaseRow &broadphase : broadphases())
     if (wanted(names, broadphase.name)) request.broadphases.push_back(broadphase);
   for (const BroadphaseInput &input : broadphase_inputs())
     if (wanted(scenes, input.name)) request.inputs.push_back(&input);

@@ -38,7 +38,7 @@ struct BroadphaseScene {
 struct BroadphaseRequest {
   std::string backend;
   std::vector<uint32_t> bodies; /* ascending */
-  std::vector<Broadphase> broadphases;
+  std::vector<BroadphaseRow> broadphases;
   std::vector<const BroadphaseInput *> inputs;
   bool allow_inexact = false;
 };

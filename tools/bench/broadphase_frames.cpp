@@ -27,12 +27,12 @@ void prepare(StepLaunches &step)
 
 } // namespace
 
-BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend,
+BroadphaseFrames::BroadphaseFrames(const MovingBodies &bodies, const BroadphaseRow &broadphase, Backend &backend,
                                    uint32_t pairs)
     : bodies_(bodies), broadphase_(broadphase), backend_(backend)
 {
   const minicl::ExactFloatingPoint environment;
-  settings_.broadphase = broadphase.name;
+  settings_.broadphase = broadphase.choice;
   plan_.features = bodies.special.features;
   plan_.bodies = static_cast<uint32_t>(bodies.scene.bodies.size());
   plan_.capacity_cells = cells_for(plan_.bodies);

@@ -19,7 +19,7 @@ namespace tandem {
 class BroadphaseFrames {
 public:
   /* All three must outlive this. `pairs`: room for so many to start with; 0: as much as a world begins with. */
-  BroadphaseFrames(const MovingBodies &bodies, const Broadphase &broadphase, Backend &backend, uint32_t pairs = 0);
+  BroadphaseFrames(const MovingBodies &bodies, const BroadphaseRow &broadphase, Backend &backend, uint32_t pairs = 0);
   ~BroadphaseFrames() { backend_.finish(); }
 
   /* Milliseconds, the clock read with the backend finished. A frame that finds more pairs than there is room for runs
@@ -41,7 +41,7 @@ private:
   void grow(uint32_t needed);
 
   const MovingBodies &bodies_;
-  const Broadphase &broadphase_;
+  const BroadphaseRow &broadphase_;
   Backend &backend_;
   Settings settings_;
   StepPlan plan_;

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "host/catalog/builders.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/pipeline/step_launches.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "tools/command/parallel.h"
@@ -81,7 +82,7 @@ struct PairKind {
  * hulls. */
 std::vector<PairKind> kinds()
 {
-  const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = narrowphase_names();
+  const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = choice_names<Narrowphase>();
   std::vector<std::string> hulls = all;
   hulls.insert(hulls.end(), {"sat, hill-climbing", "sat, cube-map"});
   return {{"sphere-sphere", ball, ball, Kernel::collide_sphere_sphere, own},
@@ -281,15 +282,15 @@ private:
   {
     Settings settings;
     settings.step = 1e-6f;
-    if (!method.empty()) settings.narrowphase = method.substr(0, method.find(','));
-    settings.support = method.ends_with(", hill-climbing") ? "hill-climbing"
-                       : method.ends_with(", cube-map")    ? "cube-map"
-                                                           : "brute-force";
+    if (!method.empty()) settings.narrowphase = parse_setting<Narrowphase>(method.substr(0, method.find(',')));
+    settings.support = method.ends_with(", hill-climbing") ? Support::hill_climbing
+                       : method.ends_with(", cube-map")    ? Support::cube_map
+                                                           : Support::brute_force;
     return settings;
   }
   std::vector<Kernel> kernels_of(const PairKind &kind) const
   {
-    if (settings_.narrowphase != "sat-split") return {kind.kernel};
+    if (settings_.narrowphase != Narrowphase::sat_split) return {kind.kernel};
     return {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts};
   }
 

@@ -97,7 +97,7 @@ std::vector<RayTime> bench_rays(const std::string &backend, uint32_t boxes, uint
   const double side = std::cbrt(10.0 * boxes);
   const std::vector<Ray> asked = rays_through_a_cube(rays, side);
   std::vector<RayTime> times;
-  for (const auto &[structure, broadphase] : {std::pair{"hierarchy", "bvh"}, {"grid", "grid"}}) {
+  for (const auto &[structure, broadphase] : {std::pair{"hierarchy", Broadphase::bvh}, {"grid", Broadphase::grid}}) {
     Settings settings;
     settings.broadphase = broadphase;
     World world(boxes_in_a_cube(boxes, side), settings, {backend, {}, allow_inexact});

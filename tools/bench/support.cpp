@@ -56,7 +56,7 @@ private:
   static Settings settings_of(uint32_t cells)
   {
     Settings settings;
-    settings.support = "hill-climbing";
+    settings.support = Support::hill_climbing;
     settings.support_cells = cells;
     return settings;
   }

@@ -41,7 +41,7 @@ struct Request {
   std::vector<std::string> broadphases;
 };
 
-struct Bounds {
+struct BodyBounds {
   row lower, upper;
 };
 
@@ -49,7 +49,7 @@ btVector3 vector_of(const row &r) { return {r.x, r.y, r.z}; }
 
 class BulletFrames {
 public:
-  BulletFrames(const MovingBodies &moving, const std::vector<Bounds> &bounds)
+  BulletFrames(const MovingBodies &moving, const std::vector<BodyBounds> &bounds)
   {
     for (size_t k = 0; k < bounds.size(); ++k) {
       const Body &body = moving.scene.bodies[moving.special.order[k]];
@@ -67,7 +67,7 @@ public:
     for (btBroadphaseProxy *proxy : proxies_) broadphase_.destroyProxy(proxy, nullptr);
   }
 
-  double run(const std::vector<Bounds> &bounds)
+  double run(const std::vector<BodyBounds> &bounds)
   {
     const auto start = std::chrono::steady_clock::now();
     for (size_t k : moving_)
@@ -113,14 +113,14 @@ bool measure_input(const BroadphaseInput &input, const Request &request, Backend
   const MovingBodies moving(input, request.bodies);
   std::vector<std::unique_ptr<BroadphaseFrames>> ours;
   for (const std::string &name : request.broadphases)
-    ours.push_back(std::make_unique<BroadphaseFrames>(moving, broadphase_named(name), backend));
+    ours.push_back(std::make_unique<BroadphaseFrames>(moving, row_of(parse_setting<Broadphase>(name)), backend));
   std::unique_ptr<BulletFrames> bullet;
   uint32_t missing = 0;
   Progress progress(fmt::format("{}, {} bodies", input.name, request.bodies), warm_frames + request.frames);
   for (uint32_t frame = 0; frame < warm_frames + request.frames; ++frame) {
     std::vector<double> times;
     for (const auto &frames : ours) times.push_back(frames->run(frame));
-    const auto bounds = ours.front()->memory().read<Bounds>(Buffer::bounds, request.bodies);
+    const auto bounds = ours.front()->memory().read<BodyBounds>(Buffer::bounds, request.bodies);
     if (!bullet) bullet = std::make_unique<BulletFrames>(moving, bounds);
     times.push_back(bullet->run(bounds));
     missing += missing_pairs(*ours.front(), *bullet);
@@ -180,7 +180,7 @@ int parse_and_compare(int count, char **arguments)
       ->capture_default_str();
   parser.add_option("--broadphase", options.broadphases, "which of ours")
       ->delimiter(',')
-      ->check(CLI::IsMember(broadphase_names()))
+      ->check(CLI::IsMember(choice_names<Broadphase>()))
       ->type_name("NAME,...")
       ->capture_default_str();
   try {

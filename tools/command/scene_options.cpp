@@ -47,14 +47,14 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
 {
   const Settings defaults;
   step_ = "1/60";
-  solver_ = defaults.solver;
-  broadphase_ = defaults.broadphase;
-  bounds_ = defaults.bounds;
-  midphase_ = defaults.midphase;
-  narrowphase_ = defaults.narrowphase;
-  support_ = defaults.support;
+  solver_ = name_of(defaults.solver);
+  broadphase_ = name_of(defaults.broadphase);
+  bounds_ = name_of(defaults.bounds);
+  midphase_ = name_of(defaults.midphase);
+  narrowphase_ = name_of(defaults.narrowphase);
+  support_ = name_of(defaults.support);
   support_cells_ = fmt::format("{}", defaults.support_cells);
-  batching_ = defaults.batching;
+  batching_ = name_of(defaults.batching);
   max_pairs_ = fmt::format("{}", defaults.max_pairs);
   const auto option = [&](const char *name, std::string &value, const std::string &what, const char *type) {
     parser.add_option(name, value, what)->type_name(type)->capture_default_str();
@@ -66,15 +66,17 @@ SceneOptions::SceneOptions(CLI::App &parser, bool one_backend)
   option("--dt", step_, "time step in seconds, or a fraction 1/N", "S");
   option("--substeps", substeps_, "substeps of a step; what the solver wants if not given", "N");
   option("--iterations", iterations_, "solver passes of a substep; what the solver wants if not given", "N");
-  option("--solver", solver_, one_of("solver", solver_names()), "NAME");
+  option("--solver", solver_, one_of("solver", choice_names<Solver>()), "NAME");
   option("--broadphase", broadphase_,
-         one_of("broadphase", broadphase_names()) + "; auto: as the scene suggests (`tandem plan` says why)", "NAME");
-  option("--bounds", bounds_, one_of("bounds", bounds_names()), "NAME");
-  option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", midphase_names()), "NAME");
-  option("--narrowphase", narrowphase_, one_of("narrowphase", narrowphase_names()), "NAME");
-  option("--support", support_, one_of("support of hulls", support_names()), "NAME");
+         one_of("broadphase", choice_names<Broadphase>()) + "; auto: as the scene suggests (`tandem plan` says why)",
+         "NAME");
+  option("--bounds", bounds_, one_of("bounds", choice_names<Bounds>()), "NAME");
+  option("--midphase", midphase_, one_of("walk of the trees of meshes and compounds", choice_names<Midphase>()),
+         "NAME");
+  option("--narrowphase", narrowphase_, one_of("narrowphase", choice_names<Narrowphase>()), "NAME");
+  option("--support", support_, one_of("support of hulls", choice_names<Support>()), "NAME");
   option("--support-cells", support_cells_, "cells along a side of the cube maps of hill-climbing and cube-map", "N");
-  option("--batching", batching_, one_of("batching", batching_names()), "NAME");
+  option("--batching", batching_, one_of("batching", choice_names<Batching>()), "NAME");
   option("--max-pairs", max_pairs_, "room for pairs never grows past so many: a step that needs more ends the run",
          "N");
   parser.add_flag("--check", check_,
@@ -94,19 +96,19 @@ void SceneOptions::add_events_flag(CLI::App &parser)
 
 Settings SceneOptions::settings() const
 {
-  Settings settings = settings_for(solver_);
+  Settings settings = settings_for(parse_setting<Solver>(solver_));
   if (step_.starts_with("1/")) settings.step = static_cast<float>(1.0 / real_number("--dt", step_.substr(2)));
   else settings.step = static_cast<float>(real_number("--dt", step_));
   if (!substeps_.empty()) settings.substeps = static_cast<uint32_t>(whole_number("--substeps", substeps_, 1, 1000));
   if (!iterations_.empty())
     settings.iterations = static_cast<uint32_t>(whole_number("--iterations", iterations_, 1, 1000));
-  settings.broadphase = broadphase_;
-  settings.bounds = bounds_;
-  settings.midphase = midphase_;
-  settings.narrowphase = narrowphase_;
-  settings.support = support_;
+  settings.broadphase = parse_setting<Broadphase>(broadphase_);
+  settings.bounds = parse_setting<Bounds>(bounds_);
+  settings.midphase = parse_setting<Midphase>(midphase_);
+  settings.narrowphase = parse_setting<Narrowphase>(narrowphase_);
+  settings.support = parse_setting<Support>(support_);
   settings.support_cells = static_cast<uint32_t>(whole_number("--support-cells", support_cells_, 1, 256));
-  settings.batching = batching_;
+  settings.batching = parse_setting<Batching>(batching_);
   settings.max_pairs = static_cast<uint32_t>(whole_number("--max-pairs", max_pairs_, 1, most_pairs));
   settings.check = check_;
   settings.events = events_;
@@ -149,14 +151,14 @@ std::string SceneOptions::typed_again(const std::string &broadphase) const
   add("--dt", step_, "1/60");
   add("--substeps", substeps_, "");
   add("--iterations", iterations_, "");
-  add("--solver", solver_, defaults.solver);
-  add("--broadphase", broadphase, defaults.broadphase);
-  add("--bounds", bounds_, defaults.bounds);
-  add("--midphase", midphase_, defaults.midphase);
-  add("--narrowphase", narrowphase_, defaults.narrowphase);
-  add("--support", support_, defaults.support);
+  add("--solver", solver_, name_of(defaults.solver));
+  add("--broadphase", broadphase, name_of(defaults.broadphase));
+  add("--bounds", bounds_, name_of(defaults.bounds));
+  add("--midphase", midphase_, name_of(defaults.midphase));
+  add("--narrowphase", narrowphase_, name_of(defaults.narrowphase));
+  add("--support", support_, name_of(defaults.support));
   add("--support-cells", support_cells_, fmt::format("{}", defaults.support_cells));
-  add("--batching", batching_, defaults.batching);
+  add("--batching", batching_, name_of(defaults.batching));
   add("--max-pairs", max_pairs_, fmt::format("{}", defaults.max_pairs));
   if (outside_files_) text += " --allow-outside-files";
   if (check_) text += " --check";

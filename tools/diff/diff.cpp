@@ -139,14 +139,14 @@ Json comparison_json(const Comparison &comparison, const ComparisonRequest &requ
   const auto &difference = comparison.first_difference;
   return {{"equal", comparison.equal},
           {"backends", request.backends},
-          {"broadphase", comparison.broadphase},
+          {"broadphase", name_of(comparison.broadphase)},
           {"broadphase_why", comparison.broadphase_why},
           {"steps", comparison.steps},
           {"kernels_compared", comparison.kernels_compared},
           {"bytes_compared", comparison.bytes_compared},
           {"quarantined", comparison.quarantined.size()},
           {"first_difference",
-           difference ? difference_json(*difference, scene, options, comparison.broadphase) : Json(nullptr)}};
+           difference ? difference_json(*difference, scene, options, name_of(comparison.broadphase)) : Json(nullptr)}};
 }
 
 std::string bodies_text(const Difference &difference, const Scene &scene)
@@ -219,10 +219,10 @@ int execute(const DiffOptions &options)
     throw InputError(
         fmt::format("--plant {}: nothing was planted in {} steps: {}", options.plant, comparison.steps, not_planted));
   if (!options.json.takes_standard_output()) {
-    if (request.settings.broadphase == "auto")
-      fmt::print("Broadphase on all of them: {} ({})\n", comparison.broadphase, comparison.broadphase_why);
+    if (request.settings.broadphase == Broadphase::automatic)
+      fmt::print("Broadphase on all of them: {} ({})\n", name_of(comparison.broadphase), comparison.broadphase_why);
     if (comparison.equal) fmt::print("EQUAL");
-    else print_difference(*comparison.first_difference, scene, options.scene, comparison.broadphase);
+    else print_difference(*comparison.first_difference, scene, options.scene, name_of(comparison.broadphase));
     fmt::print("{}{}: {} steps, {} kernels and {} compared bit for bit\n", comparison.equal ? ": " : "\n",
                fmt::join(request.backends, ", "), comparison.steps, comparison.kernels_compared,
                bytes_text(comparison.bytes_compared));

@@ -42,15 +42,16 @@ struct Plan {
   {
     for (const Kernel kernel : chosen.kernels()) built[index_of(kernel)] = true;
   }
-  bool has(size_t feature) const { return (chosen.features() >> feature & 1) != 0; }
-  std::string flags() const { return fmt::format("-D FEATURES={}u", chosen.features()); }
+  bool has(int feature) const { return (chosen.features() & feature_of_index(feature)) != 0; }
+  std::string flags() const { return fmt::format("-D FEATURES={:#x}ul", chosen.features()); }
   /* The broadphase, and why it was chosen where that was left to us. */
-  std::string broadphase_text(const std::string &wanted, const std::string &on) const
+  std::string broadphase_text(Broadphase wanted, const std::string &on) const
   {
-    const std::string &name = chosen.settings().broadphase;
-    const std::string why =
-        wanted == "auto" ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why) : "";
-    return fmt::format("{} ({}){}", name, broadphase_named(name).what, why);
+    const std::string why = wanted == Broadphase::automatic
+                                ? fmt::format(", chosen for {}", choose_broadphase(chosen.scene(), on).why)
+                                : "";
+    const BroadphaseRow &row = row_of(chosen.settings().broadphase);
+    return fmt::format("{} ({}){}", row.name, row.what, why);
   }
   std::string backend_of(Kernel kernel) const
   {
@@ -61,7 +62,7 @@ struct Plan {
 Json features_json(const Plan &plan)
 {
   Json list = Json::array();
-  for (size_t f = 0; f < FEATURE_COUNT; ++f)
+  for (int f = 0; f < FEATURE_COUNT; ++f)
     list.push_back({{"name", feature_rows[f].name}, {"what", feature_rows[f].what}, {"in", plan.has(f)}});
   return list;
 }
@@ -92,26 +93,26 @@ Json buffers_json(const Plan &plan)
   return list;
 }
 
-Json plan_json(const Plan &plan, const std::string &scene, const std::string &broadphase, const Placement &placement)
+Json plan_json(const Plan &plan, const std::string &scene, Broadphase broadphase, const Placement &placement)
 {
-  return {
-      {"scene", scene},
-      {"backend", placement.on},
-      {"features", features_json(plan)},
-      {"flags", plan.flags()},
-      {"broadphase", plan.chosen.settings().broadphase},
-      {"broadphase_why", broadphase == "auto" ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
-      {"kernels", kernels_json(plan)},
-      {"kernels_built", plan.chosen.kernels().size()},
-      {"buffers", buffers_json(plan)},
-      {"memory_bytes", plan.chosen.memory().total_bytes()},
-      {"build_ms", plan.chosen.build_milliseconds()}};
+  return {{"scene", scene},
+          {"backend", placement.on},
+          {"features", features_json(plan)},
+          {"flags", plan.flags()},
+          {"broadphase", name_of(plan.chosen.settings().broadphase)},
+          {"broadphase_why",
+           broadphase == Broadphase::automatic ? choose_broadphase(plan.chosen.scene(), placement.on).why : "as asked"},
+          {"kernels", kernels_json(plan)},
+          {"kernels_built", plan.chosen.kernels().size()},
+          {"buffers", buffers_json(plan)},
+          {"memory_bytes", plan.chosen.memory().total_bytes()},
+          {"build_ms", plan.chosen.build_milliseconds()}};
 }
 
 void print_features(const Plan &plan)
 {
   Table table({"feature", "", "what brings it in"}, false);
-  for (size_t f = 0; f < FEATURE_COUNT; ++f)
+  for (int f = 0; f < FEATURE_COUNT; ++f)
     table.add({feature_rows[f].name, plan.has(f) ? "in" : "out", feature_rows[f].what});
   fmt::print("{}\nflags: {}\n\n", table.text("  "), plan.flags());
 }
@@ -156,7 +157,7 @@ void print_buffers(const Plan &plan)
   fmt::print("\n{}\n{}\n", kept.text("  "), out.text("  "));
 }
 
-void print_plan(const Plan &plan, const std::string &scene, const std::string &broadphase, const std::string &on)
+void print_plan(const Plan &plan, const std::string &scene, Broadphase broadphase, const std::string &on)
 {
   fmt::print("{}: {} bodies\n\n", scene, plan.chosen.scene().bodies.size());
   print_features(plan);
@@ -171,7 +172,7 @@ void print_plan(const Plan &plan, const std::string &scene, const std::string &b
 int execute(const PlanOptions &options)
 {
   Settings settings = options.scene.settings();
-  const std::string broadphase = settings.broadphase;
+  const Broadphase broadphase = settings.broadphase;
   const Placement placement = options.scene.placement();
   DistinctFiles files;
   options.json.check(files);

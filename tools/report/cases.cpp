@@ -55,7 +55,7 @@ uint32_t &knob_of(Settings &settings, bool substeps) { return substeps ? setting
 /* A solver's own amount of work, as it asks for, times `factor` on its knob. */
 Settings with_work(const std::string &solver, double factor, float step = base_step)
 {
-  Settings settings = settings_for(solver);
+  Settings settings = settings_for(parse_setting<Solver>(solver));
   settings.step = step;
   uint32_t &knob = knob_of(settings, settings.substeps > 1);
   knob = std::clamp<uint32_t>(static_cast<uint32_t>(std::lround(knob * factor)), 1, 1000);
@@ -65,7 +65,7 @@ Settings with_work(const std::string &solver, double factor, float step = base_s
 /* Some of its own work moved to the other knob: several passes a substep, or several substeps of fewer passes. */
 Settings with_other_knob(const std::string &solver, uint32_t count)
 {
-  Settings settings = settings_for(solver);
+  Settings settings = settings_for(parse_setting<Solver>(solver));
   const bool by_substeps = settings.substeps > 1;
   uint32_t &own = knob_of(settings, by_substeps), &other = knob_of(settings, !by_substeps);
   other = count;

@@ -33,7 +33,7 @@ double step_time(const Scene &scene, const Settings &settings, const std::string
 
 Scene at_half_time(Scene scene, double duration, const std::string &backend)
 {
-  World world(scene, settings_for(solver_names().front()), Placement{backend, {}, false});
+  World world(scene, Settings{}, Placement{backend, {}, false});
   for (size_t step = 0; step < frames_in(duration); ++step) world.step(); /* of half a frame each */
   const std::vector<BodyState> states = world.bodies();
   if (world.statistics().nonfinite > 0) return scene;
@@ -52,7 +52,8 @@ double SceneEstimate::run_seconds(size_t backend, const Settings &settings, doub
 {
   const Settings own = settings_for(settings.solver);
   const double passes = double(settings.substeps) * settings.iterations / (double(own.substeps) * own.iterations);
-  const auto solver = static_cast<size_t>(std::find(solvers.begin(), solvers.end(), settings.solver) - solvers.begin());
+  const auto solver =
+      static_cast<size_t>(std::find(solvers.begin(), solvers.end(), name_of(settings.solver)) - solvers.begin());
   const double steps = duration / double{settings.step},
                beside_passes = 0.3; /* share of a step that does not grow with them */
   return 1e-3 * steps * step_milliseconds[backend][solver] * (beside_passes + (1 - beside_passes) * passes);
@@ -74,7 +75,8 @@ SceneEstimate estimate_scene(const Scene &scene, double duration, uint32_t refin
   for (const std::string &backend : backends) {
     estimate.step_milliseconds.emplace_back();
     for (const std::string &solver : solvers)
-      estimate.step_milliseconds.back().push_back(step_time(middle, settings_for(solver), backend));
+      estimate.step_milliseconds.back().push_back(
+          step_time(middle, settings_for(parse_setting<Solver>(solver)), backend));
   }
   if (refinement == 0) return estimate;
   const double steps = 2.0 * refinement * static_cast<double>(frames_in(duration));

@@ -159,7 +159,7 @@ void observe(Run &run, const Scene &scene, double duration, const Truth &truth)
 Run empty_run(const Settings &settings, const std::string &backend)
 {
   Run run;
-  run.solver = settings.solver;
+  run.solver = name_of(settings.solver);
   run.backend = backend;
   run.settings = settings;
   run.errors.fill(undefined);

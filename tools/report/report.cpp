@@ -49,7 +49,7 @@ void add_options(CLI::App &parser, ReportOptions &options)
       ->required();
   parser.add_flag("--quick", options.quick, "small scenes and few settings: under two minutes on two cores");
   parser.add_option("--scenes", options.scenes, "some of: " + case_names())->type_name("NAME,NAME,...");
-  parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(solver_names(), ", ")))
+  parser.add_option("--solvers", options.solvers, fmt::format("some of: {}", fmt::join(choice_names<Solver>(), ", ")))
       ->type_name("NAME,NAME,...");
   parser.add_option("--on", options.on, "every scene on each of these; contact problems on the first")
       ->type_name("B,B,...")
@@ -81,7 +81,7 @@ std::vector<std::string> list_of(const std::string &option, const std::string &t
 
 std::vector<std::string> solvers_of(const std::string &text)
 {
-  const std::vector<std::string> known = solver_names();
+  const std::vector<std::string> known = choice_names<Solver>();
   if (text.empty()) return known;
   const std::vector<std::string> wanted = list_of("--solvers", text);
   for (const std::string &solver : wanted)

@@ -279,7 +279,7 @@ std::vector<std::string> left_out_of(const ReportRequest &request)
   for (const ReportCase &known : report_cases())
     if (std::find(request.cases.begin(), request.cases.end(), &known) == request.cases.end())
       names.push_back(known.name);
-  for (const std::string &solver : solver_names())
+  for (const std::string &solver : choice_names<Solver>())
     if (std::find(request.solvers.begin(), request.solvers.end(), solver) == request.solvers.end())
       names.push_back(solver);
   if (!request.with_problems) names.push_back("contact problems");

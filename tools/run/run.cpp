@@ -130,7 +130,7 @@ Json outcome_json(const Outcome &outcome, World &world, const Placement &placeme
   const Statistics &statistics = outcome.statistics;
   return {{"scene", outcome.scene},
           {"backend", placement.on},
-          {"solver", world.settings().solver},
+          {"solver", name_of(world.settings().solver)},
           {"bodies", world.scene().bodies.size()},
           {"steps", outcome.steps},
           {"dt", world.settings().step},
@@ -176,7 +176,7 @@ std::string facts_table(const Outcome &outcome, World &world)
   Table table({"pairs", fmt::format("{}", statistics.pairs)}, false);
   table.add({"contacts", fmt::format("{} points in {} pairs", statistics.contacts, statistics.manifolds)});
   table.add({"colours", fmt::format("{}", statistics.colors)});
-  if (world.settings().solver == "direct")
+  if (world.settings().solver == Solver::direct)
     table.add({"islands", fmt::format("{} solved directly ({} solves stalled), {} pairs in larger ones",
                                       statistics.direct_islands, statistics.direct_stalled, statistics.direct_left)});
   table.add({"penetration", fmt::format("{:.3g} mm at most, {:.3g} mm on average", statistics.max_penetration * 1e3,

@@ -70,7 +70,7 @@ std::vector<const Case *> chosen_cases(const StabilityOptions &options)
 
 std::vector<std::string> chosen_solvers(const StabilityOptions &options)
 {
-  const std::vector<std::string> known = solver_names();
+  const std::vector<std::string> known = choice_names<Solver>();
   if (options.solvers.empty()) return known;
   const std::vector<std::string> wanted = split(options.solvers);
   for (const std::string &name : wanted)

@@ -133,9 +133,9 @@ std::string reported_name(const Case &which, Length length)
 
 Settings settings_of(const Trial &trial, const std::string &solver)
 {
-  const Settings own = settings_for(solver);
+  const Settings own = settings_for(parse_setting<Solver>(solver));
   Settings settings = trial.settings;
-  settings.solver = solver;
+  settings.solver = own.solver;
   if (trial.own_passes) return settings;
   settings.substeps = own.substeps;
   settings.iterations = own.iterations;
@@ -175,9 +175,9 @@ namespace {
 std::optional<Trial> documented_trial(const Case &which, Length length, const std::string &solver)
 {
   Trial trial = which.build(length);
-  if (!trial.documented_solver.empty() && solver == solver_names().front()) return trial;
+  if (!trial.documented_solver.empty() && solver == name_of(Settings{}.solver)) return trial;
   if (!trial.documented) return std::nullopt;
-  const Settings own = settings_for(solver);
+  const Settings own = settings_for(parse_setting<Solver>(solver));
   trial.settings = *trial.documented;
   trial.settings.substeps = std::max(trial.settings.substeps, own.substeps);
   trial.settings.iterations = std::max(trial.settings.iterations, own.iterations);

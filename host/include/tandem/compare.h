@@ -78,7 +78,7 @@ struct Difference {
 
 struct Comparison {
   bool equal = true;
-  std::string broadphase;     /* on every backend; `auto` is decided once, for the first */
+  Broadphase broadphase{};    /* on every backend; automatic is decided once, for the first */
   std::string broadphase_why; /* the statistics of the scene that led there, in one line */
   uint64_t steps = 0;         /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;

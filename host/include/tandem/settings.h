@@ -1,8 +1,10 @@
 /* settings.h - how a scene is simulated: time step, algorithms, tolerances. */
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <tandem/export.h>
@@ -13,20 +15,55 @@ namespace tandem {
 /* Kernels number rows of pairs with 32 bits, in up to 16 planes. */
 constexpr uint32_t most_pairs = 1u << 28;
 
-/* Every choice that changes the result. Names are those of the command's options. */
+/* The choices of a setting, default first. Each has the name that the command gives it, with - for _. */
+enum class TANDEM_API Solver : uint8_t { soft_step, pgs, nncg, xpbd, avbd, jacobi, direct };
+enum class TANDEM_API Broadphase : uint8_t {
+  grid,
+  grid_bitonic,
+  grid_14,
+  brute_force,
+  sap,
+  sap_pca,
+  sap_plain,
+  sap3,
+  hybrid,
+  bvh,
+  bvh_stack,
+  bvh_history,
+  trees,
+  automatic /* "auto": as the scene suggests */
+};
+enum class TANDEM_API Bounds : uint8_t { affine, tight };
+enum class TANDEM_API Midphase : uint8_t { walk, subtrees };
+enum class TANDEM_API Narrowphase : uint8_t { sat, gjk_epa, gjk_sampled, sat_split, cube_map };
+enum class TANDEM_API Support : uint8_t { brute_force, hill_climbing, cube_map };
+enum class TANDEM_API Batching : uint8_t { coloring, sequential, single_group, iterative, two_stage };
+
+template <class T>
+concept Choice = std::same_as<T, Solver> || std::same_as<T, Broadphase> || std::same_as<T, Bounds> ||
+    std::same_as<T, Midphase> || std::same_as<T, Narrowphase> || std::same_as<T, Support> || std::same_as<T, Batching>;
+
+/* "soft-step". InputError if it is none of the enum's values. */
+template <Choice T> TANDEM_API const char *name_of(T choice);
+/* The choice of this name. InputError lists those that there are. */
+template <Choice T> TANDEM_API T parse_setting(const std::string &name);
+/* Default first; of broadphases without automatic. */
+template <Choice T> TANDEM_API std::vector<T> choices();
+template <Choice T> TANDEM_API std::vector<std::string> choice_names();
+
+/* Every choice that changes the result. */
 struct Settings {
   float step = 1.0f / 60.0f; /* s, > 0 */
   uint32_t substeps = 4;     /* 1 .. 1000 */
   uint32_t iterations = 1;   /* solver passes a substep, 1 .. 1000 */
-  std::string solver = "soft-step";
-  std::string broadphase =
-      "grid"; /* which of host/pipeline/broadphases/, or auto: as the scene suggests; changes no bit */
-  std::string bounds = "affine";       /* tight: from the support map; other pairs, so other bits */
-  std::string midphase = "walk";       /* how the trees of meshes and compounds are walked; the same list either way */
-  std::string narrowphase = "sat";     /* of shapes without a test of their own */
-  std::string support = "brute-force"; /* how hulls find their farthest vertex; cube-map alone is not exact */
-  uint32_t support_cells = 16;         /* along a side of the cube maps, 1 .. 256 */
-  std::string batching = "coloring";   /* coloring, sequential, single-group, iterative, two-stage */
+  Solver solver = Solver::soft_step;
+  Broadphase broadphase = Broadphase::grid; /* which of host/pipeline/broadphases/; changes no bit */
+  Bounds bounds = Bounds::affine;           /* tight: from the support map; other pairs, so other bits */
+  Midphase midphase = Midphase::walk; /* how the trees of meshes and compounds are walked; the same list either way */
+  Narrowphase narrowphase = Narrowphase::sat; /* of shapes without a test of their own */
+  Support support = Support::brute_force;     /* how hulls find their farthest vertex; cube_map alone is not exact */
+  uint32_t support_cells = 16;                /* along a side of the cube maps, 1 .. 256 */
+  Batching batching = Batching::coloring;
   bool check = false;  /* prove the batches of every step (shared/batching/check.h); changes no result */
   bool events = false; /* list which pairs begin, go on and cease to touch (World::contact_events); changes no motion */
   bool pair_events =
@@ -45,22 +82,10 @@ struct Settings {
   float restitution_speed = 1.0f;      /* m/s, slower impacts do not bounce */
 };
 
-/* The accepted names, default first; --help and error messages list them. */
-TANDEM_API std::vector<std::string> solver_names();
-TANDEM_API std::vector<std::string> broadphase_names(); /* without auto */
-TANDEM_API std::vector<std::string> bounds_names();
-TANDEM_API std::vector<std::string> midphase_names();
-TANDEM_API std::vector<std::string> narrowphase_names();
-TANDEM_API std::vector<std::string> support_names();
-/* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */
-TANDEM_API uint32_t narrowphase_method(const Settings &settings);
-TANDEM_API uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
-TANDEM_API std::vector<std::string> batching_names();
+/* The defaults with the substeps and iterations that this solver wants. */
+TANDEM_API Settings settings_for(Solver solver);
 
-/* The defaults with the substeps and iterations that this solver wants. InputError lists the names. */
-TANDEM_API Settings settings_for(const std::string &solver);
-
-/* InputError if a number is out of range or a name unknown. */
+/* InputError if a number is out of range or a choice none of its enum's values. */
 TANDEM_API void validate(const Settings &settings);
 
 /* Which backend runs what: one for all, and exceptions by stage ("narrowphase") or kernel name. */

@@ -20,6 +20,7 @@
 
 #include <tandem/events.h>
 #include <tandem/export.h>
+#include <tandem/features.h>
 #include <tandem/queries.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
@@ -149,7 +150,7 @@ public:
   std::vector<KernelTime> take_kernel_times();
 
   /* The mask of FEATURE_ bits in use, and the kernels, buffers and backends that follow from it. */
-  uint32_t features() const;
+  Features features() const;
   std::vector<Kernel> kernels() const;
   Memory &memory();
   Backend &backend_of(Kernel kernel);

@@ -2,30 +2,26 @@
 #include "host/pipeline/batching/batcher.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <stdexcept>
+
+#include "host/pipeline/setting_rows.h"
 
 namespace tandem {
 
-std::span<const Batcher> batchers()
+std::span<const BatcherRow> batchers()
 {
-  static constexpr std::array<Batcher, 5> rows{{
-      {"coloring", true, batch_by_coloring},
-      {"sequential", false, batch_in_sequence},
-      {"single-group", false, batch_in_single_group},
-      {"iterative", false, batch_by_iteration},
-      {"two-stage", false, batch_in_two_stages},
-  }};
+  static constexpr BatcherRow rows[] = {
+      {Batching::coloring, "coloring", true, batch_by_coloring},
+      {Batching::sequential, "sequential", false, batch_in_sequence},
+      {Batching::single_group, "single-group", false, batch_in_single_group},
+      {Batching::iterative, "iterative", false, batch_by_iteration},
+      {Batching::two_stage, "two-stage", false, batch_in_two_stages},
+  };
+  static_assert(are_in_order(rows));
   return rows;
 }
 
-const Batcher &batcher_named(const std::string &name)
-{
-  for (const Batcher &batcher : batchers())
-    if (name == batcher.name) return batcher;
-  throw std::logic_error("no batcher '" + name + "'");
-}
+const BatcherRow &row_of(Batching batching) { return row_in(batchers(), batching); }
 
 void launch_check(StepLaunches &step)
 {

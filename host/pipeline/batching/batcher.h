@@ -9,13 +9,13 @@
 
 #include <cstdint>
 #include <span>
-#include <string>
 
 #include "host/pipeline/step_launches.h"
 
 namespace tandem {
 
-struct Batcher {
+struct BatcherRow {
+  Batching choice;
   const char *name;
   /* Colours of the last step are kept. Only for a batcher that can add to colours it did not choose in this step; the
    * batches of the others follow from the contacts alone, so a step's batches do not hang on how it was reached. */
@@ -23,8 +23,8 @@ struct Batcher {
   void (*launch)(StepLaunches &step);
 };
 
-std::span<const Batcher> batchers();                   /* default first */
-const Batcher &batcher_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
+std::span<const BatcherRow> batchers(); /* in the order of the enum */
+const BatcherRow &row_of(Batching batching);
 
 /* Each in the file of its name. */
 void batch_by_coloring(StepLaunches &step);

@@ -1,49 +1,52 @@
 /* broadphase.cpp - the list of broadphases, and what they share; see broadphase.h. */
 #include "host/pipeline/broadphases/broadphase.h"
 
-#include <array>
 #include <bit>
-#include <stdexcept>
 
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/runtime/memory.h"
 
 namespace tandem {
 
-std::span<const Broadphase> broadphases()
+std::span<const BroadphaseRow> broadphase_rows()
 {
-  static constexpr std::array<Broadphase, 13> rows{{
-      {"grid", "uniform grid, 27 cells in nine rows of three", find_pairs_in_grid, QUERY_GRID},
-      {"grid-bitonic", "the same, its bodies sorted by a bitonic network instead of by digits",
-       find_pairs_in_bitonic_grid, QUERY_GRID},
-      {"grid-14", "the grid by symmetry: 14 cells, and pairs to be sorted", find_pairs_in_half_the_cells, QUERY_GRID},
-      {"brute-force", "every body against every one before it: the oracle", find_pairs_by_brute_force,
-       QUERY_EVERY_BODY},
-      {"sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory",
+  static constexpr BroadphaseRow rows[] = {
+      {Broadphase::grid, "grid", "uniform grid, 27 cells in nine rows of three", find_pairs_in_grid, QUERY_GRID},
+      {Broadphase::grid_bitonic, "grid-bitonic",
+       "the same, its bodies sorted by a bitonic network instead of by digits", find_pairs_in_bitonic_grid, QUERY_GRID},
+      {Broadphase::grid_14, "grid-14", "the grid by symmetry: 14 cells, and pairs to be sorted",
+       find_pairs_in_half_the_cells, QUERY_GRID},
+      {Broadphase::brute_force, "brute-force", "every body against every one before it: the oracle",
+       find_pairs_by_brute_force, QUERY_EVERY_BODY},
+      {Broadphase::sap, "sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory",
        find_pairs_by_sweep},
-      {"sap-pca", "the same along the principal direction", find_pairs_by_principal_sweep},
-      {"sap-plain", "the sweep before it was optimised, one work-item a body", find_pairs_by_plain_sweep},
-      {"sap3", "incremental sweep and prune along three axes: only ends that changed their places are looked at",
+      {Broadphase::sap_pca, "sap-pca", "the same along the principal direction", find_pairs_by_principal_sweep},
+      {Broadphase::sap_plain, "sap-plain", "the sweep before it was optimised, one work-item a body",
+       find_pairs_by_plain_sweep},
+      {Broadphase::sap3, "sap3",
+       "incremental sweep and prune along three axes: only ends that changed their places are looked at",
        find_pairs_incrementally},
-      {"hybrid", "small bodies in a grid, large ones in a hierarchy", find_pairs_in_hybrid},
-      {"bvh", "linear hierarchy of boxes, refitted until too many have left their places; walked by skip indices",
+      {Broadphase::hybrid, "hybrid", "small bodies in a grid, large ones in a hierarchy", find_pairs_in_hybrid},
+      {Broadphase::bvh, "bvh",
+       "linear hierarchy of boxes, refitted until too many have left their places; walked by skip indices",
        find_pairs_by_skipping},
-      {"bvh-stack", "the same, walked with a stack", find_pairs_by_stack},
-      {"bvh-history", "the same, walked by history flags, two bits a level", find_pairs_by_history},
-      {"trees",
+      {Broadphase::bvh_stack, "bvh-stack", "the same, walked with a stack", find_pairs_by_stack},
+      {Broadphase::bvh_history, "bvh-history", "the same, walked by history flags, two bits a level",
+       find_pairs_by_history},
+      {Broadphase::trees, "trees",
        "a moving and a standing tree of boxes with room to move in, and pairs that are kept until a body leaves its "
        "box",
        find_pairs_in_trees},
-  }};
+      {Broadphase::automatic, "auto", "as the scene suggests", nullptr},
+  };
+  static_assert(are_in_order(rows));
   return rows;
 }
 
-const Broadphase &broadphase_named(const std::string &name)
-{
-  for (const Broadphase &broadphase : broadphases())
-    if (name == broadphase.name) return broadphase;
-  throw std::logic_error("no broadphase '" + name + "'");
-}
+std::span<const BroadphaseRow> broadphases() { return broadphase_rows().first(broadphase_rows().size() - 1); }
+
+const BroadphaseRow &row_of(Broadphase broadphase) { return row_in(broadphase_rows(), broadphase); }
 
 void forget_kept(Memory &memory)
 {

@@ -7,14 +7,14 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "host/pipeline/step_launches.h"
 #include "shared/body_codes.h"
 
 namespace tandem {
 
-struct Broadphase {
+struct BroadphaseRow {
+  Broadphase choice;
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
@@ -22,9 +22,10 @@ struct Broadphase {
                                          QUERY_ of body_codes.h */
 };
 
-std::span<const Broadphase> broadphases(); /* default first */
-const Broadphase &
-broadphase_named(const std::string &name); /* std::logic_error if there is none: settings are validated */
+/* In the order of the enum; all but automatic, the last, launch kernels. */
+std::span<const BroadphaseRow> broadphase_rows();
+std::span<const BroadphaseRow> broadphases(); /* without automatic */
+const BroadphaseRow &row_of(Broadphase broadphase);
 
 /* What is kept from the last launch no longer holds. */
 void forget_kept(Memory &memory);

@@ -27,16 +27,18 @@ BroadphaseChoice choose_broadphase(const Scene &scene, const std::string &backen
 {
   const bool on_device = backend.starts_with("cl");
   const size_t bodies = scene.bodies.size(), few = on_device ? few_bodies_on_a_device : few_bodies;
-  if (bodies <= few) return {"brute-force", fmt::format("{} bodies; up to {} the fewest launches win", bodies, few)};
+  if (bodies <= few)
+    return {Broadphase::brute_force, fmt::format("{} bodies; up to {} the fewest launches win", bodies, few)};
   if (!on_device)
     return {
-        "trees",
+        Broadphase::trees,
         fmt::format("{} bodies on a CPU, where to look again only for those that left their boxes saves most", bodies)};
   const size_t large = large_bodies_of(scene);
   const std::string sizes =
       fmt::format("{} bodies, of which {} are more than {} times as large as the median", bodies, large, large_ratio);
-  if (large > most_large_bodies) return {"trees", fmt::format("{}; a grid takes {} of them", sizes, most_large_bodies)};
-  return {"grid", sizes};
+  if (large > most_large_bodies)
+    return {Broadphase::trees, fmt::format("{}; a grid takes {} of them", sizes, most_large_bodies)};
+  return {Broadphase::grid, sizes};
 }
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what `--broadphase auto` means, and
+/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what Broadphase::automatic means, and
  * why. The bits are those of every other choice. */
 #pragma once
 
@@ -6,12 +6,13 @@
 
 #include <tandem/export.h>
 #include <tandem/scene.h>
+#include <tandem/settings.h>
 
 namespace tandem {
 
 struct BroadphaseChoice {
-  std::string name; /* of broadphases() */
-  std::string why;  /* the statistics of the scene that led there, in one line */
+  Broadphase broadphase; /* not automatic */
+  std::string why;       /* the statistics of the scene that led there, in one line */
 };
 
 /* backend: as in --on. */

@@ -22,11 +22,11 @@ void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep
   warm_start_contacts(step, tail);
   for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration)
     launch_pass(step, tail, PASS_BIASED);
-  step.run(Kernel::solve_islands, {island_pass_biased});
+  step.run(Kernel::solve_islands, {PASS_BIASED});
   solve_rolling(step);
   step.run(Kernel::integrate_positions);
   launch_pass(step, tail, PASS_LAST);
-  step.run(Kernel::solve_islands, {island_pass_relaxing});
+  step.run(Kernel::solve_islands, {PASS_LAST});
   solve_rolling(step);
 }
 
@@ -38,7 +38,7 @@ void launch_direct(StepLaunches &step)
   tail.prepare();
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_direct_substep(step, tail, substep);
   apply_restitution(step, tail);
-  if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {island_pass_bouncing});
+  if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {PASS_BOUNCING});
 }
 
 } // namespace tandem

@@ -59,7 +59,8 @@ Parameters read_parameters(Memory &memory)
   const std::vector<double> reals =
       memory.read_reals(Buffer::parameters, offsetof(Parameters, features) / sizeof(double));
   std::memcpy(&parameters, reals.data(), reals.size() * sizeof(double));
-  parameters.features = memory.read<uint32_t>(Buffer::parameters, 1, reals.size()).at(0);
+  const size_t reals_bytes = reals.size() * sizeof(float);
+  parameters.features = memory.read<Features>(Buffer::parameters, 1, reals_bytes / sizeof(Features)).at(0);
   return parameters;
 }
 
@@ -81,7 +82,7 @@ struct Rows {
     if (bounces()) bounce = read_planes(memory, Buffer::constraint_bounce, 2, count, stride);
   }
 
-  bool bounces() const { return (parameters.features & FEATURE_RESTITUTION) != 0; }
+  bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
   uint32_t bodies() const { return static_cast<uint32_t>(velocity.size() / 2); }
   bool moves(uint32_t body) const { return velocity[2 * body].w > 0; }
 
@@ -200,7 +201,7 @@ public:
     if (problem_.rows == 0) return true;
     const bool converged = solve_island(problem_).converged;
     apply();
-    if (pass_ != island_pass_bouncing && rows_.bounces()) note_highest();
+    if (pass_ != PASS_BOUNCING && rows_.bounces()) note_highest();
     return converged;
   }
 
@@ -262,13 +263,13 @@ bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, 
   const Parameters &p = rows_.parameters;
   const double old = value_of(rows_.normal_impulse[i], k);
   const bool ahead = separation > 0;
-  if (pass_ == island_pass_biased) {
+  if (pass_ == PASS_BIASED) {
     const double slop = slop_of(rows_.slop[i]), limit = push_limit(&p, rows_.slop[i]);
     bias = ahead ? separation * p.inverse_substep : maximum(rate * minimum(separation + slop, 0.0), -limit);
     return true;
   }
   bias = ahead ? separation * p.inverse_substep : 0.0;
-  if (pass_ == island_pass_bouncing) {
+  if (pass_ == PASS_BOUNCING) {
     const double wished = value_of(rows_.bounce[i], k);
     const double highest = value_of(rows_.bounce[rows_.count + i], k);
     if (wished >= 0 && highest > 0) {

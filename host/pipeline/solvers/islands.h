@@ -17,13 +17,10 @@
 
 namespace tandem {
 
-/* Value of the launch: with the speed that removes penetration, without, and with the wished speeds of restitution. */
-enum : uint32_t { island_pass_relaxing = 0, island_pass_biased = 1, island_pass_bouncing = 2 };
-
 constexpr uint32_t most_island_points = 96;
 
-/* A stage of form HOST. Islands run in parallel; each is solved by one task, so the result does not depend on
- * threads. */
+/* A stage of form HOST; the value of its launch is the pass (shared/solve/pass.h). Islands run in parallel; each is
+ * solved by one task, so the result does not depend on threads. */
 void solve_islands(const Launch &launch, Memory &memory);
 
 } // namespace tandem

@@ -32,7 +32,7 @@ void MassSplit::solve(uint32_t pass, uint32_t iterations)
 {
   if (!launched_) return;
   for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
-    run_rows(Kernel::split_solve, {pass == PASS_BIASED ? 1u : 0u, iteration + 1 < iterations ? iteration : 0});
+    run_rows(Kernel::split_solve, {pass, iteration + 1 < iterations ? iteration : 0});
     join_parts();
   }
 }

@@ -22,7 +22,7 @@ void launch_pgs_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
 void launch_pgs_sweep(StepLaunches &step, MassSplit &tail, uint32_t pass)
 {
   for (uint32_t turn = 0; turn < tail.turns(); ++turn) {
-    step.for_each_color(Kernel::pgs_normals, {pass == PASS_BIASED ? 1u : 0u});
+    step.for_each_color(Kernel::pgs_normals, {pass});
     if (step.has(FEATURE_FRICTION)) step.for_each_color(Kernel::pgs_friction);
     tail.solve(pass, tail_iterations);
   }

@@ -1,4 +1,5 @@
-/* solvers.h - the list of solvers: a name, what it is, its own substeps and iterations, and the launches it makes.
+/* solvers.h - the list of solvers: a choice, its name, what it is, its own substeps and iterations, and the launches it
+ * makes.
  *
  * A solver runs between prepare_contacts, which makes the constraints, and check_bodies, and leaves solver_velocity,
  * solver_delta and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
@@ -6,14 +7,14 @@
  * shared/solve/. */
 #pragma once
 
-#include <string>
-#include <vector>
+#include <span>
 
 #include "host/pipeline/step_launches.h"
 
 namespace tandem {
 
-struct Solver {
+struct SolverRow {
+  Solver choice;
   const char *name, *what;
   uint32_t substeps, iterations; /* where the user names none */
   void (*launch)(StepLaunches &step);
@@ -21,10 +22,8 @@ struct Solver {
       nullptr; /* what it keeps for the next step, once the step is known to be whole */
 };
 
-/* Default first. */
-const std::vector<Solver> &solvers();
-/* InputError lists the names. */
-const Solver &solver_named(const std::string &name);
+std::span<const SolverRow> solvers(); /* in the order of the enum */
+const SolverRow &row_of(Solver solver);
 
 void launch_soft_step(StepLaunches &step);
 void launch_pgs(StepLaunches &step);

@@ -40,7 +40,7 @@ public:
   virtual const std::string &name() const = 0; /* as given to --on: "tbb:threads=2,lanes=8" */
   virtual Storage &storage() = 0;
   /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. Called before run. */
-  virtual void prepare(uint32_t features, const std::vector<Kernel> &kernels) = 0;
+  virtual void prepare(Features features, const std::vector<Kernel> &kernels) = 0;
   /* counts: the handle of Buffer::counts in this backend's storage. May return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
   /* The same for a kernel of form HOST, which takes its buffers itself. Only the backend of host/pipeline/host_stages.h

@@ -44,9 +44,11 @@ const char *name_of(Buffer buffer) { return row_of(buffer).name; }
 
 const char *name_of(Stage stage)
 {
-  static const char *const names[stage_count] = {"parallel",  "broadphase", "midphase", "narrowphase",
-                                                 "batching",  "setup",      "solve",    "events",
-                                                 "integrate", "queries",    "sweeps",   "problem"};
+  static const char *const names[] = {
+#define STAGE(name) #name,
+#include "shared/stages.def"
+#undef STAGE
+  };
   const size_t index = static_cast<size_t>(stage);
   return index < stage_count ? names[index] : module_at(index - stage_count).name();
 }

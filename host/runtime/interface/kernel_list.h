@@ -1,4 +1,4 @@
-/* kernel_list.h - kernels.def and buffers.def as enums and tables: the pipeline as the host sees it.
+/* kernel_list.h - kernels.def, buffers.def and stages.def as enums and tables: the pipeline as the host sees it.
  *
  * The pipeline is the first module of kernels and buffers; those of other modules have numbers behind its own
  * (host/runtime/interface/module.h), and row_of() knows all of them.
@@ -13,8 +13,8 @@
 #include <tandem/export.h>
 
 #include "host/runtime/interface/buffer_sides.h"
+#include "host/runtime/interface/features.h"
 #include "shared/counts.h"
-#include "shared/features.h"
 
 namespace tandem {
 
@@ -47,22 +47,18 @@ constexpr size_t buffer_count = 0
 enum class Form : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
 enum class Stage : uint8_t {
-  parallel,
-  broadphase,
-  midphase,
-  narrowphase,
-  batching,
-  setup,
-  solve,
-  events,
-  integrate,
-  queries,
-  sweeps,
-  problem
+#define STAGE(name) name,
+#include "shared/stages.def"
+#undef STAGE
 };
-constexpr size_t stage_count = 12; /* of the pipeline; each other module is a stage of its own behind them */
 
-/* What sizes a buffer; buffers.def names them. */
+constexpr size_t stage_count = 0
+#define STAGE(name) +1
+#include "shared/stages.def"
+#undef STAGE
+    ;
+
+/* What sizes a buffer; buffers.def names them, and items_of in host/pipeline/layout.cpp says how many items each is. */
 enum class Capacity : uint8_t {
   NOTHING,
   ONE,
@@ -116,7 +112,7 @@ struct KernelRow {
   Stage stage;
   Form form;
   uint32_t items;   /* entry of counts that ends the range, or items_given */
-  uint32_t feature; /* 0: always */
+  Features feature; /* 0: always */
   std::span<const Argument> arguments;
 };
 
@@ -125,7 +121,7 @@ struct BufferRow {
   Element element;
   Capacity capacity;
   uint32_t per_item; /* elements */
-  uint32_t feature;  /* 0: always */
+  Features feature;  /* 0: always */
   Lifetime lifetime;
   const char *fields; /* names of the scalars of one item, separated by spaces */
 };

@@ -76,7 +76,7 @@ public:
   Storage &storage() override { return storage_; }
   void finish() override { storage_.wait(); }
 
-  void prepare(uint32_t features, const std::vector<Kernel> &kernels) override
+  void prepare(Features features, const std::vector<Kernel> &kernels) override
   {
     const minicl::ExactFloatingPoint environment; /* inherited by threads that the driver may start */
     const auto start = std::chrono::steady_clock::now();
@@ -130,11 +130,11 @@ private:
   }
 
   /* Of the program of a stage only what is asked for is compiled (but see part_to_build). */
-  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, uint32_t features)
+  void create_kernels(Stage stage, const std::vector<Kernel> &kernels, Features features)
   {
     const EmbeddedProgram &embedded = embedded_program(name_of(stage));
     if (!readable_.contains(stage)) readable_[stage] = features_read(embedded); /* a search through its whole text */
-    const uint32_t read = features & readable_[stage];
+    const Features read = features & readable_[stage];
     std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
     std::vector<Kernel> unbuilt;
     for (const Kernel kernel : kernels)
@@ -144,11 +144,11 @@ private:
   }
 
   void build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels, const std::string &options,
-             uint32_t features, std::map<Kernel, cl::Program> &programs)
+             Features features, std::map<Kernel, cl::Program> &programs)
   {
     try {
       const cl::Program program = build_program(context_, part_to_build(embedded, kernels),
-                                                fmt::format("-D FEATURES={:#x}u", features) + options);
+                                                fmt::format("-D FEATURES={:#x}ul", features) + options);
       for (const Kernel kernel : kernels) programs[kernel] = program;
     } catch (const cl::Error &error) {
       fail(row_of(kernels.front()), "creation", error.err());
@@ -183,7 +183,7 @@ private:
   /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a
    * million boxes takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with
    * any limit (docs/results/2026-11-23-h200-registers). */
-  std::string registers_for(Stage stage, uint32_t features) const
+  std::string registers_for(Stage stage, Features features) const
   {
     const bool waits = stage == Stage::setup || stage == Stage::integrate ||
                        (stage == Stage::narrowphase && !(features & FEATURE_CONVEX));
@@ -273,9 +273,9 @@ private:
   DeviceStorage storage_;
   size_t group_size_; /* of all kernels; 0: as each has it */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-  std::map<Stage, uint32_t> readable_; /* the features that the program of a stage reads */
-  std::map<std::pair<Stage, uint32_t>, std::map<Kernel, cl::Program>> programs_; /* uint32_t: the features read */
-  std::map<uint32_t, Build> builds_;                                             /* by features */
+  std::map<Stage, Features> readable_; /* the features that the program of a stage reads */
+  std::map<std::pair<Stage, Features>, std::map<Kernel, cl::Program>> programs_; /* Features: those read */
+  std::map<Features, Build> builds_;                                             /* by features */
   Build *current_ = nullptr;
   uint32_t launches_ = 0;
   bool profiling_ = false;

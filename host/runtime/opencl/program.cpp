@@ -4,9 +4,9 @@
 #include "host/runtime/opencl/program.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstring>
 #include <optional>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +14,6 @@
 
 #include "host/runtime/interface/module.h"
 #include "host/runtime/opencl/program_cache.h"
-#include "shared/features.h"
 
 namespace tandem::opencl {
 namespace {
@@ -57,6 +56,19 @@ cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgra
                                context.info.device_name, options, error_name(result), log.empty() ? "" : "\n", log));
 }
 
+/* NAME of each HAS_FEATURE(parameters, NAME) and MAY_OCCUR(NAME). */
+std::set<std::string_view> names_tested(std::string_view source)
+{
+  std::set<std::string_view> names;
+  for (const std::string_view test : {"HAS_FEATURE(", "MAY_OCCUR("})
+    for (size_t at = source.find(test); at != source.npos; at = source.find(test, at + 1)) {
+      const size_t open = at + test.size(), end = source.find(')', open);
+      const std::string_view arguments = source.substr(open, end - open);
+      names.insert(arguments.substr(arguments.find_last_of(" ,") + 1)); /* npos + 1 is 0: the first argument */
+    }
+  return names;
+}
+
 Binary binary_of(const cl::Program &program)
 {
   size_t bytes = 0;
@@ -97,24 +109,17 @@ std::string source_of(const EmbeddedProgram &program)
   return source;
 }
 
-uint32_t features_read(const EmbeddedProgram &program)
+Features features_read(const EmbeddedProgram &program)
 {
-  static const std::pair<std::string, uint32_t> names[] = {
-#define FEATURE(name, what) {"FEATURE_" #name, FEATURE_##name},
+  static const std::pair<std::string_view, Features> rows[] = {
+#define FEATURE(name, what) {#name, FEATURE_##name},
 #include "shared/features.def"
 #undef FEATURE
   };
-  const std::string_view source = program.headers;
-  const auto is_named = [&](const std::string &name) {
-    const auto goes_on = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-    size_t at = source.find(name);
-    while (at != source.npos && at + name.size() < source.size() && goes_on(source[at + name.size()]))
-      at = source.find(name, at + 1);
-    return at != source.npos;
-  };
-  uint32_t features = 0;
-  for (const auto &[name, bit] : names)
-    if (is_named(name)) features |= bit;
+  const std::set<std::string_view> names = names_tested(program.headers);
+  Features features = 0;
+  for (const auto &[name, bit] : rows)
+    if (names.contains(name)) features |= bit;
   return features;
 }
 

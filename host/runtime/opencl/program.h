@@ -29,7 +29,7 @@ cl::Program build_through_cache(const DeviceContext &context, const EmbeddedProg
                                 const std::string &options = "");
 
 /* FEATURE_ bits that a program asks for: builds that differ in others alone are one. */
-uint32_t features_read(const EmbeddedProgram &program);
+Features features_read(const EmbeddedProgram &program);
 
 /* What names a built program in the cache. */
 std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);

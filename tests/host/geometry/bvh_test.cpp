@@ -12,9 +12,9 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-Bounds random_box(Random &random, double reach, double size)
+AxisAlignedBox random_box(Random &random, double reach, double size)
 {
-  Bounds box;
+  AxisAlignedBox box;
   for (size_t axis = 0; axis < 3; ++axis) {
     box.lower[axis] = float(random.uniform(-reach, reach));
     box.upper[axis] = box.lower[axis] + float(random.uniform(0, size));
@@ -22,15 +22,15 @@ Bounds random_box(Random &random, double reach, double size)
   return box;
 }
 
-std::vector<Bounds> soup(size_t count, uint64_t seed, double size)
+std::vector<AxisAlignedBox> soup(size_t count, uint64_t seed, double size)
 {
   Random random(seed);
-  std::vector<Bounds> boxes;
+  std::vector<AxisAlignedBox> boxes;
   for (size_t i = 0; i < count; ++i) boxes.push_back(random_box(random, 10, size));
   return boxes;
 }
 
-bool contains(const Bounds &outer, const Bounds &inner)
+bool contains(const AxisAlignedBox &outer, const AxisAlignedBox &inner)
 {
   bool result = true;
   for (size_t axis = 0; axis < 3; ++axis)
@@ -38,12 +38,12 @@ bool contains(const Bounds &outer, const Bounds &inner)
   return result;
 }
 
-Bounds box_of(const Bvh &bvh, const BvhNode &node) { return dequantised(bvh.quantisation, node.bounds); }
+AxisAlignedBox box_of(const Bvh &bvh, const BvhNode &node) { return dequantised(bvh.quantisation, node.bounds); }
 
 /* Checks the subtree that starts at `at` and returns the node after it: children inside their parent, skips that
  * meet. */
-size_t check_subtree(const Bvh &bvh, std::span<const Bounds> boxes, size_t at, uint32_t depth, uint32_t &deepest,
-                     std::vector<int> &seen)
+size_t check_subtree(const Bvh &bvh, std::span<const AxisAlignedBox> boxes, size_t at, uint32_t depth,
+                     uint32_t &deepest, std::vector<int> &seen)
 {
   const BvhNode &node = bvh.nodes.at(at);
   deepest = std::max(deepest, depth);
@@ -76,7 +76,7 @@ void check_subtrees(const Bvh &bvh)
   REQUIRE(at == bvh.nodes.size());
 }
 
-Bvh checked_bvh(std::span<const Bounds> boxes)
+Bvh checked_bvh(std::span<const AxisAlignedBox> boxes)
 {
   const Bvh bvh = build_bvh(boxes, "test");
   REQUIRE(bvh.nodes.size() == 2 * boxes.size() - 1);
@@ -91,7 +91,7 @@ Bvh checked_bvh(std::span<const Bounds> boxes)
 }
 
 /* The walk finds the leaves whose boxes overlap, no more and no fewer; and all primitives that do. */
-void check_query(const Bvh &bvh, std::span<const Bounds> boxes, const Bounds &query)
+void check_query(const Bvh &bvh, std::span<const AxisAlignedBox> boxes, const AxisAlignedBox &query)
 {
   std::vector<uint32_t> found, exact, leaves, expected;
   for_each_overlap(bvh, query, [&](uint32_t primitive) { found.push_back(primitive); });
@@ -107,13 +107,13 @@ void check_query(const Bvh &bvh, std::span<const Bounds> boxes, const Bounds &qu
   REQUIRE(exact == expected);
 }
 
-void check_queries(std::span<const Bounds> boxes, int queries)
+void check_queries(std::span<const AxisAlignedBox> boxes, int queries)
 {
   const Bvh bvh = checked_bvh(boxes);
   Random random(99);
   for (int i = 0; i < queries; ++i) {
-    const Bounds &near = boxes[random.below(uint32_t(boxes.size()))];
-    Bounds query = near; /* touches at least one, and is now and then a point */
+    const AxisAlignedBox &near = boxes[random.below(uint32_t(boxes.size()))];
+    AxisAlignedBox query = near; /* touches at least one, and is now and then a point */
     for (size_t axis = 0; axis < 3; ++axis) {
       query.lower[axis] += float(random.uniform(-0.1, 0.1)) * float(i % 4);
       query.upper[axis] =
@@ -124,7 +124,7 @@ void check_queries(std::span<const Bounds> boxes, int queries)
   for (int i = 0; i < queries; ++i) check_query(bvh, boxes, random_box(random, 12, i % 8));
 }
 
-std::string refusal(const std::vector<Bounds> &boxes)
+std::string refusal(const std::vector<AxisAlignedBox> &boxes)
 {
   return complaint([&] { build_bvh(boxes, "hall.glb"); });
 }
@@ -141,7 +141,7 @@ TEST_CASE("bvh: queries of random boxes find what brute force finds", "[sanitize
 
 TEST_CASE("bvh: a hundred thousand boxes")
 {
-  const std::vector<Bounds> boxes = soup(100000, 5, 0.2);
+  const std::vector<AxisAlignedBox> boxes = soup(100000, 5, 0.2);
   check_queries(boxes, 5);
   const Bvh bvh = build_bvh(boxes, "test");
   CHECK(bvh.depth <= 25);
@@ -150,9 +150,9 @@ TEST_CASE("bvh: a hundred thousand boxes")
 
 TEST_CASE("bvh: boxes all in one place, flat, in a line, or very long", "[sanitizer]")
 {
-  check_queries(std::vector<Bounds>(300, {{1, 2, 3}, {2, 3, 4}}), 10);
-  check_queries(std::vector<Bounds>(300, {{1, 2, 3}, {1, 2, 3}}), 10);
-  std::vector<Bounds> flat = soup(300, 1, 1), line = flat, longish = flat;
+  check_queries(std::vector<AxisAlignedBox>(300, {{1, 2, 3}, {2, 3, 4}}), 10);
+  check_queries(std::vector<AxisAlignedBox>(300, {{1, 2, 3}, {1, 2, 3}}), 10);
+  std::vector<AxisAlignedBox> flat = soup(300, 1, 1), line = flat, longish = flat;
   for (size_t i = 0; i < flat.size(); ++i) {
     flat[i].lower[1] = flat[i].upper[1] = 0.3f;
     line[i] = {{float(i), 0, 0}, {float(i), 0, 0}};
@@ -166,7 +166,7 @@ TEST_CASE("bvh: boxes all in one place, flat, in a line, or very long", "[saniti
 
 TEST_CASE("bvh: positions that halve again and again do not make the tree deep", "[sanitizer]")
 {
-  std::vector<Bounds> boxes;
+  std::vector<AxisAlignedBox> boxes;
   for (int i = 0; i < 250; ++i) {
     const float x = std::ldexp(1.0f, -i / 2) * (i % 2 ? 1.0f : 1.5f);
     boxes.push_back({{x, 0, 0}, {x * 1.01f, 1, 1}});
@@ -179,7 +179,7 @@ TEST_CASE("bvh: positions that halve again and again do not make the tree deep",
 
 TEST_CASE("bvh: the order of the nodes is that of the sketch: left child next, right child after the skip")
 {
-  const std::vector<Bounds> boxes{
+  const std::vector<AxisAlignedBox> boxes{
       {{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}, {{20, 0, 0}, {21, 1, 1}}, {{22, 0, 0}, {23, 1, 1}}};
   const Bvh bvh = checked_bvh(boxes);
   std::vector<int32_t> values;
@@ -195,9 +195,9 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
   for (int turn = 0; turn < 400; ++turn) {
     const double scale = std::pow(10.0, random.uniform(-30, 30)),
                  far = turn % 2 ? scale * std::pow(10.0, random.uniform(0, 8)) : 0;
-    std::vector<Bounds> boxes;
+    std::vector<AxisAlignedBox> boxes;
     for (int i = 0; i < 8; ++i) {
-      Bounds box = random_box(random, 1, turn % 3);
+      AxisAlignedBox box = random_box(random, 1, turn % 3);
       for (size_t axis = 0; axis < 3; ++axis) {
         box.lower[axis] = float(box.lower[axis] * scale + far);
         box.upper[axis] = float(box.upper[axis] * scale + far);
@@ -206,7 +206,7 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
     }
     const Bvh bvh = checked_bvh(boxes);
     const Quantisation &quantisation = bvh.quantisation;
-    for (const Bounds &box : boxes) {
+    for (const AxisAlignedBox &box : boxes) {
       const QuantisedBounds q = quantised(quantisation, box);
       REQUIRE(contains(dequantised(quantisation, q), box));
       for (size_t axis = 0; axis < 3; ++axis) {
@@ -220,11 +220,11 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
 
 TEST_CASE("bvh: quantised boxes are hardly larger: by less than two steps and the roundings of floats")
 {
-  const std::vector<Bounds> boxes = soup(1000, 3, 1);
+  const std::vector<AxisAlignedBox> boxes = soup(1000, 3, 1);
   const Bvh bvh = checked_bvh(boxes);
   for (const BvhNode &node : bvh.nodes) {
     if (!is_leaf(node)) continue;
-    const Bounds outer = box_of(bvh, node), &inner = boxes[size_t(node.value)];
+    const AxisAlignedBox outer = box_of(bvh, node), &inner = boxes[size_t(node.value)];
     for (size_t axis = 0; axis < 3; ++axis) {
       CHECK(bvh.quantisation.step[axis] == Approx(21.0 / 65535).epsilon(0.05));
       CHECK(inner.lower[axis] - outer.lower[axis] <= bvh.quantisation.step[axis] + 4e-6f);
@@ -236,7 +236,7 @@ TEST_CASE("bvh: quantised boxes are hardly larger: by less than two steps and th
 TEST_CASE("bvh: walks over the triangles of a mesh visit few of its nodes")
 {
   const Soup sphere = icosphere(5);
-  const std::vector<Bounds> boxes = triangle_bounds(triangle_mesh(sphere.vertices, sphere.triangles, "test"));
+  const std::vector<AxisAlignedBox> boxes = triangle_bounds(triangle_mesh(sphere.vertices, sphere.triangles, "test"));
   const Bvh bvh = checked_bvh(boxes);
   size_t found = 0;
   for_each_overlap(bvh, {{0.9f, -0.05f, -0.05f}, {1.1f, 0.05f, 0.05f}}, [&](uint32_t) { ++found; });

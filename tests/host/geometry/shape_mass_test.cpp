@@ -64,7 +64,7 @@ struct Sum {
   Matrix inertia = Matrix::Zero(); /* about the centre, world axes, density 1 */
 };
 
-Bounds bounds_of(const Shape &shape)
+AxisAlignedBox bounds_of(const Shape &shape)
 {
   if (shape.type == ShapeType::hull) return tandem::bounds_of(shape.hull->vertices);
   const auto &[a, b, c] = shape.size;
@@ -77,7 +77,7 @@ Bounds bounds_of(const Shape &shape)
 /* Equal blocks of the shape's bounds whose middles lie inside. The bounds fit, so that flat ends lie between blocks. */
 Sum summed(const Body &body, const Shape &shape, int cells)
 {
-  const Bounds bounds = bounds_of(shape);
+  const AxisAlignedBox bounds = bounds_of(shape);
   const Vector low = vector_of(bounds.lower), side = (vector_of(bounds.upper) - low) / cells;
   const double volume = side.prod();
   Sum sum;

@@ -19,16 +19,19 @@ using namespace tandem;
 namespace {
 
 struct Case {
-  const char *scene, *solver, *broadphase;
+  const char *scene;
+  Solver solver;
+  Broadphase broadphase;
 };
 
 /* Together they carry over every buffer that there is. */
-const std::vector<Case> cases = {{"box-grid:nx=2,ny=2,nz=2", "soft-step", "grid"},
-                                 {"box-grid:nx=2,ny=2,nz=2", "xpbd", "trees"},
-                                 {"box-grid:nx=2,ny=2,nz=2", "avbd", "sap3"},
-                                 {"compounds:n=6", "pgs", "bvh"},
-                                 {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", "soft-step", "hybrid"},
-                                 {"spheres:n=12,height=0", "jacobi", "grid"}};
+const std::vector<Case> cases = {
+    {"box-grid:nx=2,ny=2,nz=2", Solver::soft_step, Broadphase::grid},
+    {"box-grid:nx=2,ny=2,nz=2", Solver::xpbd, Broadphase::trees},
+    {"box-grid:nx=2,ny=2,nz=2", Solver::avbd, Broadphase::sap3},
+    {"compounds:n=6", Solver::pgs, Broadphase::bvh},
+    {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", Solver::soft_step, Broadphase::hybrid},
+    {"spheres:n=12,height=0", Solver::jacobi, Broadphase::grid}};
 
 /* After so many steps; with events, whose pairs are carried over too. */
 std::unique_ptr<World> world_of(const Case &c, uint64_t steps)
@@ -117,7 +120,7 @@ void check_that_no_bit_follows_from(Lifetime lifetime, const Case &c)
     changed += words;
   }
   CAPTURE(c.scene, c.solver, c.broadphase);
-  const bool keeps = std::string(c.broadphase) == "trees" || std::string(c.broadphase) == "sap3";
+  const bool keeps = c.broadphase == Broadphase::trees || c.broadphase == Broadphase::sap3;
   if (lifetime == Lifetime::SCRATCH || keeps) CHECK(changed > 50);
   REQUIRE(disturbed->state_hash() == world_of(c, 10)->state_hash());
   disturbed->step();

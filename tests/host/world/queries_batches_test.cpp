@@ -186,7 +186,7 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
 
 TEST_CASE("queries between steps see the new places, under every broadphase, and change nothing")
 {
-  for (const std::string &broadphase : broadphase_names()) {
+  for (const Broadphase broadphase : choices<Broadphase>()) {
     Settings settings;
     settings.broadphase = broadphase;
     Random random(24);

@@ -45,7 +45,7 @@ template <class Hit> bool same(const std::vector<Hit> &p, const std::vector<Hit>
   return std::equal(p.begin(), p.end(), q.begin(), q.end(), [](const auto &a, const auto &b) { return same(a, b); });
 }
 
-Answers ask(const Scene &scene, const Questions &questions, const char *broadphase, const char *backend)
+Answers ask(const Scene &scene, const Questions &questions, Broadphase broadphase, const char *backend)
 {
   Settings settings;
   settings.broadphase = broadphase;
@@ -66,9 +66,9 @@ Answers ask(const Scene &scene, const Questions &questions, const char *broadpha
 /* Every body one by one is the oracle of the others. */
 void require_equal_answers(const Scene &scene, const Questions &questions, size_t least)
 {
-  const Answers expected = ask(scene, questions, "brute-force", "serial");
+  const Answers expected = ask(scene, questions, Broadphase::brute_force, "serial");
   CHECK(expected.found >= least);
-  for (const char *broadphase : {"brute-force", "grid", "bvh"})
+  for (const Broadphase broadphase : {Broadphase::brute_force, Broadphase::grid, Broadphase::bvh})
     for (const char *backend : {"serial", "tbb"}) {
       CAPTURE(broadphase, backend);
       const Answers found = ask(scene, questions, broadphase, backend);

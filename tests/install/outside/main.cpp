@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include <tandem/scene.h>
+#include <tandem/settings.h>
 #include <tandem/world.h>
 
 int main()
@@ -14,10 +15,12 @@ int main()
   ball.position = {0, 10, 0};
   scene.bodies.push_back(ball);
   tandem::validate(scene, "outside");
-  tandem::World world(scene, {}, {"serial", {}});
+  tandem::Settings settings = tandem::settings_for(tandem::Solver::pgs);
+  settings.broadphase = tandem::parse_setting<tandem::Broadphase>("brute-force");
+  tandem::World world(scene, settings, {"serial", {}});
   for (int i = 0; i < 60; ++i) world.step();
   const float height = world.bodies()[0].position[1];
-  std::cout << "height after one second: " << height << " m\n";
+  std::cout << "height after one second, by " << tandem::name_of(settings.solver) << ": " << height << " m\n";
   /* y = 10 - g t^2 / 2, to which the integrator adds only rounding. */
   return std::abs(height - 5.0f) < 1e-3f ? 0 : 1;
 }

@@ -38,7 +38,7 @@ double outside_by(const Reach &bounds, const std::vector<Vector> &points, const 
 TEST_CASE("bounds hold every shape in any pose, at rest, in flight and spinning")
 {
   const double speed = GENERATE(0.0, 8.0), spin = GENERATE(0.0, 10.0);
-  const std::string kind = GENERATE("affine", "tight");
+  const Bounds kind = GENERATE(Bounds::affine, Bounds::tight);
   Random random(5);
   Scene scene = physics_tests::empty_scene();
   constexpr int side = 8;
@@ -74,7 +74,7 @@ TEST_CASE("tight bounds are the least that hold a shape, and lie within the fast
   Scene scene = physics_tests::empty_scene({0, 0, 0});
   for (int i = 0; i < 400; ++i) add_any(scene, random, {12.0 * (i % 20), 0, 12.0 * (i / 20)});
   Settings settings;
-  settings.bounds = "tight";
+  settings.bounds = Bounds::tight;
   World tight(scene, settings), fast(scene);
   tight.step();
   fast.step();

@@ -98,7 +98,7 @@ BodyPairs pairs_of(const Soup &soup)
 }
 
 /* Steps of motion, all of whose pairs are as they should be; many come and go on the way. */
-void check_motion(SoupRunner &runner, const char *broadphase, uint32_t n, double speed, double grain, uint32_t steps)
+void check_motion(SoupRunner &runner, Broadphase broadphase, uint32_t n, double speed, double grain, uint32_t steps)
 {
   MovingSoup moving(n, speed, grain, 17);
   runner.take(moving.soup);
@@ -108,8 +108,8 @@ void check_motion(SoupRunner &runner, const char *broadphase, uint32_t n, double
     CAPTURE(broadphase, runner.name(), n, speed, grain, step);
     runner.move_to(moving.soup, moving.velocities());
     if (step % 7 == 3) runner.make_query_hierarchy();
-    BodyPairs found = runner.find(broadphase_named(broadphase));
-    if (step % 5 == 2) found = runner.find(broadphase_named(broadphase));
+    BodyPairs found = runner.find(row_of(broadphase));
+    if (step % 5 == 2) found = runner.find(row_of(broadphase));
     REQUIRE(found == pairs_of(moving.soup));
     came += static_cast<size_t>(std::count_if(found.begin(), found.end(), [&](const auto &pair) {
       return !std::binary_search(before.begin(), before.end(), pair);
@@ -120,7 +120,7 @@ void check_motion(SoupRunner &runner, const char *broadphase, uint32_t n, double
   if (n > 100) CHECK(came > before.size() + 100);
 }
 
-constexpr const char *keeping[] = {"sap3", "trees", "bvh", "bvh-history"};
+constexpr Broadphase keeping[] = {Broadphase::sap3, Broadphase::trees, Broadphase::bvh, Broadphase::bvh_history};
 
 } // namespace
 

@@ -113,7 +113,7 @@ public:
   void make_query_hierarchy() { build_hierarchy(step_, false); }
 
   /* One after another they share what is kept, which a world's only broadphase has to itself. */
-  BodyPairs find(const Broadphase &broadphase)
+  BodyPairs find(const BroadphaseRow &broadphase)
   {
     if (last_ != broadphase.name) forget_kept(memory_);
     last_ = broadphase.name;
@@ -153,7 +153,7 @@ private:
   }
 
   /* The list is full, unless it was another list of a broadphase that keeps some which found no room. */
-  void check_clamped(uint32_t pairs, const Broadphase &broadphase)
+  void check_clamped(uint32_t pairs, const BroadphaseRow &broadphase)
   {
     const bool keeps_lists = broadphase.launch == find_pairs_incrementally || broadphase.launch == find_pairs_in_trees;
     if (keeps_lists) CHECK(pairs <= plan_.capacity_pairs);

@@ -132,7 +132,7 @@ constexpr Kind kinds[] = {{"one size", of_one_size, true},   {"all sizes", of_al
 constexpr uint32_t most_by_brute_force = 10000;
 
 /* Those that take n log n whatever the soup. */
-bool never_crowds(const Broadphase &broadphase)
+bool never_crowds(const BroadphaseRow &broadphase)
 {
   return broadphase.launch == find_pairs_in_hybrid || broadphase.launch == find_pairs_by_skipping ||
          broadphase.launch == find_pairs_in_trees;
@@ -141,7 +141,7 @@ bool never_crowds(const Broadphase &broadphase)
 void check_all(SoupRunner &runner, const Soup &soup, const BodyPairs &expected, bool suits_all = true)
 {
   runner.take(soup);
-  for (const Broadphase &broadphase : broadphases()) {
+  for (const BroadphaseRow &broadphase : broadphases()) {
     if (soup.size() > most_by_brute_force &&
         (broadphase.launch == find_pairs_by_brute_force || !(suits_all || never_crowds(broadphase))))
       continue;
@@ -209,9 +209,10 @@ TEST_CASE("a body that is not finite has no pairs, and spoils no others")
     if (pair.first != 100 && pair.second != 100) expected.push_back(pair);
   SoupRunner runner(make_backend("serial"));
   runner.take(soup);
-  for (const char *name : {"brute-force", "sap3", "bvh", "bvh-stack", "bvh-history", "trees"}) {
-    CAPTURE(name);
-    CHECK(runner.find(broadphase_named(name)) == expected);
+  for (const Broadphase choice : {Broadphase::brute_force, Broadphase::sap3, Broadphase::bvh, Broadphase::bvh_stack,
+                                  Broadphase::bvh_history, Broadphase::trees}) {
+    CAPTURE(choice);
+    CHECK(runner.find(row_of(choice)) == expected);
   }
 }
 
@@ -222,9 +223,10 @@ TEST_CASE("ten million pairs in one place grow the list, and all are there")
   for (uint32_t i = 0; i < 4600; ++i) soup.add({0, 0, 0}, {float(random.uniform(0.5, 1)), 1, 1});
   SoupRunner runner(make_backend("tbb"));
   runner.take(soup);
-  for (const char *name : {"grid", "sap", "sap3", "bvh", "trees"}) {
-    CAPTURE(name);
-    const BodyPairs found = runner.find(broadphase_named(name));
+  for (const Broadphase choice :
+       {Broadphase::grid, Broadphase::sap, Broadphase::sap3, Broadphase::bvh, Broadphase::trees}) {
+    CAPTURE(choice);
+    const BodyPairs found = runner.find(row_of(choice));
     REQUIRE(found.size() == 4600u * 4599u / 2);
     size_t k = 0;
     bool right = true;

@@ -137,7 +137,7 @@ Scene heap(uint64_t seed)
   return scene;
 }
 
-Settings settings_with(const std::string &midphase)
+Settings settings_with(Midphase midphase)
 {
   Settings settings;
   settings.midphase = midphase;
@@ -151,7 +151,7 @@ using LeafPair = std::array<uint32_t, 6>; /* scene bodies, then child and triang
 TEST_CASE("no two leaves that meet are missed, none stand twice, and few that are far apart stand in the list")
 {
   const uint64_t seed = GENERATE(1, 2, 3, 4);
-  const std::string midphase = GENERATE(from_range(midphase_names()));
+  const Midphase midphase = GENERATE(from_range(choices<Midphase>()));
   const Scene scene = heap(seed);
   World world(scene, settings_with(midphase));
   std::vector<BodyState> before = world.bodies();
@@ -203,7 +203,7 @@ TEST_CASE("a list of leaf pairs that outgrows its room loses nothing")
   std::vector<float> heights(61 * 61, 0.0f);
   add_body(scene, Motion::fixed, height_field_shape(heights, 61, 0.1f, 0.1f, "floor"), {0, 0, 0});
   add_solid(scene, box_shape(2.5f, 0.1f, 2.5f), {0, 0.1, 0});
-  const std::string midphase = GENERATE(from_range(midphase_names()));
+  const Midphase midphase = GENERATE(from_range(choices<Midphase>()));
   CAPTURE(midphase);
   World world(scene, settings_with(midphase));
   run(world, 5);

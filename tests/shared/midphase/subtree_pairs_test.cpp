@@ -104,7 +104,7 @@ std::vector<Entry> list_of(World &world)
 }
 
 /* Steps a world with that walk and holds each list against every leaf; returns the lists, one behind the other. */
-std::vector<Entry> checked_lists(const Scene &scene, const std::string &midphase, const std::string &backend)
+std::vector<Entry> checked_lists(const Scene &scene, Midphase midphase, const std::string &backend)
 {
   Settings settings;
   settings.midphase = midphase;
@@ -127,10 +127,10 @@ std::vector<Entry> checked_lists(const Scene &scene, const std::string &midphase
 
 void check_scene(const Scene &scene, size_t at_least)
 {
-  const std::vector<Entry> walked = checked_lists(scene, "walk", "serial");
+  const std::vector<Entry> walked = checked_lists(scene, Midphase::walk, "serial");
   CHECK(walked.size() > at_least);
   for (const char *backend : {"serial", "serial:order=backward", "tbb:threads=2"})
-    CHECK((checked_lists(scene, "subtrees", backend) == walked)); /* without writing them out */
+    CHECK((checked_lists(scene, Midphase::subtrees, backend) == walked)); /* without writing them out */
 }
 
 Shape hills(Random &random, uint32_t columns)
@@ -165,7 +165,7 @@ Shape dumbbell()
 uint32_t subtrees_of(const Scene &scene, uint32_t tree)
 {
   Settings settings;
-  settings.midphase = "subtrees";
+  settings.midphase = Midphase::subtrees;
   World world(scene, settings);
   return world.memory().read<uint32_t>(Buffer::tree_header, TREE_HEADER * (size_t{tree} + 1))[TREE_HEADER * tree + 5];
 }
@@ -221,7 +221,7 @@ TEST_CASE("leaf pairs by subtrees: filters of children, and a list that grows")
   scene.bodies[3].filter_mask = 1;
   check_scene(scene, 3000);
   Settings settings;
-  settings.midphase = "subtrees";
+  settings.midphase = Midphase::subtrees;
   World world(scene, settings);
   world.step();
   CHECK(world.statistics().overflow >= 1);

@@ -10,26 +10,26 @@ using namespace tandem;
 
 namespace {
 
-struct Bounds {
+struct BodyBounds {
   row lower, upper;
 };
 
-bool overlap(const Bounds &p, const Bounds &q)
+bool overlap(const BodyBounds &p, const BodyBounds &q)
 {
   return p.lower.x <= q.upper.x && q.lower.x <= p.upper.x && p.lower.y <= q.upper.y && q.lower.y <= p.upper.y &&
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-std::vector<Bounds> bounds_of(BroadphaseFrames &frames, size_t bodies)
+std::vector<BodyBounds> bounds_of(BroadphaseFrames &frames, size_t bodies)
 {
-  return frames.memory().read<Bounds>(Buffer::bounds, bodies);
+  return frames.memory().read<BodyBounds>(Buffer::bounds, bodies);
 }
 
 /* Each of those that overlap and do not both stand still. */
 uint32_t counted_pairs(BroadphaseFrames &frames, const MovingBodies &moving)
 {
   const size_t bodies = moving.scene.bodies.size();
-  const std::vector<Bounds> bounds = bounds_of(frames, bodies);
+  const std::vector<BodyBounds> bounds = bounds_of(frames, bodies);
   const auto stands = [&](size_t k) { return moving.scene.bodies[moving.special.order[k]].motion == Motion::fixed; };
   uint32_t pairs = 0;
   for (size_t a = 0; a < bodies; ++a)
@@ -41,7 +41,7 @@ double pairs_each(const char *input, uint32_t bodies)
 {
   const MovingBodies moving(broadphase_input_named(input), bodies);
   const std::unique_ptr<Backend> backend = make_backend("serial");
-  BroadphaseFrames frames(moving, broadphase_named("grid"), *backend);
+  BroadphaseFrames frames(moving, row_of(Broadphase::grid), *backend);
   frames.run(0);
   return double(frames.pairs()) / bodies;
 }
@@ -73,7 +73,7 @@ TEST_CASE("bench broadphase: all find the pairs that two loops count, in every f
   for (const BroadphaseInput &input : broadphase_inputs()) {
     const MovingBodies moving(input, 700);
     REQUIRE(moving.scene.bodies.size() == 700);
-    for (const Broadphase &broadphase : broadphases()) {
+    for (const BroadphaseRow &broadphase : broadphases()) {
       BroadphaseFrames frames(moving, broadphase, *backend);
       for (uint32_t frame = 0; frame < 3; ++frame) {
         CAPTURE(input.name, broadphase.name, frame);
@@ -103,7 +103,7 @@ TEST_CASE("bench broadphase: the large box overlaps a tenth of the small ones", 
 {
   const MovingBodies moving(broadphase_input_named("one-large"), 2000);
   const std::unique_ptr<Backend> backend = make_backend("serial");
-  BroadphaseFrames frames(moving, broadphase_named("bvh"), *backend);
+  BroadphaseFrames frames(moving, row_of(Broadphase::bvh), *backend);
   frames.run(0);
   REQUIRE(moving.special.order[0] == 0);
   int with_large = 0;
@@ -140,7 +140,7 @@ TEST_CASE("bench broadphase: a list that outgrows its room is found again with r
 {
   const MovingBodies moving(broadphase_input_named("spheres"), 500);
   const std::unique_ptr<Backend> backend = make_backend("serial");
-  for (const Broadphase &broadphase : broadphases()) {
+  for (const BroadphaseRow &broadphase : broadphases()) {
     BroadphaseFrames roomy(moving, broadphase, *backend), tight(moving, broadphase, *backend, 1);
     for (uint32_t frame = 0; frame < 2; ++frame) {
       roomy.run(frame);
@@ -155,8 +155,9 @@ TEST_CASE("bench broadphase: a list that outgrows its room is found again with r
 TEST_CASE("bench broadphase: one wrong pair in one frame is reported", "[bench-broadphase]")
 {
   frames_until_wrong = 4; /* the first launch records kernels */
-  const std::vector<BroadphaseScene> scenes =
-      bench_of({{"wrong", "", find_pairs_wrongly}, broadphase_named("brute-force"), broadphase_named("bvh")});
+  const std::vector<BroadphaseScene> scenes = bench_of({{Broadphase::automatic, "wrong", "", find_pairs_wrongly},
+                                                        row_of(Broadphase::brute_force),
+                                                        row_of(Broadphase::bvh)});
   const std::vector<std::string> lines = differences_of(scenes);
   REQUIRE(lines.size() == 1);
   CHECK(lines[0].find("pile, 500 bodies: wrong gives other pairs than brute-force in frame 2: ") == 0);
@@ -167,7 +168,7 @@ TEST_CASE("bench broadphase: one wrong pair in one frame is reported", "[bench-b
 
 TEST_CASE("bench broadphase: a table of sizes with slopes, and a chart", "[bench-broadphase]")
 {
-  const std::vector<BroadphaseScene> scenes = bench_of({broadphase_named("grid"), broadphase_named("bvh")}, {100, 200});
+  const std::vector<BroadphaseScene> scenes = bench_of({row_of(Broadphase::grid), row_of(Broadphase::bvh)}, {100, 200});
   CHECK(differences_of(scenes).empty());
   const std::string text = broadphase_text(scenes[0]);
   for (const char *said : {"pile: ", "100", "200", "slope", "grid", "bvh", "pairs"})

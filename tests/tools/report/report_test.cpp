@@ -57,7 +57,7 @@ Run run_of(const char *solver, double milliseconds, double error, uint32_t subst
   Run run;
   run.solver = solver;
   run.backend = "tbb";
-  run.settings.solver = solver;
+  run.settings.solver = parse_setting<Solver>(solver);
   run.settings.substeps = substeps;
   run.settings.step = base_step;
   run.step_milliseconds = milliseconds;
@@ -182,13 +182,13 @@ TEST_CASE("report: a smaller time step costs more for the same simulated time", 
 
 TEST_CASE("report: every solver has settings, also in the quick report, and all are valid", "[report]")
 {
-  for (const std::string &solver : solver_names())
+  for (const std::string &solver : choice_names<Solver>())
     for (const Grid size : {Grid::quick, Grid::coarse, Grid::full}) {
       const std::vector<Settings> grid = settings_grid(solver, size);
       CHECK(grid.size() >= 2);
       for (const Settings &settings : grid) {
         CHECK_NOTHROW(validate(settings));
-        CHECK(settings.solver == solver);
+        CHECK(name_of(settings.solver) == solver);
         CHECK(std::exp2(std::round(std::log2(settings.step / base_step))) * base_step == settings.step);
       }
     }
@@ -267,9 +267,10 @@ TEST_CASE("report: errors taken over from another backend are those that it woul
   const double duration = 0.2;
   const Truth truth = find_truth(scene, duration, 8);
   for (const char *solver : {"soft-step", "direct"}) {
-    const Run observed = run_experiment(scene, duration, truth, settings_for(solver), "tbb:lanes=4");
+    const Run observed =
+        run_experiment(scene, duration, truth, settings_for(parse_setting<Solver>(solver)), "tbb:lanes=4");
     const Run timed = time_experiment(scene, duration, truth, observed, "serial"),
-              own = run_experiment(scene, duration, truth, settings_for(solver), "serial");
+              own = run_experiment(scene, duration, truth, settings_for(parse_setting<Solver>(solver)), "serial");
     INFO(solver << " " << timed.failure);
     CHECK(timed.backend == "serial");
     CHECK(timed.observed_on == "tbb:lanes=4");
@@ -293,7 +294,7 @@ TEST_CASE("report: the reference is observed by itself, for its bits are its own
 {
   const Scene scene = load_scene("incline");
   const Truth truth = find_truth(scene, 0.1, 8);
-  const Run observed = run_experiment(scene, 0.1, truth, settings_for("soft-step"), "serial");
+  const Run observed = run_experiment(scene, 0.1, truth, Settings{}, "serial");
   const Run reference = time_experiment(scene, 0.1, truth, observed, "reference");
   CHECK(reference.observed_on == "reference");
   CHECK_FALSE(reference.unequal);
@@ -302,8 +303,7 @@ TEST_CASE("report: the reference is observed by itself, for its bits are its own
 
 TEST_CASE("report: a scene too large for a truth is judged by what needs none", "[report]")
 {
-  const Run run =
-      run_experiment(load_scene("box-grid:nx=2,ny=2,nz=2"), 0.2, Truth{}, settings_for("soft-step"), "serial");
+  const Run run = run_experiment(load_scene("box-grid:nx=2,ny=2,nz=2"), 0.2, Truth{}, Settings{}, "serial");
   CHECK(run.failure.empty());
   CHECK(run.steps == 12);
   CHECK(run.error(Metric::max_penetration) > 0);

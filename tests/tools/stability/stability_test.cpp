@@ -33,7 +33,7 @@ const Case &case_named(const std::string &name)
 
 Outcome run(const std::string &name, Trial trial)
 {
-  return run_trial(name, trial, solver_names().front(), Placement{"serial", {}, false});
+  return run_trial(name, trial, choice_names<Solver>().front(), Placement{"serial", {}, false});
 }
 Outcome run(const std::string &name, Length length = Length::quick)
 {
@@ -112,7 +112,7 @@ Results run_group(const std::string &group, bool long_ones)
   Batch batch;
   for (const Case *each : cases_of(group))
     if (is_long(*each) == long_ones) batch.cases.push_back(each);
-  batch.solvers = {solver_names().front()};
+  batch.solvers = {choice_names<Solver>().front()};
   batch.placement = {"tbb:threads=2", {}, false};
   batch.length = long_ones ? Length::quick : Length::full;
   batch.at_once = 2;
@@ -214,7 +214,7 @@ TEST_CASE("stability: the list of bounds says which are loose, and where a figur
 /* Its substeps too: with those of the defaults the twin of a solver that has one substep was another motion. */
 TEST_CASE("stability: the twin of a far scene moves as the settings of the trial say", "[stability]")
 {
-  for (const std::string &solver : solver_names()) {
+  for (const std::string &solver : choice_names<Solver>()) {
     const Outcome outcome =
         run_trial("far", case_named("far-20-km").build(Length::quick), solver, Placement{"serial", {}, false});
     INFO(solver << ": " << outcome.headline.figure << " m, bound " << outcome.headline.bound.value);
@@ -256,7 +256,7 @@ TEST_CASE("stability: figures of movers notice one that is let through, slowed o
 
 TEST_CASE("stability: what passes only as documented counts apart, and shows what failed by default", "[stability]")
 {
-  const std::string solver = solver_names().front();
+  const std::string solver = choice_names<Solver>().front();
   Results results{"serial", {solver}, Length::quick, {}};
   for (const char *name : {"heavy-on-light-10", "heavy-on-light-1000", "doubling-up", "incline"}) {
     const Case &which = case_named(name);
@@ -477,7 +477,7 @@ TEST_CASE("stability: documented settings are tried only where the default ones 
       }
       return trial;
     };
-    return run_case(made, Length::quick, solver_names().front(), Placement{"serial", {}, false});
+    return run_case(made, Length::quick, choice_names<Solver>().front(), Placement{"serial", {}, false});
   };
   CHECK(with_bound(1, true).pass() == Pass::by_default);
   CHECK(with_bound(1, true).settings == "default");
@@ -495,7 +495,7 @@ TEST_CASE("stability: documented settings are tried only where the default ones 
 
 TEST_CASE("stability: a documented solver is tried where the default solver fails, and nowhere else", "[stability]")
 {
-  const std::string standard = solver_names().front();
+  const std::string standard = choice_names<Solver>().front();
   const auto depth = [](const std::string &solver, const std::string &documented) {
     Case made{"doubled", "test", "a column that doubles", "carried", {}};
     made.build = [=](Length length) {
@@ -574,7 +574,7 @@ TEST_CASE("stability: theory of the top and of the flip", "[stability]")
 
 TEST_CASE("stability: the page and the JSON hold every case", "[stability]")
 {
-  Results results{"serial", {solver_names().front()}, Length::brief, {}};
+  Results results{"serial", {choice_names<Solver>().front()}, Length::brief, {}};
   for (const char *name : {"heavy-on-light-10", "boxes-in-one-place", "far-1000-km"}) {
     results.add(case_named(name), case_named(name).build(Length::brief).scene,
                 run_case(case_named(name), Length::brief, results.solvers.front(), {}), results.results.size());
@@ -638,8 +638,8 @@ TEST_CASE("stability: every case ends in the same bits on serial and tbb", "[sta
   std::set<std::string> groups;
   for (const Case &each : all_cases()) {
     const bool first = groups.insert(each.group).second;
-    for (const std::string &solver : solver_names()) {
-      if (!first && solver != solver_names().front()) continue;
+    for (const std::string &solver : choice_names<Solver>()) {
+      if (!first && solver != choice_names<Solver>().front()) continue;
       INFO(each.name << " " << solver);
       const Outcome serial = run_trial(each.name, each.build(Length::brief), solver, Placement{"serial", {}, false});
       const Outcome lanes = run_trial(each.name, each.build(Length::brief), solver, Placement{"tbb", {}, false});

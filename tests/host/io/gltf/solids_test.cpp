@@ -189,7 +189,7 @@ TEST_CASE("planes with an end are meshes, of one side or two")
   const Scene one = plane(""), both = plane(R"(,"doubleSided":true)");
   CHECK(one.shapes[0].mesh->triangles.size() == 2);
   CHECK(both.shapes[0].mesh->triangles.size() == 4);
-  const Bounds bounds = bounds_of(one.shapes[0].mesh->vertices);
+  const AxisAlignedBox bounds = bounds_of(one.shapes[0].mesh->vertices);
   CHECK((bounds.lower == Vec3{-4, 0, -9} && bounds.upper == Vec3{4, 0, 9}));
   CHECK(plane("", R"("motion":{"isKinematic":true,"linearVelocity":[0,1,0]},)").bodies[0].motion == Motion::kinematic);
 }

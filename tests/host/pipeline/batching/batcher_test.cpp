@@ -16,7 +16,7 @@ using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
-Settings batched_by(const std::string &batching)
+Settings batched_by(Batching batching)
 {
   Settings settings;
   settings.batching = batching;
@@ -113,7 +113,7 @@ Scene slab_on_hundreds()
 
 TEST_CASE("batching: no conflict whatever the sizes of bodies and the number of their contacts")
 {
-  const std::string batching = GENERATE(from_range(batching_names()));
+  const Batching batching = GENERATE(from_range(choices<Batching>()));
   CAPTURE(batching);
   World sizes(sizes_from_1_to_100(), batched_by(batching));
   run(sizes, 20);
@@ -133,7 +133,7 @@ TEST_CASE("batching: no conflict whatever the sizes of bodies and the number of 
 
 TEST_CASE("batching: sequential and single-group are the batches of the talk")
 {
-  const std::string batching = GENERATE("sequential", "single-group");
+  const Batching batching = GENERATE(Batching::sequential, Batching::single_group);
   for (const char *scene : {"mixed:n=150", "box-grid:nx=5,ny=5,nz=5", "pyramid-2d:n=500"}) {
     World world(load_scene(scene), batched_by(batching));
     run(world, 50);
@@ -153,7 +153,7 @@ TEST_CASE("batching: pyramid-2d has the talk's 31,602 contacts, and the oracle's
     world.step();
     CHECK(Contacts(world).touching() == pyramid_2d_contacts(uint64_t(n)));
   }
-  World world(load_scene("pyramid-2d"), batched_by("sequential"));
+  World world(load_scene("pyramid-2d"), batched_by(Batching::sequential));
   world.step();
   const Contacts contacts(world);
   const std::vector<uint32_t> sizes = contacts.sizes();
@@ -165,7 +165,7 @@ TEST_CASE("batching: pyramid-2d has the talk's 31,602 contacts, and the oracle's
 TEST_CASE("batching: talk-3d has the talk's 3,008 boxes, and the oracle's batches")
 {
   CHECK(load_scene("talk-3d").bodies.size() == 3008 + 1);
-  World world(load_scene("talk-3d:ny=6"), batched_by("sequential"));
+  World world(load_scene("talk-3d:ny=6"), batched_by(Batching::sequential));
   run(world, 70);
   const Contacts contacts(world);
   CHECK(contacts.touching() > 100);
@@ -175,7 +175,8 @@ TEST_CASE("batching: talk-3d has the talk's 3,008 boxes, and the oracle's batche
 /* The same contacts, reached in ten steps and in none. */
 TEST_CASE("batching: batches but for kept colours follow from the contacts alone")
 {
-  const std::string batching = GENERATE("sequential", "single-group", "iterative", "two-stage");
+  const Batching batching =
+      GENERATE(Batching::sequential, Batching::single_group, Batching::iterative, Batching::two_stage);
   const Scene scene = load_scene("pyramid-2d:n=300");
   World world(scene, batched_by(batching)), fresh(scene, batched_by(batching));
   run(world, 10);
@@ -196,7 +197,7 @@ TEST_CASE("batching: batches but for kept colours follow from the contacts alone
 TEST_CASE("batching: the check finds and names a planted conflict")
 {
   const std::string backend = GENERATE("serial", "serial:order=backward", "tbb:threads=7,lanes=8");
-  World world(load_scene("box-stack:n=10,height=10"), batched_by("sequential"), {backend, {}});
+  World world(load_scene("box-stack:n=10,height=10"), batched_by(Batching::sequential), {backend, {}});
   world.step();
   REQUIRE_FALSE(world.batch_fault());
   world.set_observer([&](const Launch &launch) {
@@ -222,7 +223,7 @@ TEST_CASE("batching: the check finds and names a planted conflict")
 
 TEST_CASE("batching: the check finds a contact that no batch holds")
 {
-  World world(load_scene("pyramid:rows=5,gap=0.01"), batched_by("iterative"));
+  World world(load_scene("pyramid:rows=5,gap=0.01"), batched_by(Batching::iterative));
   world.step();
   REQUIRE_FALSE(world.batch_fault());
   size_t at = 0;

@@ -19,7 +19,7 @@ struct Case {
   const char *what;
 };
 
-inline Settings with(const char *solver, const char *broadphase, bool events)
+inline Settings with(Solver solver, Broadphase broadphase, bool events)
 {
   Settings settings = settings_for(solver);
   settings.broadphase = broadphase;
@@ -31,11 +31,12 @@ inline Settings with(const char *solver, const char *broadphase, bool events)
 /* Every way of keeping something from step to step. */
 inline std::vector<Case> cases()
 {
-  return {{"box-grid:nx=2,ny=2,nz=2", with("soft-step", "grid", true), "boxes, events"},
-          {"box-grid:nx=2,ny=2,nz=2", with("xpbd", "trees", false), "slip, kept trees"},
-          {"box-grid:nx=2,ny=2,nz=2", with("avbd", "sap3", false), "penalties, kept ends"},
-          {"compounds:n=4", with("soft-step", "bvh", true), "normals, kept hierarchy"},
-          {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", with("pgs", "hybrid", false), "rolling friction"}};
+  return {{"box-grid:nx=2,ny=2,nz=2", with(Solver::soft_step, Broadphase::grid, true), "boxes, events"},
+          {"box-grid:nx=2,ny=2,nz=2", with(Solver::xpbd, Broadphase::trees, false), "slip, kept trees"},
+          {"box-grid:nx=2,ny=2,nz=2", with(Solver::avbd, Broadphase::sap3, false), "penalties, kept ends"},
+          {"compounds:n=4", with(Solver::soft_step, Broadphase::bvh, true), "normals, kept hierarchy"},
+          {TANDEM_SOURCE_DIR "/tests/scenes/rolling_balls.json", with(Solver::pgs, Broadphase::hybrid, false),
+           "rolling friction"}};
 }
 
 /* Room for few pairs at first makes a scene of 52 spheres in one place grow. */

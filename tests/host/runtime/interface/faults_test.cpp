@@ -198,8 +198,8 @@ TEST_CASE("a step that fails anywhere on the CPU leaves the state as it was, and
 
 TEST_CASE("a step that fails while its buffers grow leaves the state as it was", "[sanitizer]")
 {
-  for (const char *broadphase : {"grid", "trees", "sap3"}) {
-    Settings settings = with("soft-step", broadphase, true);
+  for (const Broadphase broadphase : {Broadphase::grid, Broadphase::trees, Broadphase::sap3}) {
+    Settings settings = with(Solver::soft_step, broadphase, true);
     settings.substeps = 1;
     fail_everywhere_in_step(crowd(52), settings, Placement{"serial", {}, false}, 0, 131, true);
     fail_everywhere_in_step(crowd(52), settings, Placement{"tbb:threads=2", {}, false}, 0, 311, false);
@@ -284,7 +284,7 @@ TEST_CASE("a step that fails on an OpenCL device leaves the state as it was, and
 TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
 {
   parity::require_pocl();
-  const Settings settings = with("soft-step", "grid", true);
+  const Settings settings = with(Solver::soft_step, Broadphase::grid, true);
   const std::vector<uint64_t> undisturbed = hashes_of(crowd(52), settings, Placement{"serial", {}, false}, 1);
   for (const bool shares : {true, false}) {
     const std::unique_ptr<World> world = world_on_pocl(crowd(52), settings, shares);

@@ -1,0 +1,57 @@
+/* setting_rows.h - the tables behind the choices of settings: names, help, parsing and messages all follow from them.
+ *
+ * One row a choice, in the order of its enum; solvers, broadphases and batchers have theirs beside their files. Where a
+ * setting reaches kernels its rows say by which code (shared/body_codes.h). */
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+
+#include <tandem/settings.h>
+
+namespace tandem {
+
+/* For the tables: a row is found by its place. */
+template <class Row, size_t count> consteval bool are_in_order(const Row (&rows)[count])
+{
+  for (size_t k = 0; k < count; ++k)
+    if (static_cast<size_t>(rows[k].choice) != k) return false;
+  return true;
+}
+
+/* std::logic_error if there is none: settings are validated. */
+template <class Row, class T> const Row &row_in(std::span<const Row> rows, T choice)
+{
+  if (static_cast<size_t>(choice) >= rows.size()) throw std::logic_error("a setting is none of the values of its enum");
+  return rows[static_cast<size_t>(choice)];
+}
+
+struct BoundsRow {
+  Bounds choice;
+  const char *name;
+};
+
+struct MidphaseRow {
+  Midphase choice;
+  const char *name;
+};
+
+struct NarrowphaseRow {
+  Narrowphase choice;
+  const char *name;
+  uint32_t code; /* CONVEX_ */
+};
+
+struct SupportRow {
+  Support choice;
+  const char *name;
+  uint32_t code; /* SUPPORT_ */
+};
+
+/* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */
+TANDEM_API uint32_t narrowphase_method(const Settings &settings);
+uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
+
+} // namespace tandem

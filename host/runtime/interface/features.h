@@ -1,0 +1,21 @@
+/* features.h - the rows of features.def as sets of one, FEATURE_TREES, which the host tests and unites. */
+#pragma once
+
+#include <limits>
+
+#include <tandem/features.h>
+
+#include "shared/features.h"
+
+namespace tandem {
+
+static_assert(FEATURE_COUNT <= std::numeric_limits<Features>::digits, "Parameters and Features hold a bit a feature");
+
+constexpr Features feature_of_index(int index) { return Features{1} << index; }
+
+constexpr Features FEATURE_ALWAYS = 0;
+#define FEATURE(name, what) constexpr Features FEATURE_##name = feature_of_index(FEATURE_INDEX_##name);
+#include "shared/features.def"
+#undef FEATURE
+
+} // namespace tandem
