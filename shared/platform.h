@@ -30,6 +30,7 @@
 #define LOCAL __local
 #define CONSTANT_TABLE __constant
 #define SHARED static inline
+#define FORCE_INLINE static inline
 typedef float4 row;
 
 #define ATOMIC_ADD(pointer, value) atomic_add((pointer), (value))
@@ -56,6 +57,14 @@ typedef unsigned short half_word;
 #define LOCAL
 #define CONSTANT_TABLE
 #define SHARED static inline
+/* Optimised builds copy such a function into each kernel that calls it, as devices do: what a kernel passes as a
+ * constant costs nothing then, and what a search keeps stays in registers. For gdb, in a debug build, it is a function
+ * like any other. */
+#ifdef __OPTIMIZE__
+#define FORCE_INLINE static inline __attribute__((always_inline))
+#else
+#define FORCE_INLINE static inline
+#endif
 #ifndef TANDEM_SCALAR_TYPES
 #define TANDEM_SCALAR_TYPES
 typedef uint32_t uint;

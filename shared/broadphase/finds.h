@@ -16,14 +16,6 @@
 
 #define FINDS_KEPT 8u
 
-/* Optimised builds of the CPU copy a search into both of its kernels, as devices do: what a kernel passes as a constant
- * then costs nothing, and the box of the body stays in registers. For gdb, in a debug build, it is a function. */
-#if defined(__OPTIMIZE__) && !defined(__OPENCL_C_VERSION__) && !defined(__OPENCL_VERSION__)
-#define SEARCH static inline __attribute__((always_inline))
-#else
-#define SEARCH SHARED
-#endif
-
 /* --- who searches ---------------------------------------------------------------------------------------- */
 
 /* The body of item i: one of the first bodies, or one of the others in their sorted order. Neighbours in the launch are
@@ -42,19 +34,19 @@ typedef struct {
   box_bounds box;
 } pair_search;
 
-SEARCH pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+FORCE_INLINE pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
                                   GLOBAL const uint *body_filter, GLOBAL const row *bounds, uint body)
 {
   pair_search search = {parameters, body_traits, body_filter, bounds, body, load_bounds(bounds, body)};
   return search;
 }
 
-SEARCH mask may_meet(const pair_search *search, uint other)
+FORCE_INLINE mask may_meet(const pair_search *search, uint other)
 {
   return pair_allowed(search->parameters, search->body_traits, search->body_filter, search->body, other);
 }
 
-SEARCH mask meets(const pair_search *search, uint other)
+FORCE_INLINE mask meets(const pair_search *search, uint other)
 {
   return bounds_overlap(search->box, load_bounds(search->bounds, other)) && may_meet(search, other);
 }
@@ -105,7 +97,7 @@ SHARED ulong key_of_pair(uint one, uint other)
 }
 
 /* Every search reports its pairs here. at: the place of this find; returns that of the next. */
-SEARCH uint add_find(const find_list *list, uint at, uint body, uint other)
+FORCE_INLINE uint add_find(const find_list *list, uint at, uint body, uint other)
 {
   if (at < list->capacity) {
     if (list->kind == (uint)FINDS_AS_KEYS) list->keys[at] = key_of_pair(body, other);
@@ -116,7 +108,7 @@ SEARCH uint add_find(const find_list *list, uint at, uint body, uint other)
 }
 
 /* The bodies below `end` come first of all, and are tested one by one: half-spaces and large bodies. */
-SEARCH uint find_among_first(const pair_search *search, uint end, const find_list *list, uint at)
+FORCE_INLINE uint find_among_first(const pair_search *search, uint end, const find_list *list, uint at)
 {
   for (uint b = 0u; b < end && b < search->body; ++b)
     if (meets(search, b)) at = add_find(list, at, search->body, b);

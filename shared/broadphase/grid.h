@@ -91,7 +91,7 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
 }
 
 /* Finds the bodies before the searching one in a range of the sorted list. */
-SEARCH uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
+FORCE_INLINE uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
                           const find_list *list, uint at)
 {
   for (; cells.at < cells.end; ++cells.at) {
@@ -102,7 +102,7 @@ SEARCH uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_val
 }
 
 /* Finds the bodies before the searching one in its own cell and in the 26 around it. */
-SEARCH uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   grid_cell c = cell_of(grid, counts, search->box);
@@ -114,7 +114,7 @@ SEARCH uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBA
 }
 
 /* Finds every body before the searching one; large ones come first. */
-SEARCH uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+FORCE_INLINE uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
                         GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];

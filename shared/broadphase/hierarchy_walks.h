@@ -101,13 +101,13 @@ SHARED uint next_by_history(const pair_search *search, const searched_tree *tree
 SHARED real before_body(uint body) { return lowest_as_real(body) + (body < 16777216u ? R(0.0) : R(256.0)); }
 
 /* Reports the body of a leaf whose box is hit. */
-SEARCH uint add_leaf(const pair_search *search, uint b, uint before, const find_list *list, uint at)
+FORCE_INLINE uint add_leaf(const pair_search *search, uint b, uint before, const find_list *list, uint at)
 {
   return b < before && may_meet(search, b) ? add_find(list, at, search->body, b) : at;
 }
 
 /* Each of the three reports the bodies below number `before`, leaf by leaf along the curve. */
-SEARCH uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+FORCE_INLINE uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                              uint root, uint before, const find_list *list, uint at)
 {
   uint next = root;
@@ -116,7 +116,7 @@ SEARCH uint find_by_skipping(const pair_search *search, const searched_tree *tre
     at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
   return at;
 }
-SEARCH uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+FORCE_INLINE uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                             uint root, uint before, const find_list *list, uint at)
 {
   slot_stack stack;
@@ -127,7 +127,7 @@ SEARCH uint find_from_stack(const pair_search *search, const searched_tree *tree
     at = add_leaf(search, leaf_body[leaf / 2u], before, list, at);
   return at;
 }
-SEARCH uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
+FORCE_INLINE uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                             uint root, uint before, const find_list *list, uint at)
 {
   history past = {root, 0u, 0u};
@@ -138,7 +138,7 @@ SEARCH uint find_by_history(const pair_search *search, const searched_tree *tree
 }
 
 /* Finds every body before the searching one; those without bounds come first. */
-SEARCH uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+FORCE_INLINE uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                              uint walk, const find_list *list, uint at)
 {
   uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;

@@ -32,7 +32,7 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
 
 /* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the one of the higher number
  * finds the pair, so that it is found once. */
-SEARCH uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
+FORCE_INLINE uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
                               read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
                               uint at)
 {
@@ -48,7 +48,7 @@ SEARCH uint find_among_leaves(const pair_search *search, GLOBAL const uint *body
 }
 
 /* The pairs that the searching body finds. Its box and those of the others are fat. */
-SEARCH uint search_near(const pair_search *search, GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
+FORCE_INLINE uint search_near(const pair_search *search, GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
                         GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint i = search->body, large = counts[COUNT_LARGE];
@@ -107,7 +107,7 @@ SHARED near_list near_list_of(GLOBAL const uint *near_start, GLOBAL const uint *
 }
 
 /* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
-SEARCH uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, near_list kept,
+FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, near_list kept,
                        GLOBAL const uint *counts, uint a, const find_list *list, uint at)
 {
   uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);

@@ -75,7 +75,7 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
 
 /* Finds the large bodies before the searching one, which is that of item i, and the small ones that start within its
  * interval. */
-SEARCH uint search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
+FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
                            GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
                            uint i, const find_list *list, uint at)
 {
