@@ -6,6 +6,8 @@
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
+#include "shared/body_codes.h"
+
 /* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). */
 #define COLOR_LIMIT 63u
 #define COLOR_TAIL 63u      /* sort key of a constraint without a colour of its own */
@@ -84,7 +86,9 @@ enum {
   COUNT_FIRST_MISBATCHED,
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
-  BODY_COLOR_START,  /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  KIND_START,        /* where the pairs of each kind start in pair_of_kind, and where the last of them end */
+  BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1, /* as COLOR_START, for the colours of bodies: ranges of the
+                                                         bodies sorted by colour */
   COLOR_START =
       BODY_COLOR_START + 63 + 2, /* COLOR_LIMIT + 2 entries: where each colour starts, the tail's start and end */
   COUNT_TOTAL = COLOR_START + 63 + 2
