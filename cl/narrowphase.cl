@@ -9,6 +9,7 @@
 #include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_convexes.h"
 #include "shared/narrowphase/limit_motion.h"
+#include "shared/narrowphase/list_pairs.h"
 #include "shared/narrowphase/sat_split.h"
 
 ENTRIES(narrowphase)

@@ -192,3 +192,9 @@ SHARED void store_row_if(mask m, row *to, item_index i, vec4 value)
   if (all_of(m)) store_row(to, i, value);
   else store_row_if(m, to, natural(i), value);
 }
+SHARED void store_listed_row_if(mask m, row *to, natural i, vec4 value)
+{
+  const item_index run{i.v[0]};
+  if (all_of(m & (i == natural(run)))) store_row(to, run, value);
+  else store_row_if(m, to, i, value);
+}

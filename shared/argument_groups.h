@@ -139,10 +139,22 @@ typedef struct {
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)
 
+/* The same as a kernel of the narrowphase finds them: narrowphase/pair_lists.h. */
+#define GROUP_listed_pairs(BUFFER)                                                                                     \
+  BUFFER(pair_a, uint, a)                                                                                              \
+  BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_of_kind, uint, of_kind)
+
 /* With the child or triangle of each body that takes part. */
 #define GROUP_part_pairs(BUFFER)                                                                                       \
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_leaf, uint, leaf)
+
+#define GROUP_listed_part_pairs(BUFFER)                                                                                \
+  BUFFER(pair_a, uint, a)                                                                                              \
+  BUFFER(pair_b, uint, b)                                                                                              \
+  BUFFER(pair_of_kind, uint, of_kind)                                                                                  \
   BUFFER(pair_leaf, uint, leaf)
 
 /* What the midphase makes of pairs of bodies; part_pairs from then on. */
@@ -164,8 +176,14 @@ typedef struct {
   GROUP_pairs(WRITE_MEMBER)
 } write_pairs;
 typedef struct {
+  GROUP_listed_pairs(READ_MEMBER)
+} read_listed_pairs;
+typedef struct {
   GROUP_part_pairs(READ_MEMBER)
 } read_part_pairs;
+typedef struct {
+  GROUP_listed_part_pairs(READ_MEMBER)
+} read_listed_part_pairs;
 typedef struct {
   GROUP_pairs_of_leaves(WRITE_MEMBER)
 } write_pairs_of_leaves;

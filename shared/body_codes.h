@@ -29,6 +29,14 @@ enum { TRAIT_TRIGGER = 1 << 5 };
 #define TRAIT_CONTINUOUS (1u << 30u)
 #define MOST_MATERIALS (1u << 20u)
 
+/* Kinds of pairs, from the rows of pairs.def: which kernel of the narrowphase finds their contacts. */
+enum {
+#define PAIR(kind, first, second, kernel, follower, what) PAIR_KIND_##kind,
+#include "shared/pairs.def"
+#undef PAIR
+  PAIR_KIND_NONE /* how many there are, and what two half-spaces are */
+};
+
 /* In body_share: all of a motion, as whole numbers count it. */
 #define WHOLE_MOTION (1u << 24u)
 /* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex

@@ -6,6 +6,8 @@
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
+#include "shared/body_codes.h"
+
 /* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). Two words hold a bit for
  * each and one for the tail. */
 #define COLOR_LIMIT 63u
@@ -90,7 +92,9 @@ enum {
   COUNT_FIRST_MISBATCHED,
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
-  BODY_COLOR_START,  /* as COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour */
+  KIND_START,        /* where the pairs of each kind start in pair_of_kind, and where the last of them end */
+  /* As COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour. */
+  BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,
   COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,
   COUNT_TOTAL = COLOR_START + COLOR_ENTRIES
 };

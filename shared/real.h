@@ -7,7 +7,8 @@
  *   item_index               which item (lanes: the first of a run of items, so that memory is read in order);
  *                            plus a uint it stays one, anything else makes it a natural
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
- *   load*, store*, *_if      memory by item index; _if writes only where the mask holds
+ *   load*, store*, *_if      memory by item index; _if writes only where the mask holds; listed: by an index from a
+ *                            list, where lanes mostly are neighbours in memory
  */
 #ifndef TANDEM_SHARED_REAL_H
 #define TANDEM_SHARED_REAL_H
@@ -90,6 +91,7 @@ SHARED void store_row_if(mask m, GLOBAL row *to, natural i, vec4 v)
 {
   if (m) store_row(to, i, v);
 }
+SHARED void store_listed_row_if(mask m, GLOBAL row *to, natural i, vec4 v) { store_row_if(m, to, i, v); }
 
 #endif /* TANDEM_LANES */
 

@@ -12,6 +12,8 @@
 #define BOUNDLESS R(1e30)
 
 SHARED natural shape_of(natural traits) { return traits & 7u; }
+/* Shapes that body_convex and body_shape_pose tell more of: neither sphere, box nor half-space, or no plain one. */
+SHARED mask is_general_shape(natural shape) { return shape > (uint)SHAPE_HALF_SPACE; }
 SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
 SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
 SHARED natural material_of(natural traits) { return (traits >> 8u) & (MOST_MATERIALS - 1u); }

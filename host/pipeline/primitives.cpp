@@ -98,6 +98,12 @@ void exclusive_scan(Launcher &launcher, Buffer in, Buffer out, Buffer sums, uint
   scan_words(launcher, in, out, sums, {length, 1, 1, capacity});
 }
 
+void scan_table(Launcher &launcher, Buffer table, Buffer sums, uint32_t length, uint32_t unit, uint32_t per_unit,
+                uint32_t capacity)
+{
+  scan_words(launcher, table, table, sums, {length, unit, per_unit, units(capacity, unit) * per_unit});
+}
+
 size_t histogram_words(size_t capacity) { return size_t{units(capacity, SORT_TILE)} * SORT_DIGITS + 1; }
 
 void sort_keys(Launcher &launcher, Buffer keys, Buffer other_keys, Buffer histogram, Buffer sums, uint32_t length,

@@ -19,6 +19,11 @@ namespace tandem {
 void exclusive_scan(Launcher &launcher, Buffer in, Buffer out, Buffer sums, uint32_t length, uint32_t capacity);
 size_t scan_sum_words(size_t capacity);
 
+/* The same in place, of a table with per_unit words for each `unit` items, of which there are counts[length]: as many
+ * words as items at most. */
+void scan_table(Launcher &launcher, Buffer table, Buffer sums, uint32_t length, uint32_t unit, uint32_t per_unit,
+                uint32_t capacity);
+
 /* Stable ascending sort by bits first_bit .. last_bit - 1 of the key. The result is in keys and values; the other
  * buffers, of equal sizes, are scratch. histogram: histogram_words(capacity) words; sums:
  * scan_sum_words(histogram_words(capacity)) words. */

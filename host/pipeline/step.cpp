@@ -9,10 +9,12 @@
 
 #include "host/pipeline/batching/batcher.h"
 #include "host/pipeline/broadphases/broadphase.h"
+#include "host/pipeline/pair_lists.h"
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "host/pipeline/step_launches.h"
+#include "host/runtime/interface/pair_tests.h"
 #include "shared/body_codes.h"
 #include "shared/midphase/pair_groups.h"
 
@@ -83,27 +85,30 @@ private:
     run(Kernel::drop_grazing);
   }
 
-  /* The matrix of shape pairs; a gap is a pair that the scene does not have. */
+  /* The matrix of shape pairs (shared/pairs.def), as far as the scene has them. */
   void find_contacts()
   {
-    if (has(FEATURE_SPHERE_SPHERE)) run(Kernel::collide_sphere_sphere);
-    if (has(FEATURE_SPHERE_BOX)) run(Kernel::collide_sphere_box);
-    if (has(FEATURE_BOX_BOX)) run(Kernel::collide_box_box);
-    if (has(FEATURE_BOX_BOX)) run_pair_groups(Kernel::follow_boxes, FOLLOW_PAIRS);
-    if (has(FEATURE_SPHERE_HALF_SPACE)) run(Kernel::collide_sphere_half_space);
-    if (has(FEATURE_BOX_HALF_SPACE)) run(Kernel::collide_box_half_space);
-    if (has(FEATURE_CONVEX)) collide_convexes(narrowphase_method(settings()));
-    if (has(FEATURE_CONVEX_HALF_SPACE)) run(Kernel::collide_convex_half_space);
+    if (has(FEATURE_PAIR_KINDS)) list_pairs(launcher(), plan().capacity_pairs);
+    for (const PairTest &test : pair_tests)
+      if (has(test.feature)) {
+        if (test.kernel == Kernel::collide_convex && settings().narrowphase == Narrowphase::sat_split) split_sat(test);
+        else collide(test.kernel, test.kind);
+        if (test.follower) collide(*test.follower, test.kind);
+      }
   }
 
-  void collide_convexes(uint32_t method)
+  void split_sat(const PairTest &test)
   {
-    if (settings().narrowphase == Narrowphase::sat_split)
-      for (Kernel kernel :
-           {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts})
-        run(kernel, {method});
-    else run(Kernel::collide_convex, {method});
-    run(Kernel::follow_convexes, {method});
+    for (const Kernel kernel :
+         {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts})
+      collide(kernel, test.kind);
+  }
+
+  /* Where a kernel is told how convex shapes meet, it has a value for it. */
+  void collide(Kernel kernel, uint32_t kind)
+  {
+    const bool takes_method = row_of(kernel).arguments.back().kind == Argument::Kind::value;
+    run_pairs(kernel, kind, takes_method ? Values{narrowphase_method(settings())} : Values{});
   }
 
   void color_contacts()
@@ -120,7 +125,7 @@ private:
   void keep_out_of_walls()
   {
     run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_MOTION}, {Buffer::body_share});
-    run(Kernel::limit_motion);
+    run_pairs(Kernel::limit_motion, PAIR_KIND_CONVEX_CONVEX, PAIR_KIND_CONVEX_HALF_SPACE, {});
     run(Kernel::stop_motion);
   }
 

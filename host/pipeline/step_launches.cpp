@@ -10,6 +10,7 @@
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/scene_counts.h"
 #include "shared/broadphase/sweep_limits.h"
+#include "shared/midphase/pair_groups.h"
 
 namespace tandem {
 
@@ -29,6 +30,22 @@ void StepLaunches::run_range(Kernel kernel, uint32_t first, uint32_t last, const
 void StepLaunches::run_at_most(Kernel kernel, uint32_t most, const Values &values, const Slots &slots)
 {
   launcher_.launch({kernel, slots, values, COUNT_ZERO, row_of(kernel).items, most});
+}
+
+void StepLaunches::run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values)
+{
+  run_pairs(kernel, pair_kind, pair_kind, values);
+}
+
+void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind,
+                             const Values &values)
+{
+  const bool listed = has(FEATURE_PAIR_KINDS);
+  const uint32_t first = listed ? KIND_START + first_kind : uint32_t{COUNT_ZERO};
+  const uint32_t last = listed ? KIND_START + last_kind + 1 : uint32_t{COUNT_PAIRS};
+  const uint32_t expected = row_of(kernel).form == Form::group ? pair_group_items(plan_.capacity_pairs, FOLLOW_PAIRS)
+                                                               : plan_.known[last] - plan_.known[first];
+  launcher_.launch({kernel, {}, values, first, last, expected});
 }
 
 void StepLaunches::for_each_color(Kernel kernel, const Values &values)

@@ -24,6 +24,10 @@ public:
   void run_range(Kernel kernel, uint32_t first, uint32_t last, const Values &values = {}, const Slots &slots = {});
   /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
   void run_at_most(Kernel kernel, uint32_t most, const Values &values = {}, const Slots &slots = {});
+  /* A kernel over the pairs of its kind: their list, or all pairs where the scene has no lists. */
+  void run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values = {});
+  /* The same, over those of kinds that follow each other. */
+  void run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values);
   /* One launch a colour of constraints; those without a colour of their own are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});

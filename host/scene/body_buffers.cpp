@@ -70,9 +70,7 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
 
 uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
 {
-  const uint32_t shape =
-      is_general(scene, *placed.body) ? uint32_t{SHAPE_OTHER} : static_cast<uint32_t>(placed.shape->type);
-  return shape | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 |
+  return shape_code(scene, *placed.body) | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 |
          (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
          (placed.body->continuous ? uint32_t{TRAIT_CONTINUOUS} : 0u);
 }

@@ -7,21 +7,43 @@
 #include <tandem/settings.h>
 
 #include "host/runtime/interface/features.h"
+#include "host/runtime/interface/pair_tests.h"
 #include "host/scene/shape_bounds.h"
+#include "shared/body_codes.h"
+#include "shared/pair_kinds.h"
 
 namespace tandem {
 namespace {
 
 bool is_dynamic(const Body &body) { return body.motion == Motion::dynamic; }
 
+bool is_posed(const Body &body)
+{
+  return body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
+}
+
+/* Whether a row of pairs.def names the shape. */
+bool has_test_of_its_own(uint32_t code)
+{
+#define GENERAL_PAIR(kind, first, second, kernel, follower, what)
+#define PAIR(kind, first, second, kernel, follower, what) \
+  if (code == SHAPE_##first || code == SHAPE_##second) return true;
+#include "shared/pairs.def"
+#undef PAIR
+#undef GENERAL_PAIR
+  return false;
+}
+
 bool has_triggers(const Scene &scene)
 {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.trigger; });
 }
 
+constexpr uint32_t shape_codes = 8; /* of body_traits */
+
 struct Presence {
-  bool fixed[3] = {};   /* by shape type: bodies that cannot be moved */
-  bool dynamic[3] = {}; /* where there are triggers, kinematic ones too: they meet fixed triggers */
+  bool fixed[shape_codes] = {};   /* by shape: bodies that cannot be moved */
+  bool dynamic[shape_codes] = {}; /* where there are triggers, kinematic ones too: they meet fixed triggers */
 };
 
 Presence presence_of(const Scene &scene)
@@ -29,10 +51,8 @@ Presence presence_of(const Scene &scene)
   Presence present;
   const bool triggers = has_triggers(scene);
   for (const Body &body : scene.bodies) {
-    const auto type = static_cast<size_t>(scene.shapes[body.shape].type);
-    if (is_general(scene, body)) continue;
     const bool moves = is_dynamic(body) || (triggers && body.motion == Motion::kinematic);
-    (moves ? present.dynamic : present.fixed)[type] = true;
+    (moves ? present.dynamic : present.fixed)[shape_code(scene, body)] = true;
   }
   return present;
 }
@@ -57,7 +77,6 @@ Features convex_features(const Scene &scene)
       std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body &body) { return is_general(scene, body); });
   if (!general) return 0;
   Features features = FEATURE_CONVEX;
-  if (any_shape(scene, {ShapeType::half_space})) features |= FEATURE_CONVEX_HALF_SPACE;
   if (any_shape(scene, {ShapeType::hull})) features |= FEATURE_HULL;
   if (any_shape(scene, {ShapeType::capsule, ShapeType::cylinder})) features |= FEATURE_ROUND;
   if (any_shape(scene, {ShapeType::mesh, ShapeType::compound})) features |= FEATURE_TREES;
@@ -91,19 +110,27 @@ Features support_features(Features features, const Settings &settings)
   return 0;
 }
 
+/* Pairs of the kinds that shapes of the scene make. */
 Features pair_features(const Presence &present)
 {
-  const auto meets = [&](ShapeType first, ShapeType second) {
-    const auto a = static_cast<size_t>(first), b = static_cast<size_t>(second);
-    return (present.dynamic[a] && (present.dynamic[b] || present.fixed[b])) || (present.dynamic[b] && present.fixed[a]);
-  };
   Features features = 0;
-  if (meets(ShapeType::sphere, ShapeType::sphere)) features |= FEATURE_SPHERE_SPHERE;
-  if (meets(ShapeType::sphere, ShapeType::box)) features |= FEATURE_SPHERE_BOX;
-  if (meets(ShapeType::box, ShapeType::box)) features |= FEATURE_BOX_BOX;
-  if (meets(ShapeType::sphere, ShapeType::half_space)) features |= FEATURE_SPHERE_HALF_SPACE;
-  if (meets(ShapeType::box, ShapeType::half_space)) features |= FEATURE_BOX_HALF_SPACE;
+  for (uint32_t a = 0; a < shape_codes; ++a)
+    for (uint32_t b = 0; b < shape_codes; ++b)
+      if (const uint32_t kind = pair_kind(a, b);
+          kind != PAIR_KIND_NONE && present.dynamic[a] && (present.dynamic[b] || present.fixed[b]))
+        features |= pair_tests[kind].feature;
   return features;
+}
+
+/* Lists pay where pairs of several kinds lie among each other. Those with a half-space are few beside the others, since
+ * a body has one at most with each, and only if it lies there: their kernel passes over all other pairs in less time
+ * than the lists take. */
+Features list_features(Features features)
+{
+  const auto counts = [&](const PairTest &test) {
+    return (features & test.feature) != 0 && test.second != "HALF_SPACE";
+  };
+  return std::count_if(std::begin(pair_tests), std::end(pair_tests), counts) > 1 ? FEATURE_PAIR_KINDS : 0;
 }
 
 bool spins_unevenly(const Scene &scene, const Body &body)
@@ -202,9 +229,15 @@ float median_radius(const Scene &scene)
 
 bool is_general(const Scene &scene, const Body &body)
 {
-  const bool posed = body.shape_position != Vec3{0, 0, 0} || body.shape_orientation != Quat{0, 0, 0, 1};
   const ShapeType type = scene.shapes[body.shape].type;
-  return posed || type > ShapeType::half_space || (body.continuous && type != ShapeType::half_space);
+  return is_posed(body) || type > ShapeType::half_space || (body.continuous && type != ShapeType::half_space);
+}
+
+uint32_t shape_code(const Scene &scene, const Body &body)
+{
+  const auto code = static_cast<uint32_t>(scene.shapes[body.shape].type);
+  const bool plain = !is_posed(body) && (!body.continuous || code == SHAPE_HALF_SPACE);
+  return plain && has_test_of_its_own(code) ? code : uint32_t{SHAPE_OTHER};
 }
 
 Filter filter_of(const Body &body, const Child &child)
@@ -244,7 +277,8 @@ Features all_features()
 Specialisation specialise(const Scene &scene, const Settings &settings)
 {
   Specialisation result;
-  result.features = pair_features(presence_of(scene)) | convex_features(scene) | body_features(scene);
+  const uint32_t pairs = pair_features(presence_of(scene));
+  result.features = pairs | list_features(pairs) | convex_features(scene) | body_features(scene);
   result.features |=
       narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
   if (settings.events) result.features |= FEATURE_EVENTS;

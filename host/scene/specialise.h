@@ -38,9 +38,13 @@ Features all_features();
 /* The median of bounding_radius over the bodies of finite size; 0 for none. */
 float median_radius(const Scene &scene);
 
-/* True for what the kernels know as SHAPE_OTHER: neither sphere, box nor half-space, or not in the middle of its body,
- * or with continuous collision. */
+/* True for what has a place in its body and a kind of its own: neither sphere, box nor half-space, or not in the middle
+ * of its body, or with continuous collision. */
 bool is_general(const Scene &scene, const Body &body);
+
+/* What body_traits call the shape: SHAPE_OTHER unless a row of shared/pairs.def names it, and it is as such a row takes
+ * it, in the middle of its body and without continuous collision. */
+uint32_t shape_code(const Scene &scene, const Body &body);
 
 /* What a body or a child meets: see Body in scene.h. */
 struct Filter {

@@ -122,6 +122,17 @@ std::optional<uint32_t> owner_of_pair(World &world, uint32_t pair)
   return world.memory().read<uint32_t>(Buffer::pair_a, 1, pair).at(0);
 }
 
+/* Kernels of pairs run over the list of their kind, where the scene has lists. */
+bool runs_over_list(const Launch &launch)
+{
+  return launch.first >= KIND_START && launch.first < KIND_START + uint32_t{PAIR_KIND_NONE};
+}
+
+std::optional<uint32_t> place_in_list(World &world, const Launch &launch, uint32_t pair)
+{
+  return search(world, Buffer::pair_of_kind, count_of(world, launch.first), count_of(world, launch.last), pair);
+}
+
 /* Nothing where several iterations wrote the place (atomics), or where the kernel scatters. */
 std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch, Buffer buffer, uint32_t item)
 {
@@ -131,6 +142,7 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   if (is_by_item(buffer)) return item;
   if (runs == Domain::unknown || written == Domain::unknown || (buffer == Buffer::pair_key && runs != Domain::pairs))
     return {};
+  if (runs_over_list(launch)) return written == Domain::pairs ? place_in_list(world, launch, item) : std::nullopt;
   if (runs == Domain::constraints && written != Domain::constraints) return constraint_of(world, launch, written, item);
   if (runs == Domain::bodies || runs == Domain::bodies_in_grid_order || runs == Domain::bodies_on_curve) {
     const std::optional<uint32_t> body = written == Domain::pairs ? owner_of_pair(world, item) : std::optional(item);
@@ -138,6 +150,12 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   }
   if (runs == written || written == Domain::place) return item;
   return {};
+}
+
+/* Rows of pairs in the order of the pairs, but of the lists. */
+size_t pair_of_row(World &world, Buffer buffer, size_t item)
+{
+  return buffer == Buffer::pair_of_kind ? world.memory().read<uint32_t>(buffer, 1, item).at(0) : item;
 }
 
 std::vector<uint32_t> pair_bodies(World &world, Buffer a, Buffer b, size_t item)
@@ -180,7 +198,7 @@ std::vector<uint32_t> bodies_of_item(World &world, Buffer buffer, size_t item)
   else if (capacity == Capacity::PAIRS && is_by_constraint(buffer))
     found = pair_bodies(world, Buffer::constraint_a, Buffer::constraint_b, item);
   else if (capacity == Capacity::PAIRS && !name_of_buffer(buffer).starts_with("cached_"))
-    found = pair_bodies(world, Buffer::pair_a, Buffer::pair_b, item);
+    found = pair_bodies(world, Buffer::pair_a, Buffer::pair_b, pair_of_row(world, buffer, item));
   const size_t bodies = world.scene().bodies.size();
   if (std::any_of(found.begin(), found.end(), [&](uint32_t body) { return body >= bodies; })) return {};
   for (uint32_t &body : found) body = world.scene_body(body);

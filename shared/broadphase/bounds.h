@@ -40,7 +40,7 @@ SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL con
   natural shape = shape_of(load_natural(body_traits, body));
   vec3 extent = half_extents(shape, size, rotation);
   if (!HAS_FEATURE(parameters, CONVEX)) return extent;
-  return choose3(shape == (natural)SHAPE_OTHER, posed_half_extents(body_shape_pose, body, rotation), extent);
+  return choose3(is_general_shape(shape), posed_half_extents(body_shape_pose, body, rotation), extent);
 }
 /* Of the centre and of the sums below: two ulps. */
 SHARED vec3 rounding_of_bounds(vec3 center) { return scale(absolute(center), R(2.4e-7)); }

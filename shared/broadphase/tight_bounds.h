@@ -27,7 +27,7 @@ SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, read_shapes
                                 GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds,
                                 uint i)
 {
-  uint kind = shape_of(shapes.traits[i]) == (uint)SHAPE_OTHER ? shapes.convex[2u * i] : (uint)SHAPE_COMPOUND;
+  uint kind = is_general_shape(shape_of(shapes.traits[i])) ? shapes.convex[2u * i] : (uint)SHAPE_COMPOUND;
   if (kind == (uint)SHAPE_MESH || kind == (uint)SHAPE_COMPOUND) return;
   hull_tables tables = {hull_header, hull_vertex, 0, 0, 0, 0, hull_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), x = make_vec3(R(1.0), R(0.0), R(0.0)),

@@ -10,6 +10,7 @@
 #define TANDEM_SHARED_NARROWPHASE_BOX_BOX_H
 
 #include "shared/narrowphase/box_axes.h"
+#include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/point_reduction.h"
 
 /* Two boxes relative to a, and the axis between them. */
@@ -303,26 +304,20 @@ SHARED mask may_be_followed(manifold m, journey way)
   return (least_separation(m) > R(0.0)) & (has_points(m) | way.far);
 }
 
-SHARED mask both_boxes(GLOBAL const uint *traits, natural a, natural b)
-{
-  mask first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX,
-       second = shape_of(load_natural(traits, b)) == (uint)SHAPE_BOX;
-  return first & second;
-}
-
-SHARED void collide_box_box_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                  read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
-  mask mine = both_boxes(traits, a, b);
-  if (!any_of(mine)) return;
+  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_BOX_BOX, i);
+  if (!any_of(item.mine)) return;
+  natural a = item.a, b = item.b;
+  mask mine = item.mine;
 
   moving_boxes pair = load_boxes(shapes, bodies, parameters, a, b);
   vec3 toward = parting_offset(pair.boxes.offset, parameters->slop, pair.least, a, b);
   box_pair boxes = along_best_axis(pair.boxes, toward, parameters->slop, pair.rounded, NEARLY_ALONG);
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 
   mask unsure = mine & may_be_followed(m, pair.way);
   if (!any_of(unsure)) return;
@@ -330,7 +325,7 @@ SHARED void collide_box_box_item(read_pairs pairs, GLOBAL const uint *traits, GL
   pair = load_boxes(shapes, bodies, parameters, a, b);
   mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.way, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);
-  mark_to_follow_if(unsure & ahead, m, manifolds.count, i);
+  mark_to_follow_if(unsure & ahead, m, manifolds.count, item.pair);
 }
 
 #endif

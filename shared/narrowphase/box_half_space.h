@@ -82,15 +82,15 @@ SHARED advancement impact_of_box_on_plane(mask reached, box_and_plane pair, vec3
   return at;
 }
 
-SHARED void collide_box_half_space_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_box_half_space_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                         read_bodies bodies, GLOBAL const Parameters *parameters,
                                         GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
-  natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
-  mask box_first = (shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_HALF_SPACE);
-  mask mine = box_first | ((shape_a == (uint)SHAPE_HALF_SPACE) & (shape_b == (uint)SHAPE_BOX));
-  if (!any_of(mine)) return;
+  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_BOX_HALF_SPACE, i);
+  if (!any_of(item.mine)) return;
+  natural a = item.a, b = item.b;
+  mask mine = item.mine;
+  mask box_first = shape_of(load_natural(traits, a)) == (uint)SHAPE_BOX;
 
   natural body = choose(box_first, a, b), plane = choose(box_first, b, a);
   vec4 shape = load_row(shapes, body);
@@ -116,7 +116,7 @@ SHARED void collide_box_half_space_item(read_pairs pairs, GLOBAL const uint *tra
     m = choose_manifold(met.at_impact, box_plane_contact(then, reach), m);
     m = as_seen_from_start(parameters, m, met, choose3(box_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 }
 
 #endif

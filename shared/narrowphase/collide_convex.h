@@ -1,13 +1,7 @@
 /* collide_convex.h - pairs with a shape that has no test of its own: any two convex shapes, and one above a half-space.
  *
- *            sphere  box  half-space  other
- *   sphere     .      .       .         x        .  a header of its own (sphere_box.h ...)
- *   box               .       .         x        x  here
- *   half-space                -         x        -  neither moves
- *   other                               x        other: capsule, cylinder, cone, hull; a sphere or box beside its
- *                                                body's centre or continuous;
- *                                                 compound and mesh, of which a pair holds one child or triangle
- *                                                 (midphase/leaf_pairs.h)
+ * pairs.def draws which pairs these are; of compounds and meshes a pair holds one child or triangle
+ * (midphase/leaf_pairs.h).
  *
  * Branches follow the data: shapes of one pair differ too much for lanes.
  */
@@ -17,6 +11,7 @@
 #include "shared/narrowphase/conservative_advancement.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
+#include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/triangle_contact.h"
 
 /* The part of a body that takes part in a pair. Without trees it is the body's only shape, whose number is that of the
@@ -49,8 +44,6 @@ SHARED convex load_convex(GLOBAL const row *shapes, GLOBAL const uint *convexes,
                    convexes[part.shape * 2u + 1u], tables);
 }
 
-SHARED int takes_part(uint shape) { return shape == SHAPE_SPHERE || shape == SHAPE_BOX || shape == SHAPE_OTHER; }
-
 /* Whatever the normal will be, no gap is closed faster than the bodies approach. */
 SHARED real widest_reach(GLOBAL const Parameters *parameters, pair_motion moves)
 {
@@ -77,30 +70,27 @@ typedef struct {
   real thickness; /* of the thinner body */
 } convex_query;
 
-enum { QUERY_OF_OTHERS = 0, QUERY_APART = 1, QUERY_NEAR = 2 };
-
-/* QUERY_APART: not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_
- * in its low byte, SUPPORT_ in the next. */
-SHARED int load_convex_query(convex_query *query, read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
-                             read_bodies bodies, GLOBAL const Parameters *parameters, uint method, uint i)
+/* False where not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_ in
+ * its low byte, SUPPORT_ in the next. */
+SHARED mask load_convex_query(convex_query *query, read_listed_part_pairs pairs, read_shapes shapes,
+                              read_surfaces surfaces, read_bodies bodies, GLOBAL const Parameters *parameters,
+                              uint method, uint pair)
 {
-  uint a = pairs.a[i], b = pairs.b[i], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
-  if (!takes_part(shape_a) || !takes_part(shape_b) || (shape_a != SHAPE_OTHER && shape_b != SHAPE_OTHER))
-    return QUERY_OF_OTHERS;
+  uint a = pairs.a[pair], b = pairs.b[pair], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
   real around_a = load_row(shapes.size, a).w, around_b = load_row(shapes.size, b).w;
   query->moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
                                   choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
   query->offset = offset_between(bodies.position, a, b);
   real farthest = around_a + around_b + query->reach;
-  if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return QUERY_APART;
+  if (length_squared(query->offset) > farthest * farthest * R(1.0001)) return 0;
   query->thickness = size_between(shapes.size, a, b);
   hull_tables tables = tables_of(surfaces, method >> 8u);
   query->first = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables,
-                             make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pairs.leaf, a, i, 0u));
+                             make_vec3(R(0.0), R(0.0), R(0.0)), part_of_pair(parameters, pairs.leaf, a, pair, 0u));
   query->second = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables, query->offset,
-                              part_of_pair(parameters, pairs.leaf, b, i, 1u));
-  return QUERY_NEAR;
+                              part_of_pair(parameters, pairs.leaf, b, pair, 1u));
+  return 1;
 }
 
 SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
@@ -149,38 +139,48 @@ SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *qu
 }
 
 SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query *query, manifold m, uint stride,
-                        write_manifolds manifolds, uint i)
+                        write_manifolds manifolds, uint pair)
 {
-  store_manifold_if(1, m, stride, manifolds, i);
-  mark_to_follow_if(is_ahead(parameters, query, m), m, manifolds.count, i);
+  store_manifold_if(1, m, stride, manifolds, pair);
+  mark_to_follow_if(is_ahead(parameters, query, m), m, manifolds.count, pair);
 }
 
-SHARED void collide_convex_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
-                                GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+/* The pair of item i. False if it is another kernel's. */
+SHARED mask is_convex_pair(uint *pair, GLOBAL const Parameters *parameters, read_listed_part_pairs pairs,
+                           GLOBAL const uint *traits, uint kind, uint i)
+{
+  *pair = pair_of_item(parameters, pairs.of_kind, i);
+  return is_of_kind(parameters, traits, pairs.a[*pair], pairs.b[*pair], kind);
+}
+
+SHARED void collide_convex_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                 write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, CONVEX)) return; /* nothing then is left for a compiler of devices to do */
+  /* Without it nothing is left for a compiler of devices to do. */
+  if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
+  uint stride = counts[CAPACITY_PAIRS], pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
-  uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
-  if (near == QUERY_APART) store_no_manifold(stride, manifolds, i);
-  if (near != QUERY_NEAR) return;
-  store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, manifolds, i);
+  if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
+    store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, manifolds, pair);
+  else store_no_manifold(stride, manifolds, pair);
 }
 
-SHARED void collide_convex_half_space_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                                            read_bodies bodies, GLOBAL const Parameters *parameters,
                                            GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
-  uint a = pairs.a[i], b = pairs.b[i], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
-  int body_first = shape_a == SHAPE_OTHER && shape_b == SHAPE_HALF_SPACE;
+  uint pair;
   if (!HAS_FEATURE(parameters, CONVEX_HALF_SPACE)) return;
-  if (!body_first && !(shape_a == SHAPE_HALF_SPACE && shape_b == SHAPE_OTHER)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_HALF_SPACE, i)) return;
+  uint a = pairs.a[pair], b = pairs.b[pair];
+  int body_first = shape_of(shapes.traits[b]) == SHAPE_HALF_SPACE;
   uint body = body_first ? a : b, plane = body_first ? b : a;
   hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
   convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables,
                              make_vec3(R(0.0), R(0.0), R(0.0)),
-                             part_of_pair(parameters, pairs.leaf, body, i, body_first ? 0u : 1u));
+                             part_of_pair(parameters, pairs.leaf, body, pair, body_first ? 0u : 1u));
   vec3 up = axis_y(rotation_of(quat_from(load_row(bodies.orientation, plane)))),
        to_plane = offset_between(bodies.position, body, plane);
   real radius = load_row(shapes.size, body).w, height = inner(up, to_plane), least = least_size(&shape);
@@ -202,7 +202,7 @@ SHARED void collide_convex_half_space_item(read_part_pairs pairs, read_shapes sh
     for (int slot = 0; slot < 4; ++slot)
       m.point[slot] = extend(subtract(xyz(m.point[slot]), to_plane), m.point[slot].w);
   }
-  store_manifold_if(1, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(1, m, counts[CAPACITY_PAIRS], manifolds, pair);
 }
 
 #endif

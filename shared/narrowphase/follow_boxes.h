@@ -95,7 +95,7 @@ SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const mov
   return m;
 }
 
-SHARED void follow_pair_of_boxes(read_pairs pairs, GLOBAL const row *shapes, read_bodies bodies,
+SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const row *shapes, read_bodies bodies,
                                  GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, uint i)
 {
@@ -117,23 +117,21 @@ SHARED void follow_pair_of_boxes(read_pairs pairs, GLOBAL const row *shapes, rea
   store_manifold_if(1, m, stride, manifolds, i);
 }
 
-SHARED mask is_marked_box_pair(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const uint *counts_of_points, uint i)
-{
-  return counts_of_points[i] >= TO_FOLLOW && both_boxes(traits, pairs.a[i], pairs.b[i]);
-}
-
 /* local_memory: how many are marked; their numbers, in any order. */
-SHARED void follow_boxes_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {
-  const uint first = group * FOLLOW_PAIRS, end = counts[COUNT_PAIRS];
+  const uint first = start_of_list(parameters, counts, PAIR_KIND_BOX_BOX) + group * FOLLOW_PAIRS;
+  const uint end = end_of_list(parameters, counts, PAIR_KIND_BOX_BOX);
   const uint count = first < end ? (end - first < FOLLOW_PAIRS ? end - first : FOLLOW_PAIRS) : 0u;
   FOR_EACH_ITEM(only, 1u) local_memory[only] = 0u;
   FOR_EACH_ITEM(k, count)
   {
-    if (is_marked_box_pair(pairs, traits, manifolds.count, first + k))
-      local_memory[1u + LOCAL_ADD(local_memory, 1u)] = first + k;
+    const uint pair = pair_of_item(parameters, pairs.of_kind, first + k);
+    if (manifolds.count[pair] >= TO_FOLLOW &&
+        is_of_kind(parameters, traits, pairs.a[pair], pairs.b[pair], PAIR_KIND_BOX_BOX))
+      local_memory[1u + LOCAL_ADD(local_memory, 1u)] = pair;
   }
   FOR_EACH_ITEM(k, local_memory[0])
   {

@@ -69,17 +69,19 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   return as_seen_from_start(parameters, m, met, offset, query->moves);
 }
 
-SHARED void follow_convexes_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
-                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+SHARED void follow_convexes_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                 read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, CONVEX) || manifolds.count[i] < TO_FOLLOW) return;
+  if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
+  uint stride = counts[CAPACITY_PAIRS], pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
-  uint stride = counts[CAPACITY_PAIRS];
-  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
-  if (near != QUERY_NEAR) return;
-  manifold start = load_manifold(stride, manifolds, i);
-  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, manifolds, i);
+  if (manifolds.count[pair] < TO_FOLLOW ||
+      !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
+    return;
+  manifold start = load_manifold(stride, manifolds, pair);
+  store_manifold_if(1, contact_over_step(parameters, &query, start, method & 255u), stride, manifolds, pair);
 }
 
 #endif

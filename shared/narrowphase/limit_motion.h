@@ -93,12 +93,12 @@ SHARED moving_convex solved_motion(GLOBAL const row *deltas, const convex *shape
                           radius);
 }
 
-SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, read_shapes shapes,
+SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_listed_part_pairs pairs, read_shapes shapes,
                               read_surfaces surfaces, GLOBAL const row *positions, GLOBAL const row *orientations,
                               GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
 {
   if (!HAS_FEATURE(parameters, CONTINUOUS)) return;
-  uint a = pairs.a[i], b = pairs.b[i];
+  uint pair = pair_of_item(parameters, pairs.of_kind, i), a = pairs.a[pair], b = pairs.b[pair];
   mask moves_a = motion_of(shapes.traits[a]) == (uint)MOTION_DYNAMIC,
        moves_b = motion_of(shapes.traits[b]) == (uint)MOTION_DYNAMIC;
   uint body = moves_a ? a : b, other = moves_a ? b : a;
@@ -106,7 +106,7 @@ SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_part_pai
   hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), offset = offset_between(positions, body, other);
   convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, none,
-                             part_of_pair(parameters, pairs.leaf, body, i, moves_a ? 0u : 1u));
+                             part_of_pair(parameters, pairs.leaf, body, pair, moves_a ? 0u : 1u));
   moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes.size, body).w, body);
   if (length_of(moving.linear) + fastest_swing(&moving) <= FAR_SHARE * least_size(&shape)) return;
   wall w;
@@ -115,7 +115,7 @@ SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_part_pai
   w.linear = xyz(load_row(deltas, other * 2u));
   w.height = inner(w.up, offset);
   convex of_wall = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, offset,
-                               part_of_pair(parameters, pairs.leaf, other, i, moves_a ? 1u : 0u));
+                               part_of_pair(parameters, pairs.leaf, other, pair, moves_a ? 1u : 0u));
   w.shape = solved_motion(deltas, &of_wall, offset, load_row(shapes.size, other).w, other);
   if (comes_from_behind(&moving, &w)) return;
   real least = w.is_plane ? least_size(&shape) : minimum(least_size(&shape), least_size(&of_wall));

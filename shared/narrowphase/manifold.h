@@ -1,7 +1,7 @@
 /* manifold.h - what every pair type of the narrowphase hands on: one normal and up to four points.
  *
- * Each collide_ kernel runs over all pairs, works on those of its own two shapes and writes every
- * output of them, touching or not, so that buffers never hold what an earlier step left behind.
+ * Each collide_ kernel works on the pairs of its own two shapes (pair_lists.h) and writes every output
+ * of them, touching or not, so that buffers never hold what an earlier step left behind.
  * Geometry is computed relative to one of the two bodies: precision holds far from the origin.
  *
  *              normal (from a to b)
@@ -97,13 +97,13 @@ SHARED natural points_of(manifold m)
   for (int slot = 0; slot < 4; ++slot) count = choose(m.kept[slot], count + 1u, count);
   return count;
 }
-SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_points, item_index i)
+SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_points, natural pair)
 {
-  store_natural_if(marked, counts_of_points, i, points_of(m) | TO_FOLLOW);
+  store_natural_if(marked, counts_of_points, pair, points_of(m) | TO_FOLLOW);
 }
 
 /* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
-SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, item_index i)
+SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, natural pair)
 {
   vec4 packed[4];
   natural count = 0u, slots = 0u;
@@ -116,11 +116,11 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifold
   }
   mask touching = count > 0u;
   vec3 nothing = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row_if(mine, manifolds.normal, i,
-               extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
-  for (int k = 0; k < 4; ++k) store_row_if(mine, manifolds.points, stride * (uint)k + i, packed[k]);
-  store_natural_if(mine, manifolds.count, i, count);
-  store_natural_if(mine, manifolds.feature, i, choose(touching, (m.code << 8u) | slots, (natural)0u));
+  store_listed_row_if(mine, manifolds.normal, pair,
+                      extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
+  for (int k = 0; k < 4; ++k) store_listed_row_if(mine, manifolds.points, stride * (uint)k + pair, packed[k]);
+  store_natural_if(mine, manifolds.count, pair, count);
+  store_natural_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (natural)0u));
 }
 
 /* What was stored. Points without a mask hold zeros. */

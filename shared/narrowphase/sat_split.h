@@ -13,69 +13,76 @@
 
 #include "shared/narrowphase/collide_convex.h"
 
-enum { SPLIT_OF_OTHERS = 0, SPLIT_APART = 1, SPLIT_CLIP = 2, SPLIT_WHOLE = 3 };
+enum { SPLIT_APART = 1, SPLIT_CLIP = 2, SPLIT_WHOLE = 3 };
 
 /* Of axes: the normal in the axes of the pair, the gap along it; state: SPLIT_. */
-SHARED void find_separating_axis_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+SHARED void find_separating_axis_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                                       read_bodies bodies, GLOBAL const Parameters *parameters,
                                       write_separating_axes axes, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
+  uint pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
-  int near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i);
-  axes.state[i] = near == QUERY_OF_OTHERS ? SPLIT_OF_OTHERS : near == QUERY_APART ? SPLIT_APART : SPLIT_WHOLE;
-  store_row(axes.axis, i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
-  if (near != QUERY_NEAR || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
-  convex_pair pair = pair_of(&query.first, &query.second);
+  mask near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair);
+  axes.state[pair] = near ? SPLIT_WHOLE : SPLIT_APART;
+  store_row(axes.axis, pair, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  if (!near || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
+  convex_pair both = pair_of(&query.first, &query.second);
   core_contact contact =
-      separating_hull_axis(&pair.a, &pair.b, lead_of_faces(&pair.a, &pair.b, parameters->slop), query.reach).contact;
-  axes.state[i] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
-  store_row(axes.axis, i, extend(contact.normal, contact.gap));
+      separating_hull_axis(&both.a, &both.b, lead_of_faces(&both.a, &both.b, parameters->slop), query.reach).contact;
+  axes.state[pair] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
+  store_row(axes.axis, pair, extend(contact.normal, contact.gap));
 }
 
 /* faces: of a and b of the pair; INDEX_NONE: none that faces the other. */
-SHARED void find_clipping_faces_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+SHARED void find_clipping_faces_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                                      read_bodies bodies, GLOBAL const Parameters *parameters, read_separating_axes axes,
                                      GLOBAL uint *faces, uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
-  faces[i * 2u] = faces[i * 2u + 1u] = INDEX_NONE;
-  if (axes.state[i] != SPLIT_CLIP) return;
+  uint pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  faces[pair * 2u] = faces[pair * 2u + 1u] = INDEX_NONE;
+  if (axes.state[pair] != SPLIT_CLIP) return;
   convex_query query;
-  if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) return;
-  convex_pair pair = pair_of(&query.first, &query.second);
-  vec3 normal = xyz(load_row(axes.axis, i));
-  support_face face_a = support_face_of(&pair.a, normal), face_b = support_face_of(&pair.b, negate(normal));
-  faces[i * 2u] = face_a.corners > 2u ? face_a.feature : INDEX_NONE;
-  faces[i * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
+  if (!load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) return;
+  convex_pair both = pair_of(&query.first, &query.second);
+  vec3 normal = xyz(load_row(axes.axis, pair));
+  support_face face_a = support_face_of(&both.a, normal), face_b = support_face_of(&both.b, negate(normal));
+  faces[pair * 2u] = face_a.corners > 2u ? face_a.feature : INDEX_NONE;
+  faces[pair * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
 }
 
 /* Of clipped: u, v, separation and height of b, planes of pairs; count: how many, INDEX_NONE if there is no room or no
  * face. */
-SHARED void clip_faces_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
-                            GLOBAL const Parameters *parameters, GLOBAL const uint *counts, read_separating_axes axes,
-                            GLOBAL const uint *faces, write_clipped_points clipped, uint method, uint i)
+SHARED void clip_faces_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                            read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+                            read_separating_axes axes, GLOBAL const uint *faces, write_clipped_points clipped,
+                            uint method, uint i)
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
-  clipped.count[i] = INDEX_NONE;
-  if (axes.state[i] != SPLIT_CLIP || faces[i * 2u] == INDEX_NONE || faces[i * 2u + 1u] == INDEX_NONE) return;
+  uint pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  clipped.count[pair] = INDEX_NONE;
+  if (axes.state[pair] != SPLIT_CLIP || faces[pair * 2u] == INDEX_NONE || faces[pair * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
-  if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) return;
-  convex_pair pair = pair_of(&query.first, &query.second);
-  contact_axes plane = contact_axes_of(xyz(load_row(axes.axis, i)));
-  support_face face_a = face_of_polytope(&pair.a, faces[i * 2u]),
-               face_b = face_of_polytope(&pair.b, faces[i * 2u + 1u]);
+  if (!load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) return;
+  convex_pair both = pair_of(&query.first, &query.second);
+  contact_axes plane = contact_axes_of(xyz(load_row(axes.axis, pair)));
+  support_face face_a = face_of_polytope(&both.a, faces[pair * 2u]),
+               face_b = face_of_polytope(&both.b, faces[pair * 2u + 1u]);
   feature_overlap overlap;
-  start_overlap(&overlap, &pair.a, &face_a, &pair.b, &face_b, &plane, query.reach);
+  start_overlap(&overlap, &both.a, &face_a, &both.b, &face_b, &plane, query.reach);
   reduction r;
-  start_reduction(&r, bounding_radius_of(&pair.b), overlap.clip.slack);
+  start_reduction(&r, bounding_radius_of(&both.b), overlap.clip.slack);
   stream_overlap(&r, &overlap.clip);
   if (r.points > STREAM_KEPT) return;
-  clipped.count[i] = r.points;
+  clipped.count[pair] = r.points;
   for (uint k = 0u; k < r.points; ++k) {
     clip_point p = r.kept[k];
-    store_row(clipped.point, counts[CAPACITY_PAIRS] * k + i,
-              make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &pair.a, &pair.b, p)));
+    store_row(clipped.point, counts[CAPACITY_PAIRS] * k + pair,
+              make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &both.a, &both.b, p)));
   }
 }
 
@@ -108,28 +115,30 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
   return 1;
 }
 
-SHARED void reduce_contacts_item(read_part_pairs pairs, read_shapes shapes, read_surfaces surfaces, read_bodies bodies,
-                                 GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
+SHARED void reduce_contacts_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
+                                 read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  read_separating_axes axes, GLOBAL const uint *faces, read_clipped_points clipped,
                                  write_manifolds manifolds, uint method, uint i)
 {
-  if (!HAS_FEATURE(parameters, SAT_SPLIT) || axes.state[i] == SPLIT_OF_OTHERS) return;
+  if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
+  uint pair;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
-  if (axes.state[i] == SPLIT_APART ||
-      load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, i) != QUERY_NEAR) {
-    store_no_manifold(stride, manifolds, i);
+  if (axes.state[pair] == SPLIT_APART ||
+      !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) {
+    store_no_manifold(stride, manifolds, pair);
     return;
   }
-  convex_pair pair = pair_of(&query.first, &query.second);
+  convex_pair both = pair_of(&query.first, &query.second);
   contact_patch patch;
-  patch.code = code_of_features(faces[i * 2u], faces[i * 2u + 1u]);
-  mask reduced =
-      clipped.count[i] != INDEX_NONE && reduced_patch(&patch, &pair, load_row(axes.axis, i), clipped, stride, i);
+  patch.code = code_of_features(faces[pair * 2u], faces[pair * 2u + 1u]);
+  mask reduced = clipped.count[pair] != INDEX_NONE &&
+                 reduced_patch(&patch, &both, load_row(axes.axis, pair), clipped, stride, pair);
   manifold m;
-  if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&pair, &patch), query.reach));
+  if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&both, &patch), query.reach));
   else m = contact_of_query(parameters, &query, method & 255u);
-  store_start(parameters, &query, m, stride, manifolds, i);
+  store_start(parameters, &query, m, stride, manifolds, pair);
 }
 
 #endif

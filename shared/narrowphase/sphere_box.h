@@ -8,6 +8,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_BOX_H
 
+#include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/time_of_impact.h"
 
 /* Outward from the surface of a box toward a point, both in the axes of the box. */
@@ -95,15 +96,15 @@ SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pa
   return at;
 }
 
-SHARED void collide_sphere_box_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_sphere_box_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                     read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                     write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
-  natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
-  mask sphere_first = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_BOX);
-  mask mine = sphere_first | ((shape_a == (uint)SHAPE_BOX) & (shape_b == (uint)SHAPE_SPHERE));
-  if (!any_of(mine)) return;
+  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_SPHERE_BOX, i);
+  if (!any_of(item.mine)) return;
+  natural a = item.a, b = item.b;
+  mask mine = item.mine;
+  mask sphere_first = shape_of(load_natural(traits, a)) == (uint)SHAPE_SPHERE;
 
   natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
   vec4 shape = load_row(shapes, box);
@@ -126,7 +127,7 @@ SHARED void collide_sphere_box_item(read_pairs pairs, GLOBAL const uint *traits,
     m = choose_manifold(met.at_impact, later, m);
     m = as_seen_from_start(parameters, m, met, choose3(sphere_first, negate(then.center), then.center), moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 }
 
 #endif

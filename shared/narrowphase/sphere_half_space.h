@@ -6,16 +6,17 @@
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_HALF_SPACE_H
 
 #include "shared/narrowphase/manifold.h"
+#include "shared/narrowphase/pair_lists.h"
 
-SHARED void collide_sphere_half_space_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_sphere_half_space_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                            read_bodies bodies, GLOBAL const Parameters *parameters,
                                            GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
-  natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
-  mask sphere_first = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_HALF_SPACE);
-  mask mine = sphere_first | ((shape_a == (uint)SHAPE_HALF_SPACE) & (shape_b == (uint)SHAPE_SPHERE));
-  if (!any_of(mine)) return;
+  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_SPHERE_HALF_SPACE, i);
+  if (!any_of(item.mine)) return;
+  natural a = item.a, b = item.b;
+  mask mine = item.mine;
+  mask sphere_first = shape_of(load_natural(traits, a)) == (uint)SHAPE_SPHERE;
 
   natural sphere = choose(sphere_first, a, b), plane = choose(sphere_first, b, a);
   real radius = load_row(shapes, sphere).x;
@@ -29,7 +30,7 @@ SHARED void collide_sphere_half_space_item(read_pairs pairs, GLOBAL const uint *
   real reach =
       reach_of(parameters, load_motion(bodies.velocity, a), R(0.0), load_motion(bodies.velocity, b), R(0.0), normal);
   manifold m = single_contact(normal, offset, separation, separation < reach);
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 }
 
 #endif

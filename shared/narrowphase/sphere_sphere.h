@@ -6,6 +6,7 @@
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 
+#include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/time_of_impact.h"
 
 /* between: the centre of b from that of a. fallback: the normal where both are in one place. */
@@ -57,14 +58,14 @@ SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion m
   return (R(0.25) + unplaced) * length_of(moves.fall) * parameters->step;
 }
 
-SHARED void collide_sphere_sphere_item(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_sphere_sphere_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
                                        read_bodies bodies, GLOBAL const Parameters *parameters,
                                        GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  natural a = load_natural(pairs.a, i), b = load_natural(pairs.b, i);
-  natural shape_a = shape_of(load_natural(traits, a)), shape_b = shape_of(load_natural(traits, b));
-  mask mine = (shape_a == (uint)SHAPE_SPHERE) & (shape_b == (uint)SHAPE_SPHERE);
-  if (!any_of(mine)) return;
+  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_SPHERE_SPHERE, i);
+  if (!any_of(item.mine)) return;
+  natural a = item.a, b = item.b;
+  mask mine = item.mine;
 
   real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x, least = minimum(radius_a, radius_b);
   vec3 between = offset_between(bodies.position, a, b), aside = parting_direction(a, b);
@@ -84,7 +85,7 @@ SHARED void collide_sphere_sphere_item(read_pairs pairs, GLOBAL const uint *trai
     m = choose_manifold(met.at_impact, there, m);
     m = as_seen_from_start(parameters, m, met, offset, moves);
   }
-  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, i);
+  store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 }
 
 #endif

@@ -63,7 +63,7 @@ SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes,
 {
   uint kind = shape_of(traits[body]), hull = 0u;
   quat turned = quat_from(load_row(orientations, body));
-  if (kind == (uint)SHAPE_OTHER) {
+  if (is_general_shape(kind)) {
     kind = convexes[body * 2u];
     hull = convexes[body * 2u + 1u];
     center = add(center, rotate(rotation_of(turned), xyz(load_row(poses, body * 4u))));

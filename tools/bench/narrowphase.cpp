@@ -19,6 +19,7 @@
 #include "host/catalog/builders.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/pipeline/step_launches.h"
+#include "host/runtime/interface/pair_tests.h"
 #include "shared/narrowphase/collide_convex.h"
 #include "tools/command/parallel.h"
 #include "tools/command/progress.h"
@@ -73,8 +74,8 @@ Shape any_convex(Random &random)
 
 struct PairKind {
   const char *name;
-  Maker a, b; /* b empty: a above one half-space */
-  Kernel kernel;
+  Maker a, b;     /* b empty: a above one half-space */
+  uint32_t pairs; /* PAIR_KIND_ */
   std::vector<std::string> methods;
 };
 
@@ -85,14 +86,14 @@ std::vector<PairKind> kinds()
   const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = choice_names<Narrowphase>();
   std::vector<std::string> hulls = all;
   hulls.insert(hulls.end(), {"sat, hill-climbing", "sat, cube-map"});
-  return {{"sphere-sphere", ball, ball, Kernel::collide_sphere_sphere, own},
-          {"sphere-box", ball, box, Kernel::collide_sphere_box, own},
-          {"box-box", box, box, Kernel::collide_box_box, own},
-          {"capsule-capsule", capsule, capsule, Kernel::collide_convex, round},
-          {"cylinder-box", cylinder, box, Kernel::collide_convex, round},
-          {"hull32-box", hull32, box, Kernel::collide_convex, all},
-          {"hull32-hull32", hull32, hull32, Kernel::collide_convex, hulls},
-          {"convex-half-space", any_convex, {}, Kernel::collide_convex_half_space, own}};
+  return {{"sphere-sphere", ball, ball, PAIR_KIND_SPHERE_SPHERE, own},
+          {"sphere-box", ball, box, PAIR_KIND_SPHERE_BOX, own},
+          {"box-box", box, box, PAIR_KIND_BOX_BOX, own},
+          {"capsule-capsule", capsule, capsule, PAIR_KIND_CONVEX_CONVEX, round},
+          {"cylinder-box", cylinder, box, PAIR_KIND_CONVEX_CONVEX, round},
+          {"hull32-box", hull32, box, PAIR_KIND_CONVEX_CONVEX, all},
+          {"hull32-hull32", hull32, hull32, PAIR_KIND_CONVEX_CONVEX, hulls},
+          {"convex-half-space", any_convex, {}, PAIR_KIND_CONVEX_HALF_SPACE, own}};
 }
 
 /* --- poses ---------------------------------------------------------------------------------------------- */
@@ -261,7 +262,7 @@ public:
     world_.set_profiling(true);
     std::vector<double> times;
     for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
-      for (Kernel kernel : kernels) step.run(kernel, values);
+      for (Kernel kernel : kernels) step.run_pairs(kernel, kind.pairs, values);
       backend.finish();
       double nanoseconds = 0;
       const auto spent = backend.take_kernel_times();
@@ -269,7 +270,8 @@ public:
       if (k > 0) times.push_back(nanoseconds * 1e-6);
     }
     world_.set_profiling(false);
-    PairTime result{kind.name, row_of(kind.kernel).name, method, plan_.known[COUNT_PAIRS], 0, 0, spread_of(times)};
+    PairTime result{kind.name,       row_of(pair_tests[kind.pairs].kernel).name, method, plan_.known[COUNT_PAIRS], 0, 0,
+                    spread_of(times)};
     for (uint32_t points : world_.memory().read<uint32_t>(Buffer::manifold_count, result.pairs)) {
       result.manifolds += points > 0;
       result.points += points;
@@ -290,7 +292,7 @@ private:
   }
   std::vector<Kernel> kernels_of(const PairKind &kind) const
   {
-    if (settings_.narrowphase != Narrowphase::sat_split) return {kind.kernel};
+    if (settings_.narrowphase != Narrowphase::sat_split) return {pair_tests[kind.pairs].kernel};
     return {Kernel::find_separating_axis, Kernel::find_clipping_faces, Kernel::clip_faces, Kernel::reduce_contacts};
   }
 

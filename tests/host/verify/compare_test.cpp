@@ -34,11 +34,12 @@ size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component)
   return (item * rows + row) * 4 + component;
 }
 
-Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1)
+Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1,
+                        const Scene &scene = small_scene())
 {
   ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, step + 3);
   request.tamper = plant({world, kernel, step, buffer, scalar});
-  const Comparison comparison = compare_backends(small_scene(), request);
+  const Comparison comparison = compare_backends(scene, request);
   REQUIRE_FALSE(comparison.equal);
   REQUIRE(comparison.first_difference);
   CHECK(comparison.steps == step + 1);
@@ -97,6 +98,27 @@ TEST_CASE("compare: one ulp in the separation of a contact point", "[compare]")
   CHECK(found.place.field == "separation[2]");
   CHECK(found.ulps == 1u);
   CHECK(found.bodies.size() == 2);
+}
+
+/* Kernels of pairs run over lists where kinds mix: the line names the place in the list. */
+TEST_CASE("compare: one ulp of a pair that stands in a list", "[compare]")
+{
+  const uint64_t step = 3;
+  const Scene scene = load_scene("mixed:n=100");
+  World world(scene, Settings{}, Placement{"serial", {}, false});
+  for (uint64_t k = 0; k <= step; ++k) world.step();
+  REQUIRE((world.features() & FEATURE_PAIR_KINDS) != 0);
+  const std::vector<uint32_t> starts = world.memory().read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START);
+  const uint32_t first = starts[PAIR_KIND_SPHERE_BOX], last = starts[PAIR_KIND_SPHERE_BOX + 1];
+  REQUIRE(last > first + 1);
+  const uint32_t place = last - 1, pair = world.memory().read<uint32_t>(Buffer::pair_of_kind, 1, place).at(0);
+  REQUIRE(place != pair);
+  const Difference found = find_planted(Kernel::collide_sphere_box, Buffer::manifold_normal, 4 * pair, step, 1, scene);
+  CHECK(found.place.item == pair);
+  CHECK(found.breakpoint.find("i == " + std::to_string(place) + " &&") != std::string::npos);
+  const std::vector<uint32_t> in_list = bodies_of_item(world, Buffer::pair_of_kind, place);
+  CHECK(in_list.size() == 2);
+  CHECK(in_list == bodies_of_item(world, Buffer::manifold_normal, pair));
 }
 
 TEST_CASE("compare: the last bit of a sort key", "[compare]")

@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -11,7 +12,9 @@
 
 #include <Eigen/Geometry>
 
+#include "host/runtime/interface/pair_tests.h"
 #include "minicl/kernel_table.h"
+#include "shared/pair_kinds.h"
 #include "shared/parameters.h"
 
 namespace tandem::narrowphase_tests {
@@ -103,6 +106,7 @@ public:
     counts_.assign(COUNT_TOTAL, 0);
     counts_[COUNT_PAIRS] = static_cast<uint32_t>(pairs);
     counts_[CAPACITY_PAIRS] = static_cast<uint32_t>(capacity);
+    list();
     Outputs outputs;
     row unwritten;
     std::memset(&unwritten, 0xcd, sizeof unwritten);
@@ -113,9 +117,14 @@ public:
     for (Kernel kernel : kernels) {
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
-      const size_t groups = (pairs + TILE - 1) / TILE;
-      table.run[index_of(kernel)](arguments.data(), 0,
-                                  static_cast<uint32_t>(row_of(kernel).form == Form::group ? groups : pairs));
+      const auto [first, last] = range_of(kernel);
+      if (row_of(kernel).form == Form::group) {
+        table.run[index_of(kernel)](arguments.data(), 0, (last - first + TILE - 1) / TILE);
+        continue;
+      }
+      const uint32_t whole = last - (last - first) % table.lanes;
+      if (whole > first) table.run[index_of(kernel)](arguments.data(), first, whole);
+      if (last > whole) minicl::scalar_kernels.run[index_of(kernel)](arguments.data(), whole, last);
     }
     return outputs;
   }
@@ -138,6 +147,24 @@ private:
   static Vector xyz(const row &r) { return {r.x, r.y, r.z}; }
   static row to_row(const Eigen::Vector3f &v, float w) { return {v.x(), v.y(), v.z(), w}; }
 
+  /* Where the parameters say that there are lists. */
+  void list()
+  {
+    of_kind_.clear();
+    for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) {
+      counts_[KIND_START + kind] = static_cast<uint32_t>(of_kind_.size());
+      for (uint32_t pair = 0; pair < size(); ++pair)
+        if (pair_kind(traits_[pair_a_[pair]], traits_[pair_b_[pair]]) == kind) of_kind_.push_back(pair);
+    }
+  }
+  std::pair<uint32_t, uint32_t> range_of(Kernel kernel) const
+  {
+    if ((parameters.features & FEATURE_PAIR_KINDS) == 0) return {0, static_cast<uint32_t>(size())};
+    const auto test = std::find_if(std::begin(pair_tests), std::end(pair_tests),
+                                   [&](const PairTest &row) { return row.kernel == kernel || row.follower == kernel; });
+    return {counts_[KIND_START + test->kind], counts_[KIND_START + test->kind + 1]};
+  }
+
   uint32_t add_body(const TestBody &body)
   {
     bodies_.push_back(body);
@@ -156,6 +183,7 @@ private:
     switch (buffer) {
     case Buffer::pair_a: return pair_a_.data();
     case Buffer::pair_b: return pair_b_.data();
+    case Buffer::pair_of_kind: return of_kind_.data();
     case Buffer::body_traits: return traits_.data();
     case Buffer::body_shape: return shapes_.data();
     case Buffer::body_position: return positions_.data();
@@ -173,7 +201,7 @@ private:
 
   std::vector<TestBody> bodies_;
   std::vector<row> shapes_, positions_, orientations_, velocities_;
-  std::vector<uint32_t> traits_, pair_a_, pair_b_, counts_;
+  std::vector<uint32_t> traits_, pair_a_, pair_b_, of_kind_, counts_;
 };
 
 class Random {
