@@ -68,7 +68,7 @@ endforeach()
 target_compile_definitions(tandem_compiled_in INTERFACE SPDLOG_FMT_EXTERNAL)
 
 file(GLOB_RECURSE HOST_SOURCES CONFIGURE_DEPENDS host/*.cpp)
-file(GLOB MINICL_SOURCES CONFIGURE_DEPENDS minicl/*.cpp)
+file(GLOB MINICL_SOURCES CONFIGURE_DEPENDS minicl/*.cpp minicl/finding/*.cpp)
 if(TANDEM_PORTABLE_KERNELS_ONLY)
   list(FILTER MINICL_SOURCES EXCLUDE REGEX "(lanes8|lanes16|scalar_avx2|backward|reference|reference_storage)[.]cpp$")
 endif()

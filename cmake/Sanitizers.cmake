@@ -10,8 +10,8 @@ set(TANDEM_OBJECTS_FROM "" CACHE PATH
 # scalar.cpp is watched for all that the sanitizers know. The other widths and orders are the same source: only what
 # depends on them, accesses to buffers, is watched there, by calls: a seventh of the compile time (lanes8.cpp: 54 s for
 # all, 7 s so).
-set(same_kernels minicl/scalar_avx2.cpp minicl/backward.cpp minicl/reference.cpp minicl/lanes4.cpp minicl/lanes8.cpp
-  minicl/lanes16.cpp)
+set(same_kernels scalar_avx2.cpp backward.cpp reference.cpp lanes4.cpp lanes8.cpp lanes16.cpp)
+list(TRANSFORM same_kernels REPLACE "(.+)" "minicl/\\1;minicl/finding/\\1")
 if(TANDEM_SANITIZE MATCHES address)
   set_property(SOURCE host/io/gltf/document.cpp host/io/gltf/mesh.cpp APPEND PROPERTY COMPILE_OPTIONS
     "-fsanitize=alignment")
@@ -22,10 +22,11 @@ if(TANDEM_SANITIZE MATCHES address)
   endif()
 elseif(TANDEM_SANITIZE MATCHES thread)
   # Threads share the rows of lanes4.cpp and scalar.cpp as they do those of the others.
-  set(unwatched_kernels minicl/lanes8.cpp minicl/lanes16.cpp minicl/backward.cpp minicl/reference.cpp)
+  set(unwatched_kernels lanes8.cpp lanes16.cpp backward.cpp reference.cpp)
+  list(TRANSFORM unwatched_kernels REPLACE "(.+)" "minicl/\\1;minicl/finding/\\1")
   if(TANDEM_OBJECTS_FROM)
     get_target_property(library_sources tandem_objects SOURCES)
-    list(FILTER library_sources EXCLUDE REGEX "minicl/(lanes8|lanes16|backward|reference)[.]cpp$")
+    list(FILTER library_sources EXCLUDE REGEX "minicl/(finding/)?(lanes8|lanes16|backward|reference)[.]cpp$")
     set_property(TARGET tandem_objects PROPERTY SOURCES ${library_sources})
     # which gives what is missing, and no more
     target_link_libraries(tandem PUBLIC $<BUILD_INTERFACE:${TANDEM_OBJECTS_FROM}/libtandem.a>)

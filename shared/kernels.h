@@ -1,8 +1,9 @@
-/* kernels.h - every shared kernel, in pipeline order. */
+/* kernels.h - every shared kernel, in pipeline order; or those of one part of minicl/width.inc. */
 #ifndef TANDEM_SHARED_KERNELS_H
 #define TANDEM_SHARED_KERNELS_H
 
 #include "shared/lanes_kernels.h"
+#ifndef TANDEM_PART_SOLVING
 #include "shared/midphase/leaf_pairs.h"
 #include "shared/midphase/subtree_pairs.h"
 #include "shared/midphase/grazing.h"
@@ -30,6 +31,11 @@
 #include "shared/broadphase/sap3.h"
 #include "shared/broadphase/sweep_window.h"
 #include "shared/broadphase/tight_bounds.h"
+#include "shared/queries/box_queries.h"
+#include "shared/queries/cast_rays.h"
+#include "shared/sweeps/sweep_shape.h"
+#endif
+#ifndef TANDEM_PART_FINDING
 #include "shared/batching/cells.h"
 #include "shared/batching/check.h"
 #include "shared/batching/coloring.h"
@@ -45,10 +51,8 @@
 #include "shared/solve/xpbd_tail.h"
 #include "shared/solve/rolling_tail.h"
 #include "shared/events/pair_events.h"
-#include "shared/queries/box_queries.h"
-#include "shared/queries/cast_rays.h"
-#include "shared/sweeps/sweep_shape.h"
 #include "shared/problem/residual.h"
 #include "shared/problem/sweep.h"
+#endif
 
 #endif

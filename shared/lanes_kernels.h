@@ -1,9 +1,18 @@
-/* lanes_kernels.h - the shared kernels that are written at any width (LANES in kernels.def). */
+/* lanes_kernels.h - the shared kernels that are written at any width (LANES in kernels.def); all, or those of one part
+ * of minicl/width.inc. */
 #ifndef TANDEM_SHARED_LANES_KERNELS_H
 #define TANDEM_SHARED_LANES_KERNELS_H
 
 #include "shared/records.h"
+#ifndef TANDEM_PART_SOLVING
 #include "shared/broadphase/bounds.h"
+#include "shared/narrowphase/box_box.h"
+#include "shared/narrowphase/box_half_space.h"
+#include "shared/narrowphase/sphere_box.h"
+#include "shared/narrowphase/sphere_half_space.h"
+#include "shared/narrowphase/sphere_sphere.h"
+#endif
+#ifndef TANDEM_PART_FINDING
 #include "shared/setup/contact.h"
 #include "shared/setup/rolling.h"
 #include "shared/solve/contact.h"
@@ -18,12 +27,8 @@
 #include "shared/integrate/positions.h"
 #include "shared/integrate/commit.h"
 #include "shared/integrate/cache_rolling.h"
-#include "shared/events/impulses.h"
 #include "shared/integrate/stop_motion.h"
-#include "shared/narrowphase/box_box.h"
-#include "shared/narrowphase/box_half_space.h"
-#include "shared/narrowphase/sphere_box.h"
-#include "shared/narrowphase/sphere_half_space.h"
-#include "shared/narrowphase/sphere_sphere.h"
+#include "shared/events/impulses.h"
+#endif
 
 #endif

@@ -9,9 +9,11 @@ set -eu
 
 usage() {
   cat <<'END'
-Usage: tools/run-tests.sh [--no-install] [--without-sanitizers] [--without-compilers] [-- CTEST-OPTION...]
+Usage: tools/run-tests.sh [--quick] [--no-install] [--without-sanitizers] [--without-compilers] [-- CTEST-OPTION...]
 Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and \
     runs CTest.
+  --quick                for daily work: the release tree alone, and of its tests the unit tests and the checks that do
+                         not wait for an OpenCL compiler; a few minutes, most of them for what has to be compiled
   --no-install           install nothing; if a package is missing, say which and exit with status 2
   --without-sanitizers   leave out the sanitizer builds and their tests
   --without-compilers    leave out the trees that compare hashes between compilers, their options and processors
@@ -20,12 +22,14 @@ END
 }
 
 install_option=
+quick=
 sanitizers="asan tsan"
 export TANDEM_WITHOUT_COMPILERS=
 all_compilers="golden-o0 golden-o1 golden-o3 golden-clang golden-aarch64"
 compilers=$all_compilers
 while [ $# -gt 0 ]; do
   case $1 in
+    --quick) quick=yes sanitizers= compilers= TANDEM_WITHOUT_COMPILERS=true ;;
     --no-install) install_option=--no-install ;;
     --without-sanitizers) sanitizers= ;;
     --without-compilers) compilers= TANDEM_WITHOUT_COMPILERS=true ;;
@@ -54,7 +58,7 @@ is_possible() {
 }
 
 for preset in $all_compilers; do
-  rm -rf "build/$preset/bin" # what is not built now is skipped, not passed
+  [ "$quick" ] || rm -rf "build/$preset/bin" # what is not built now is skipped, not passed
 done
 for preset in $compilers; do
   printf '\n== %s\n' "$preset"
@@ -76,6 +80,10 @@ for preset in $sanitizers; do
   cmake --preset "$preset" -DTANDEM_BUILD_TESTS=ON "-DTANDEM_OBJECTS_FROM=$PWD/build/release"
   cmake --build --preset "$preset" -j "$jobs" --target tandem_tests # and the programs that it runs
 done
+
+if [ "$quick" ]; then # caches of kernels stay: what is compiled for a device once more is what takes long
+  exec ctest --preset release -j "$jobs" --no-tests=error -L '^(unit|check)$' -LE '^slow$' "$@"
+fi
 
 # Kernel binaries cached by an earlier run must not decide this one.
 for preset in release $sanitizers; do rm -rf "build/$preset/test-cache"; done

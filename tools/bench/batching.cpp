@@ -20,16 +20,16 @@
 namespace tandem {
 namespace {
 
-constexpr int repetitions = 9;
+constexpr int batching_repetitions = 9;
 
 /* Sizes of batches on the CPU in the 2009 talk. */
 const std::vector<uint32_t> talk_2d = {4931, 4836, 4711, 4502, 4197, 3702, 2702, 1375, 470, 138, 31, 7};
 const std::vector<uint32_t> talk_3d = {1064, 909, 767, 579, 392, 208, 87, 26, 5, 1, 1, 1};
 
 /* Batches the contacts of a world again and again, with kernels alone. */
-class Bench {
+class BatchingBench {
 public:
-  Bench(World &world, Backend &backend) : world_(world), backend_(backend), launcher_(world.memory(), backend)
+  BatchingBench(World &world, Backend &backend) : world_(world), backend_(backend), launcher_(world.memory(), backend)
   {
     Memory &memory = world.memory();
     memory.download(Buffer::counts, counts_.data(), sizeof counts_);
@@ -52,7 +52,7 @@ public:
   BatchTable run(const BatcherRow &batcher, bool keep)
   {
     std::vector<double> times;
-    for (int k = 0; k < repetitions; ++k) times.push_back(batch(batcher, keep));
+    for (int k = 0; k < batching_repetitions; ++k) times.push_back(batch(batcher, keep));
     BatchTable table = check();
     table.batcher = std::string(batcher.name) + (batcher.keeps_colors ? keep ? ", kept" : ", afresh" : "");
     table.milliseconds = spread_of(times);
@@ -142,7 +142,7 @@ BatchScene batch_scene(const std::string &text, const std::string &backend, bool
   result.bodies = counts[COUNT_BODIES];
   result.pairs = counts[COUNT_PAIRS];
   result.constraints = counts[COUNT_CONSTRAINTS];
-  Bench bench(world, world.backend_of(Kernel::match_pairs));
+  BatchingBench bench(world, world.backend_of(Kernel::match_pairs));
   for (const BatcherRow &batcher : batchers()) {
     result.tables.push_back(bench.run(batcher, false));
     if (batcher.keeps_colors) result.tables.push_back(bench.run(batcher, true));

@@ -29,7 +29,7 @@ namespace {
 
 using scene_builders::add_body;
 
-constexpr int repetitions = 9;
+constexpr int narrowphase_repetitions = 9;
 constexpr uint32_t variants = 16;                            /* sizes and stones of each shape */
 constexpr double cell = 4, deepest = 0.02, farthest = 0.015; /* m; contacts are made 0.02 ahead */
 
@@ -241,9 +241,9 @@ void bring_near(Scene &scene, bool on_plane)
 
 /* --- times ---------------------------------------------------------------------------------------------- */
 
-class Bench {
+class NarrowphaseBench {
 public:
-  Bench(const Scene &scene, const std::string &method, const std::string &backend, bool allow_inexact)
+  NarrowphaseBench(const Scene &scene, const std::string &method, const std::string &backend, bool allow_inexact)
       : settings_(still(method)), world_(scene, settings_, Placement{backend, {}, allow_inexact})
   {
     world_.step();
@@ -261,7 +261,7 @@ public:
         method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
-    for (int k = 0; k <= repetitions; ++k) { /* the first brings buffers and caches to where they stay */
+    for (int k = 0; k <= narrowphase_repetitions; ++k) { /* the first brings buffers and caches to where they stay */
       for (Kernel kernel : kernels) step.run_pairs(kernel, kind.pairs, values);
       backend.finish();
       double nanoseconds = 0;
@@ -325,7 +325,7 @@ std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pai
     Scene scene = scene_of(kind, pairs);
     bring_near(scene, !kind.b);
     for (const std::string &method : kind.methods)
-      times.push_back(Bench(scene, method, backend, allow_inexact).run(kind, method));
+      times.push_back(NarrowphaseBench(scene, method, backend, allow_inexact).run(kind, method));
     progress.update(uint64_t(&kind - list.data()) + 1);
   }
   progress.clear();

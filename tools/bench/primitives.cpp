@@ -27,11 +27,11 @@ std::vector<uint32_t> scrambled(uint32_t count)
 }
 
 /* One primitive on one backend with its own buffers. */
-class Bench {
+class PrimitiveBench {
 public:
   using Call = std::function<void(Launcher &)>;
 
-  Bench(const std::string &backend, bool allow_inexact, uint32_t count, Call call)
+  PrimitiveBench(const std::string &backend, bool allow_inexact, uint32_t count, Call call)
       : backend_(make_backend(backend, allow_inexact)), launcher_(memory_, *backend_), call_(std::move(call))
   {
     Recorder recorder;
@@ -42,7 +42,7 @@ public:
     counts[COUNT_LENGTH] = count;
     fill(Buffer::counts, counts);
   }
-  ~Bench() { backend_->finish(); }
+  ~PrimitiveBench() { backend_->finish(); }
 
   void fill(Buffer buffer, const std::vector<uint32_t> &values)
   {
@@ -80,7 +80,7 @@ private:
 
 std::vector<double> bench_sort(const std::string &backend, uint32_t count, bool allow_inexact)
 {
-  Bench bench(backend, allow_inexact, count, [count](Launcher &launcher) {
+  PrimitiveBench bench(backend, allow_inexact, count, [count](Launcher &launcher) {
     sort_pairs(launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::primitive_c, Buffer::primitive_d,
                Buffer::sort_histogram, Buffer::scan_sums, COUNT_LENGTH, count, 0, 32);
   });
@@ -106,7 +106,7 @@ std::vector<double> bench_sort(const std::string &backend, uint32_t count, bool 
 
 std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool allow_inexact)
 {
-  Bench bench(backend, allow_inexact, count, [count](Launcher &launcher) {
+  PrimitiveBench bench(backend, allow_inexact, count, [count](Launcher &launcher) {
     exclusive_scan(launcher, Buffer::primitive_a, Buffer::primitive_b, Buffer::scan_sums, COUNT_LENGTH, count);
   });
   std::vector<uint32_t> values = scrambled(count);

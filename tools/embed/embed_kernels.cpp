@@ -3,7 +3,8 @@
  * A line ENTRIES(STAGE) at the end of a file asks for the entry of each kernel of that stage; they are written from
  * shared/kernels.def (entries.h). An installed program needs no source tree, for the library carries the text. Each
  * header is expanded once, where it is first included, and a .def list every time; #line directives keep the compiler's
- * messages on the file and line that people edit. What becomes of each file can be read in FOLDER/NAME.cl.
+ * messages on the file and line that people edit. What becomes of each file can be read in FOLDER/NAME.cl, with its
+ * comments, which the library does not carry.
  *
  * A module of another project is one program: its lists and headers stand in a folder of its own, in which includes are
  * looked for first, and all its kernels are of the stage that has its name.
@@ -13,6 +14,7 @@
  *        embed_kernels ROOT FOLDER --module NAME SOURCES KERNELS BUFFERS NAME.cl
  *          writes FOLDER/NAME_programs.cpp and FOLDER/NAME.cl; KERNELS, BUFFERS: files of the folder SOURCES
  */
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -79,6 +81,30 @@ void expand(const Folders &folders, const std::string &name, Program &program)
   }
 }
 
+/* A quarter of the text is comments, which no device needs: their lines stay, so that messages name the right ones, but
+ * not the space before a line's end. */
+std::string without_comments(const std::string &text)
+{
+  std::string kept;
+  const auto end_line = [&] {
+    kept.erase(kept.find_last_not_of(" \t") + 1);
+    kept += '\n';
+  };
+  for (size_t at = 0; at < text.size(); ++at)
+    if (text[at] == '\n') {
+      end_line();
+    } else if (text.compare(at, 2, "/*") != 0) {
+      kept += text[at];
+    } else {
+      kept += ' ';
+      const size_t last = std::min(text.find("*/", at + 2), text.size());
+      for (; at < last; ++at)
+        if (text[at] == '\n') end_line();
+      ++at; /* the slash */
+    }
+  return kept;
+}
+
 /* String literals have a length limit on some compilers, so the text goes out in pieces. */
 std::string literal(const std::string &text)
 {
@@ -94,7 +120,7 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
 {
   std::ofstream readable(folder + "/" + program.name + ".cl");
   readable << program.headers.str();
-  out << "{\"" << program.name << "\",\n" << literal(program.headers.str()) << ",{\n";
+  out << "{\"" << program.name << "\",\n" << literal(without_comments(program.headers.str())) << ",{\n";
   size_t entries = 0;
   for (const embed::KernelRow &row : rows)
     if (row.stage == program.stage && row.form != "HOST") {

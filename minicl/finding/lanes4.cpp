@@ -1,0 +1,5 @@
+/* lanes4.cpp - the stages of minicl/lanes4.cpp that find what touches. */
+#define TANDEM_PART_FINDING
+#define TANDEM_LANES 4
+#define WIDTH lanes4
+#include "minicl/width.inc"
