@@ -47,7 +47,7 @@ double pairs_each(const char *input, uint32_t bodies)
 }
 
 /* Of the benchmark on 500 bodies of `pile`, with these. */
-std::vector<BroadphaseScene> bench_of(const std::vector<Broadphase> &broadphases,
+std::vector<BroadphaseScene> bench_of(const std::vector<BroadphaseRow> &broadphases,
                                       const std::vector<uint32_t> &bodies = {500})
 {
   BroadphaseRequest request = broadphase_request({}, {"pile"});
