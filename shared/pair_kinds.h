@@ -7,22 +7,20 @@
 
 #include "shared/records.h"
 
-SHARED mask are_shapes(natural a, natural b, uint first, uint second)
-{
-  return ((a == first) & (b == second)) | ((a == second) & (b == first));
-}
+/* Of two shapes as a set: the same whichever comes first. */
+#define ONE_SHAPE(shape) (1u << (uint)(shape))
 
 /* PAIR_KIND_ of two bodies; PAIR_KIND_NONE of two half-spaces, which have no test. */
 SHARED natural pair_kind(natural traits_a, natural traits_b)
 {
-  natural a = shape_of(traits_a), b = shape_of(traits_b);
-  mask plane_a = a == (uint)SHAPE_HALF_SPACE, plane_b = b == (uint)SHAPE_HALF_SPACE;
-  natural kind =
-      choose(plane_a | plane_b, (natural)(uint)PAIR_KIND_CONVEX_HALF_SPACE, (natural)(uint)PAIR_KIND_CONVEX_CONVEX);
-  kind = choose(plane_a & plane_b, (natural)(uint)PAIR_KIND_NONE, kind);
+  natural shapes = ((natural)1u << shape_of(traits_a)) | ((natural)1u << shape_of(traits_b));
+  natural kind = choose((shapes & ONE_SHAPE(SHAPE_HALF_SPACE)) != 0u, (natural)(uint)PAIR_KIND_CONVEX_HALF_SPACE,
+                        (natural)(uint)PAIR_KIND_CONVEX_CONVEX);
+  kind = choose(shapes == ONE_SHAPE(SHAPE_HALF_SPACE), (natural)(uint)PAIR_KIND_NONE, kind);
 #define GENERAL_PAIR(name, first, second, kernel, follower, what)
 #define PAIR(name, first, second, kernel, follower, what) \
-  kind = choose(are_shapes(a, b, (uint)SHAPE_##first, (uint)SHAPE_##second), (natural)(uint)PAIR_KIND_##name, kind);
+  kind =                                                  \
+      choose(shapes == (ONE_SHAPE(SHAPE_##first) | ONE_SHAPE(SHAPE_##second)), (natural)(uint)PAIR_KIND_##name, kind);
 #include "shared/pairs.def"
 #undef PAIR
 #undef GENERAL_PAIR

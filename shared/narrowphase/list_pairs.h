@@ -42,19 +42,27 @@ SHARED void start_pair_lists_item(GLOBAL const uint *kind_places, GLOBAL uint *c
   for (uint kind = 0u; kind < LISTS; ++kind) counts[KIND_START + kind] = n > 0u ? kind_places[kind * tiles] : 0u;
 }
 
+/* strips: how many pairs of each kind a strip has. A single strip, as on the CPU, needs no counts: it starts where the
+ * tile does. */
+SHARED void count_strips(read_pairs pairs, GLOBAL const uint *traits, uint first, uint count, LOCAL uint *strips)
+{
+  FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) strips[k] = 0u;
+  if (LIST_STRIPS == 1u) return;
+  FOR_EACH_ITEM(s, LIST_STRIPS)
+  {
+    for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
+      ++strips[kind_of_pair(pairs, traits, first + k) * LIST_STRIPS + s];
+  }
+}
+
 SHARED void list_pairs_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const uint *counts,
                              GLOBAL const uint *kind_places, GLOBAL uint *pair_of_kind, LOCAL uint *local_memory,
                              uint group)
 {
-  const uint n = counts[COUNT_PAIRS], count = items_in_tile(n, TILE, group), tiles = units_of(n, TILE);
+  const uint n = counts[COUNT_PAIRS], first = group * TILE, count = items_in_tile(n, TILE, group);
+  const uint tiles = units_of(n, TILE);
   if (count == 0u) return;
-  FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) local_memory[k] = 0u;
-  FOR_EACH_ITEM(s, LIST_STRIPS)
-  {
-    const uint end = (s + 1u) * LIST_STRIP < count ? (s + 1u) * LIST_STRIP : count;
-    for (uint k = s * LIST_STRIP; k < end; ++k)
-      ++local_memory[kind_of_pair(pairs, traits, group * TILE + k) * LIST_STRIPS + s];
-  }
+  count_strips(pairs, traits, first, count, local_memory);
   FOR_EACH_ITEM(kind, LISTS)
   {
     uint place = kind_places[kind * tiles + group];
@@ -66,9 +74,8 @@ SHARED void list_pairs_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL
   }
   FOR_EACH_ITEM(s, LIST_STRIPS)
   {
-    const uint end = (s + 1u) * LIST_STRIP < count ? (s + 1u) * LIST_STRIP : count;
-    for (uint k = s * LIST_STRIP; k < end; ++k)
-      pair_of_kind[local_memory[kind_of_pair(pairs, traits, group * TILE + k) * LIST_STRIPS + s]++] = group * TILE + k;
+    for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
+      pair_of_kind[local_memory[kind_of_pair(pairs, traits, first + k) * LIST_STRIPS + s]++] = first + k;
   }
 }
 

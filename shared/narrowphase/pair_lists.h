@@ -57,8 +57,13 @@ SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pai
 {
   handled h;
   h.pair = pair_of_item(parameters, pairs.of_kind, i);
-  h.a = load_natural(pairs.a, h.pair);
-  h.b = load_natural(pairs.b, h.pair);
+  if (HAS_FEATURE(parameters, FEATURE_PAIR_KINDS)) {
+    h.a = load_natural(pairs.a, h.pair);
+    h.b = load_natural(pairs.b, h.pair);
+  } else { /* in the order of memory, which lanes load at once */
+    h.a = load_natural(pairs.a, i);
+    h.b = load_natural(pairs.b, i);
+  }
   h.mine = is_of_kind(parameters, traits, h.a, h.b, kind);
   return h;
 }
