@@ -103,14 +103,18 @@ TEST_CASE("compare: one ulp in the separation of a contact point", "[compare]")
 /* Kernels of pairs run over lists where kinds mix: the line names the place in the list. */
 TEST_CASE("compare: one ulp of a pair that stands in a list", "[compare]")
 {
-  const uint64_t step = 3;
   const Scene scene = load_scene("mixed:n=100");
   World world(scene, Settings{}, Placement{"serial", {}, false});
-  for (uint64_t k = 0; k <= step; ++k) world.step();
   REQUIRE((world.features() & FEATURE_PAIR_KINDS) != 0);
-  const std::vector<uint32_t> starts = world.memory().read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START);
-  const uint32_t first = starts[PAIR_KIND_SPHERE_BOX], last = starts[PAIR_KIND_SPHERE_BOX + 1];
-  REQUIRE(last > first + 1);
+  uint32_t last = 0;
+  uint64_t step = 0;
+  for (uint32_t first = 0; last < first + 2 && step < 200; ++step) {
+    world.step();
+    const auto starts = world.memory().read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START);
+    first = starts[PAIR_KIND_SPHERE_BOX], last = starts[PAIR_KIND_SPHERE_BOX + 1];
+  }
+  REQUIRE(step < 200);
+  --step;
   const uint32_t place = last - 1, pair = world.memory().read<uint32_t>(Buffer::pair_of_kind, 1, place).at(0);
   REQUIRE(place != pair);
   const Difference found = find_planted(Kernel::collide_sphere_box, Buffer::manifold_normal, 4 * pair, step, 1, scene);
