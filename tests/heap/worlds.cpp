@@ -282,7 +282,7 @@ TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on a
         world.step();
         fewest = std::min(fewest, asked());
       }
-      if (c.settings.solver == "direct") continue; /* its elimination on the host takes memory as it needs it */
+      if (c.settings.solver == Solver::direct) continue; /* its elimination on the host takes memory as it needs it */
       REQUIRE(world.statistics().overflow == before.overflow);
       CHECK(fewest == 0);
     }
