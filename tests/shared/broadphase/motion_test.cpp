@@ -128,7 +128,7 @@ TEST_CASE("broadphases that keep something are right in each of two hundred step
 {
   const char *backend = GENERATE("serial", "serial:order=backward", "tbb:threads=3");
   SoupRunner runner(make_backend(backend));
-  for (const char *broadphase : keeping)
+  for (const Broadphase broadphase : keeping)
     for (const double speed : {0.01, 0.4}) {
       for (const uint32_t n : {1u, 2u, 40u}) check_motion(runner, broadphase, n, speed, 0, 60);
       check_motion(runner, broadphase, 500, speed, 0, 200);
@@ -139,14 +139,14 @@ TEST_CASE("broadphases that keep something are right in each of two hundred step
 TEST_CASE("broadphases that keep something are right among many", "[motion]")
 {
   SoupRunner runner(make_backend("tbb"));
-  for (const char *broadphase : keeping) check_motion(runner, broadphase, 20000, 0.02, 0, 40);
+  for (const Broadphase broadphase : keeping) check_motion(runner, broadphase, 20000, 0.02, 0, 40);
 }
 
 TEST_CASE("broadphases on OpenCL that keep something are right in each step of motion", "[motion]")
 {
   parity::require_pocl();
   SoupRunner runner(make_backend("cl:pocl"));
-  for (const char *broadphase : keeping) {
+  for (const Broadphase broadphase : keeping) {
     check_motion(runner, broadphase, 2, 0.1, 0, 20);
     check_motion(runner, broadphase, 400, 0.1, 0, 200);
   }
