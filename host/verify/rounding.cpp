@@ -130,7 +130,8 @@ public:
     /* Between steps the host may have written and buffers may have grown: each step starts from a full copy. */
     if (launch.kernel == Kernel::begin_step || !mirror_.fits(world_)) return mirror_.copy_all(world_);
     const std::vector<Buffer> written = buffers_written(launch);
-    if (launch.kernel == Kernel::commit_bodies) turn_carried(mirror_.memory(), carried_buffers()); /* as the step does just before */
+    if (launch.kernel == Kernel::commit_bodies)
+      turn_carried(mirror_.memory(), carried_buffers()); /* as the step does just before */
     std::vector<std::vector<char>> before;
     for (const Buffer buffer : written)
       before.push_back(mirror_.memory().read<char>(buffer, mirror_.memory().bytes(buffer)));

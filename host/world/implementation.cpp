@@ -61,6 +61,19 @@ Sizes World::Implementation::sizes() const
           .features = special.features};
 }
 
+namespace {
+
+/* Queries between steps read what shapes are made of, whether or not a kernel of the step does: in a scene of one
+ * capsule none collides. */
+void note_shapes(Recorder &recorder)
+{
+  for (const Argument &argument : row_of(Kernel::cast_rays).arguments)
+    if (argument.kind == Argument::Kind::buffer && row_of(argument.buffer).lifetime == Lifetime::SCENE)
+      recorder.touched[index_of(argument.buffer)] = true;
+}
+
+} // namespace
+
 /* Kernels and buffers of the tail only once there is one. */
 void World::Implementation::record_kernels()
 {
@@ -69,6 +82,7 @@ void World::Implementation::record_kernels()
   all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
   Recorder recorder;
   launch_step(recorder, all, settings);
+  note_shapes(recorder);
   for (const Extension &extension : settings.extensions) note_rows(recorder, *extension.module);
   buffers.take_needs(std::move(recorder));
 }

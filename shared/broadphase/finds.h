@@ -35,7 +35,7 @@ typedef struct {
 } pair_search;
 
 FORCE_INLINE pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                  GLOBAL const uint *body_filter, GLOBAL const row *bounds, uint body)
+                                        GLOBAL const uint *body_filter, GLOBAL const row *bounds, uint body)
 {
   pair_search search = {parameters, body_traits, body_filter, bounds, body, load_bounds(bounds, body)};
   return search;

@@ -92,7 +92,7 @@ SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *c
 
 /* Finds the bodies before the searching one in a range of the sorted list. */
 FORCE_INLINE uint find_in_cells(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
-                          const find_list *list, uint at)
+                                const find_list *list, uint at)
 {
   for (; cells.at < cells.end; ++cells.at) {
     uint b = sort_value[cells.at];
@@ -103,7 +103,7 @@ FORCE_INLINE uint find_in_cells(const pair_search *search, GLOBAL const uint *so
 
 /* Finds the bodies before the searching one in its own cell and in the 26 around it. */
 FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
+                              GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   grid_cell c = cell_of(grid, counts, search->box);
   for (int neighbour = 0; neighbour < 9; ++neighbour) {
@@ -115,7 +115,7 @@ FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const row *grid,
 
 /* Finds every body before the searching one; large ones come first. */
 FORCE_INLINE uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                        GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
+                              GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
   at = find_among_first(search, large, list, at);

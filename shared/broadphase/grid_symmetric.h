@@ -28,7 +28,7 @@ SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *co
 
 /* Finds every body in a range of the sorted list. */
 FORCE_INLINE uint find_in_forward_row(const pair_search *search, GLOBAL const uint *sort_value, grid_row cells,
-                                const find_list *list, uint at)
+                                      const find_list *list, uint at)
 {
   for (; cells.at < cells.end; ++cells.at) {
     uint b = sort_value[cells.at];
@@ -39,8 +39,8 @@ FORCE_INLINE uint find_in_forward_row(const pair_search *search, GLOBAL const ui
 
 /* The searching body is that of item i: a large body, or the one at place i - large of the sorted list. */
 FORCE_INLINE uint search_forward_cells(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                                 GLOBAL const uint *cell_start, GLOBAL const uint *counts, uint i,
-                                 const find_list *list, uint at)
+                                       GLOBAL const uint *cell_start, GLOBAL const uint *counts, uint i,
+                                       const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
   at = find_among_first(search, large, list, at);

@@ -108,7 +108,7 @@ FORCE_INLINE uint add_leaf(const pair_search *search, uint b, uint before, const
 
 /* Each of the three reports the bodies below number `before`, leaf by leaf along the curve. */
 FORCE_INLINE uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
-                             uint root, uint before, const find_list *list, uint at)
+                                   uint root, uint before, const find_list *list, uint at)
 {
   uint next = root;
   for (uint leaf = next_by_skipping(search, tree, &next); leaf != INDEX_NONE;
@@ -117,7 +117,7 @@ FORCE_INLINE uint find_by_skipping(const pair_search *search, const searched_tre
   return at;
 }
 FORCE_INLINE uint find_from_stack(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
-                            uint root, uint before, const find_list *list, uint at)
+                                  uint root, uint before, const find_list *list, uint at)
 {
   slot_stack stack;
   stack.slot[0] = root;
@@ -128,7 +128,7 @@ FORCE_INLINE uint find_from_stack(const pair_search *search, const searched_tree
   return at;
 }
 FORCE_INLINE uint find_by_history(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
-                            uint root, uint before, const find_list *list, uint at)
+                                  uint root, uint before, const find_list *list, uint at)
 {
   history past = {root, 0u, 0u};
   for (uint leaf = next_by_history(search, tree, &past); leaf != INDEX_NONE;
@@ -138,8 +138,8 @@ FORCE_INLINE uint find_by_history(const pair_search *search, const searched_tree
 }
 
 /* Finds every body before the searching one; those without bounds come first. */
-FORCE_INLINE uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
-                             uint walk, const find_list *list, uint at)
+FORCE_INLINE uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes,
+                                   GLOBAL const uint *counts, uint walk, const find_list *list, uint at)
 {
   uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;
   searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, before_body(a)};

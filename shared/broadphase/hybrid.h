@@ -92,7 +92,7 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
 /* Finds the half-spaces and large bodies that the searching body meets. A large body looks for those before it alone,
  * so that a pair of two large ones is found once. */
 FORCE_INLINE uint search_large(const pair_search *search, GLOBAL const row *grid, read_hierarchy_nodes hierarchy_nodes,
-                         GLOBAL const uint *counts, const find_list *list, uint at)
+                               GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint boundless = counts[COUNT_BOUNDLESS], body = search->body;
   mask small = is_small(grid, search->box);

@@ -33,8 +33,8 @@ SHARED mask finds_large(GLOBAL const uint *body_left, uint large, uint y, uint b
 /* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the one of the higher number
  * finds the pair, so that it is found once. */
 FORCE_INLINE uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
-                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
-                              uint at)
+                                    read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                                    const find_list *list, uint at)
 {
   searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, BOUNDLESS};
   uint next = root_slot(counts), i = search->body;
@@ -48,8 +48,9 @@ FORCE_INLINE uint find_among_leaves(const pair_search *search, GLOBAL const uint
 }
 
 /* The pairs that the searching body finds. Its box and those of the others are fat. */
-FORCE_INLINE uint search_near(const pair_search *search, GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
-                        GLOBAL const uint *counts, const find_list *list, uint at)
+FORCE_INLINE uint search_near(const pair_search *search, GLOBAL const uint *body_left,
+                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
+                              uint at)
 {
   uint i = search->body, large = counts[COUNT_LARGE];
   for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)
@@ -108,7 +109,7 @@ SHARED near_list near_list_of(GLOBAL const uint *near_start, GLOBAL const uint *
 
 /* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
 FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *near_key, near_list kept,
-                       GLOBAL const uint *counts, uint a, const find_list *list, uint at)
+                             GLOBAL const uint *counts, uint a, const find_list *list, uint at)
 {
   uint keys = counts[COUNT_NEAR_KEYS], key = first_key_of(near_key, keys, a);
   mask keeps = counts[COUNT_KEPT] != 0u && body_left[a] == 0u;

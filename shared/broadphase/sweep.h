@@ -76,8 +76,8 @@ SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_
 /* Finds the large bodies before the searching one, which is that of item i, and the small ones that start within its
  * interval. */
 FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
-                           GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
-                           uint i, const find_list *list, uint at)
+                                 GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
+                                 uint i, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];
   at = find_among_first(search, large, list, at);

@@ -7,6 +7,7 @@
 #define TANDEM_SHARED_NARROWPHASE_BOX_HALF_SPACE_H
 
 #include "shared/narrowphase/box.h"
+#include "shared/narrowphase/pair_lists.h"
 
 /* Corner of the face `toward` the plane; `origin` is where offsets are counted from, seen from the box. */
 SHARED vec4 corner_contact(vec3 corner, vec3 center, vec3 outward, vec3 origin)

@@ -19,10 +19,10 @@ check() {
   [ -z "$faults$dead" ]
 }
 
-# Links to files of the tree, without their #place; code in backticks is no link.
+# Links to files of the tree, without their #place; code, in backticks or in a block, is no link.
 dead_links() {
   find "$1" -name build -prune -o -name '*.md' -print | sort | while read -r document; do
-    sed 's/`[^`]*`//g' "$document" | grep -o ']([^)#]*' | cut -c3- | while read -r target; do
+    sed -e '/^```/,/^```/d' -e 's/`[^`]*`//g' "$document" | grep -o ']([^)#]*' | cut -c3- | while read -r target; do
       case $target in '' | *://* | mailto:*) continue ;; esac
       [ -e "$(dirname "$document")/$target" ] || echo "$document: links to $target, which is not there"
     done

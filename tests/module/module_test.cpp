@@ -206,7 +206,8 @@ TEST_CASE("module: what does not fit is refused by name")
 {
   World plain(balls(3), {}, {"serial", {}}), world(balls(3), with(pushing(1)), {"serial", {}});
   const std::vector<float> four(4), five(5);
-  CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push); }), Contains("kernel 'probe_push' is of no module"));
+  CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push); }),
+             Contains("kernel 'probe_push' is of no module"));
   CHECK_THAT(message_of([&] { plain.write<float>(probe::buffer::probe_force, four); }), Contains("of no module"));
   CHECK_THAT(message_of([&] { world.write<float>(Buffer::body_velocity, four); }), Contains("'body_velocity'"));
   CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force, five); }),

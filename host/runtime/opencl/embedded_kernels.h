@@ -1,4 +1,4 @@
-/* embedded_kernels.h - the OpenCL programs of the pipeline, one per file of cl/; tools/embed writes them at build time. */
+/* embedded_kernels.h - the OpenCL programs of the pipeline, one per file of cl/, as tools/embed wrote them. */
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 /* What one step hands to the next: each number of it changes the hash of the state, and what changes the next step's
  * bits is in that hash. */
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <set>
@@ -90,7 +91,9 @@ TEST_CASE("every number that is carried over changes the hash of the state")
     }
     REQUIRE(world->state_hash() == hash);
   }
-  CHECK(seen.size() == carried_buffers().size());
+  const std::vector<CarriedBuffer> all = carried_buffers(); /* modules of other tests among them */
+  const auto of_pipeline = [](const CarriedBuffer &carried) { return index_of(carried.now) < buffer_count; };
+  CHECK(seen.size() == static_cast<size_t>(std::count_if(all.begin(), all.end(), of_pipeline)));
 }
 
 namespace {
