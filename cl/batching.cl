@@ -4,7 +4,7 @@
 #include "shared/batching/cells.h"
 #include "shared/batching/check.h"
 #include "shared/batching/coloring.h"
-#include "shared/batching/incidence.h"
+#include "shared/batching/body_constraints.h"
 #include "shared/batching/body_coloring.h"
 #include "shared/batching/iterative.h"
 #include "shared/batching/order.h"

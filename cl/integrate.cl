@@ -5,6 +5,6 @@
 #include "shared/integrate/velocities.h"
 #include "shared/integrate/positions.h"
 #include "shared/integrate/cache_rolling.h"
-#include "shared/integrate/stop_motion.h"
+#include "shared/integrate/stop_at_time_of_impact.h"
 
 ENTRIES(integrate)

@@ -2,6 +2,6 @@
 #include "cl/entry.h"
 #include "shared/midphase/leaf_pairs.h"
 #include "shared/midphase/subtree_pairs.h"
-#include "shared/midphase/grazing.h"
+#include "shared/midphase/internal_edges.h"
 
 ENTRIES(midphase)

@@ -8,7 +8,7 @@
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/narrowphase/follow_boxes.h"
 #include "shared/narrowphase/follow_convexes.h"
-#include "shared/narrowphase/limit_motion.h"
+#include "shared/narrowphase/clamp_to_time_of_impact.h"
 #include "shared/narrowphase/list_pairs.h"
 #include "shared/narrowphase/sat_split.h"
 

@@ -137,7 +137,7 @@ public:
       arguments_.push_back(row.arguments[i].kind == Argument::Kind::value ? const_cast<uint32_t *>(&bound[i].value)
                                                                           : bound[i].handle);
     const uint32_t first = count[launch.first], last = count[launch.last];
-    if (row.form == Form::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
+    if (row.execution == Execution::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
     else if (last > first) run_items(launch.kernel, arguments_.data(), first, last);
     if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and where there was none for the last one */
     if (!profiling_) return;

@@ -1,4 +1,4 @@
-/* lanes.h - real, natural and mask over TANDEM_LANES = 4, 8 or 16 items of one kernel.
+/* lanes.h - real, uint_lanes and mask over TANDEM_LANES = 4, 8 or 16 items of one kernel.
  *
  * The same shared source as shared/real.h serves, at 4 to 16 items an instruction: on one thread of a Xeon
  * with AVX-512 boxes collide 6 times as fast with 16 lanes as with one (`tandem bench narrowphase --pairs box-box
@@ -14,26 +14,26 @@ constexpr int width = TANDEM_LANES;
 #undef SHARED
 #define SHARED static inline __attribute__((always_inline))
 
-typedef float float_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
-typedef int32_t int_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
-typedef uint32_t uint_lanes __attribute__((vector_size(4 * TANDEM_LANES)));
+typedef float float_vector __attribute__((vector_size(4 * TANDEM_LANES)));
+typedef int32_t int_vector __attribute__((vector_size(4 * TANDEM_LANES)));
+typedef uint32_t uint_vector __attribute__((vector_size(4 * TANDEM_LANES)));
 
 struct mask {
-  int_lanes v; /* all ones or all zeros a lane */
+  int_vector v; /* all ones or all zeros a lane */
 };
 
 struct real {
-  float_lanes v;
+  float_vector v;
   real() = default;
-  real(float x) : v(float_lanes{} + x) {}
-  explicit real(float_lanes x) : v(x) {}
+  real(float x) : v(float_vector{} + x) {}
+  explicit real(float_vector x) : v(x) {}
 };
 
-struct natural {
-  uint_lanes v;
-  natural() = default;
-  natural(uint32_t x) : v(uint_lanes{} + x) {}
-  explicit natural(uint_lanes x) : v(x) {}
+struct uint_lanes {
+  uint_vector v;
+  uint_lanes() = default;
+  uint_lanes(uint32_t x) : v(uint_vector{} + x) {}
+  explicit uint_lanes(uint_vector x) : v(x) {}
 };
 
 struct vec4 {
@@ -55,46 +55,46 @@ SHARED mask operator>=(real a, real b) { return {a.v >= b.v}; }
 SHARED mask operator==(real a, real b) { return {a.v == b.v}; }
 SHARED mask operator!=(real a, real b) { return {a.v != b.v}; }
 
-SHARED natural operator+(natural a, natural b) { return natural(a.v + b.v); }
-SHARED natural operator-(natural a, natural b) { return natural(a.v - b.v); }
-SHARED natural operator*(natural a, natural b) { return natural(a.v * b.v); }
-SHARED natural operator&(natural a, natural b) { return natural(a.v & b.v); }
-SHARED natural operator|(natural a, natural b) { return natural(a.v | b.v); }
-SHARED natural operator^(natural a, natural b) { return natural(a.v ^ b.v); }
-SHARED natural operator<<(natural a, natural b) { return natural(a.v << b.v); }
-SHARED natural operator>>(natural a, natural b) { return natural(a.v >> b.v); }
-SHARED mask operator<(natural a, natural b) { return {(int_lanes)(a.v < b.v)}; }
-SHARED mask operator>(natural a, natural b) { return {(int_lanes)(a.v > b.v)}; }
-SHARED mask operator<=(natural a, natural b) { return {(int_lanes)(a.v <= b.v)}; }
-SHARED mask operator>=(natural a, natural b) { return {(int_lanes)(a.v >= b.v)}; }
-SHARED mask operator==(natural a, natural b) { return {(int_lanes)(a.v == b.v)}; }
-SHARED mask operator!=(natural a, natural b) { return {(int_lanes)(a.v != b.v)}; }
+SHARED uint_lanes operator+(uint_lanes a, uint_lanes b) { return uint_lanes(a.v + b.v); }
+SHARED uint_lanes operator-(uint_lanes a, uint_lanes b) { return uint_lanes(a.v - b.v); }
+SHARED uint_lanes operator*(uint_lanes a, uint_lanes b) { return uint_lanes(a.v * b.v); }
+SHARED uint_lanes operator&(uint_lanes a, uint_lanes b) { return uint_lanes(a.v & b.v); }
+SHARED uint_lanes operator|(uint_lanes a, uint_lanes b) { return uint_lanes(a.v | b.v); }
+SHARED uint_lanes operator^(uint_lanes a, uint_lanes b) { return uint_lanes(a.v ^ b.v); }
+SHARED uint_lanes operator<<(uint_lanes a, uint_lanes b) { return uint_lanes(a.v << b.v); }
+SHARED uint_lanes operator>>(uint_lanes a, uint_lanes b) { return uint_lanes(a.v >> b.v); }
+SHARED mask operator<(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v < b.v)}; }
+SHARED mask operator>(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v > b.v)}; }
+SHARED mask operator<=(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v <= b.v)}; }
+SHARED mask operator>=(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v >= b.v)}; }
+SHARED mask operator==(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v == b.v)}; }
+SHARED mask operator!=(uint_lanes a, uint_lanes b) { return {(int_vector)(a.v != b.v)}; }
 
 SHARED mask operator&(mask a, mask b) { return {a.v & b.v}; }
 SHARED mask operator|(mask a, mask b) { return {a.v | b.v}; }
 SHARED mask operator!(mask a) { return {~a.v}; }
 
 SHARED real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v); }
-SHARED natural choose(mask m, natural a, natural b) { return natural(m.v ? a.v : b.v); }
+SHARED uint_lanes choose(mask m, uint_lanes a, uint_lanes b) { return uint_lanes(m.v ? a.v : b.v); }
 SHARED mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
 
 /* Items first, first + 1, ...: what is loaded through it lies side by side. */
 struct item_index {
   uint32_t first;
-  operator natural() const
+  operator uint_lanes() const
   {
-    natural i;
+    uint_lanes i;
     for (int lane = 0; lane < width; ++lane) i.v[lane] = first + (uint32_t)lane;
     return i;
   }
 };
 SHARED item_index operator+(item_index i, uint32_t offset) { return {i.first + offset}; }
 SHARED item_index operator+(uint32_t offset, item_index i) { return {i.first + offset}; }
-SHARED natural operator*(item_index i, uint32_t factor) { return natural(i) * natural(factor); }
+SHARED uint_lanes operator*(item_index i, uint32_t factor) { return uint_lanes(i) * uint_lanes(factor); }
 
-SHARED real to_real(natural x) { return real(__builtin_convertvector((int_lanes)x.v, float_lanes)); }
-SHARED real int_to_real(natural x) { return to_real(x); }
-SHARED natural to_natural(real x) { return natural((uint_lanes) __builtin_convertvector(x.v, int_lanes)); }
+SHARED real to_real(uint_lanes x) { return real(__builtin_convertvector((int_vector)x.v, float_vector)); }
+SHARED real int_to_real(uint_lanes x) { return to_real(x); }
+SHARED uint_lanes to_uint(real x) { return uint_lanes((uint_vector) __builtin_convertvector(x.v, int_vector)); }
 
 #if defined(__x86_64__)
 #include "minicl/lanes_x86.h"
@@ -102,25 +102,25 @@ SHARED natural to_natural(real x) { return natural((uint_lanes) __builtin_conver
 #include "minicl/lanes_portable.h"
 #endif
 
-SHARED void store_real(memory_real *to, natural i, real value)
+SHARED void store_real(memory_real *to, uint_lanes i, real value)
 {
   for (int lane = 0; lane < width; ++lane) to[i.v[lane]] = value.v[lane];
 }
-SHARED void store_natural(uint *to, natural i, natural value)
+SHARED void store_uint(uint *to, uint_lanes i, uint_lanes value)
 {
   for (int lane = 0; lane < width; ++lane) to[i.v[lane]] = value.v[lane];
 }
-SHARED void store_natural_if(mask m, uint *to, natural i, natural value)
+SHARED void store_uint_if(mask m, uint *to, uint_lanes i, uint_lanes value)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) to[i.v[lane]] = value.v[lane];
 }
-SHARED void atomic_min_if(mask m, uint *to, uint at, natural value)
+SHARED void atomic_min_if(mask m, uint *to, uint at, uint_lanes value)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_min_uint(to + at, value.v[lane]);
 }
-SHARED void atomic_clear_if(mask m, uint *to, natural at)
+SHARED void atomic_clear_if(mask m, uint *to, uint_lanes at)
 {
   for (int lane = 0; lane < width; ++lane)
     if (m.v[lane]) atomic_min_uint(to + at.v[lane], 0u);
@@ -136,65 +136,65 @@ SHARED void store_real(memory_real *to, item_index i, real value)
 {
   __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
 }
-SHARED natural load_natural(const uint *from, item_index i)
+SHARED uint_lanes load_uint(const uint *from, item_index i)
 {
-  natural r;
+  uint_lanes r;
   __builtin_memcpy(&r.v, from + i.first, sizeof r.v);
   return r;
 }
-SHARED void store_natural(uint *to, item_index i, natural value)
+SHARED void store_uint(uint *to, item_index i, uint_lanes value)
 {
   __builtin_memcpy(to + i.first, &value.v, sizeof value.v);
 }
-SHARED void store_natural_if(mask m, uint *to, item_index i, natural value)
+SHARED void store_uint_if(mask m, uint *to, item_index i, uint_lanes value)
 {
-  store_natural_if(m, to, natural(i), value);
+  store_uint_if(m, to, uint_lanes(i), value);
 }
 
 /* A record is loaded or stored whole, 16 bytes a lane, and transposed in registers. */
-SHARED vec4 load_row(const row *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
-SHARED void store_row(row *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
+SHARED vec4 load_float4(const float4 *from, item_index i) { return transpose(load_in_order(&from[i.first].x)); }
+SHARED void store_float4(float4 *to, item_index i, vec4 value) { store_in_order(&to[i.first].x, transpose(value)); }
 
 struct lane_numbers {
   uint32_t of[width];
 };
-SHARED lane_numbers numbers_of(natural i)
+SHARED lane_numbers numbers_of(uint_lanes i)
 {
   lane_numbers n;
   __builtin_memcpy(n.of, &i.v, sizeof n.of);
   return n;
 }
-SHARED vec4 load_row(const row *from, natural i)
+SHARED vec4 load_float4(const float4 *from, uint_lanes i)
 {
   const lane_numbers at = numbers_of(i);
   const float *lanes[width];
   for (int lane = 0; lane < width; ++lane) lanes[lane] = &from[at.of[lane]].x;
   return transpose(gather_quarters(lanes));
 }
-SHARED void store_row(row *to, natural i, vec4 value)
+SHARED void store_float4(float4 *to, uint_lanes i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
   float *lanes[width];
   for (int lane = 0; lane < width; ++lane) lanes[lane] = &to[at.of[lane]].x;
   scatter_quarters(lanes, transpose(value));
 }
-/* Lanes that must not write go to a spare row: a body that cannot move is shared by many lanes and threads. */
-SHARED void store_row_if(mask m, row *to, natural i, vec4 value)
+/* Lanes that must not write go to a spare float4: a body that cannot move is shared by many lanes and threads. */
+SHARED void store_float4_if(mask m, float4 *to, uint_lanes i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);
-  row spare;
+  float4 spare;
   float *lanes[width];
   for (int lane = 0; lane < width; ++lane) lanes[lane] = m.v[lane] ? &to[at.of[lane]].x : &spare.x;
   scatter_quarters(lanes, transpose(value));
 }
-SHARED void store_row_if(mask m, row *to, item_index i, vec4 value)
+SHARED void store_float4_if(mask m, float4 *to, item_index i, vec4 value)
 {
-  if (all_of(m)) store_row(to, i, value);
-  else store_row_if(m, to, natural(i), value);
+  if (all_of(m)) store_float4(to, i, value);
+  else store_float4_if(m, to, uint_lanes(i), value);
 }
-SHARED void store_listed_row_if(mask m, row *to, natural i, vec4 value)
+SHARED void store_listed_row_if(mask m, float4 *to, uint_lanes i, vec4 value)
 {
   const item_index run{i.v[0]};
-  if (all_of(m & (i == natural(run)))) store_row(to, run, value);
-  else store_row_if(m, to, i, value);
+  if (all_of(m & (i == uint_lanes(run)))) store_float4(to, run, value);
+  else store_float4_if(m, to, i, value);
 }

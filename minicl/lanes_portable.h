@@ -12,15 +12,15 @@ SHARED bool any_of(mask m)
   for (int lane = 0; lane < width; ++lane) all |= m.v[lane];
   return all != 0;
 }
-SHARED real load_real(const memory_real *from, natural i)
+SHARED real load_real(const memory_real *from, uint_lanes i)
 {
   real r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }
-SHARED natural load_natural(const uint *from, natural i)
+SHARED uint_lanes load_uint(const uint *from, uint_lanes i)
 {
-  natural r;
+  uint_lanes r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }

@@ -10,7 +10,7 @@
 #pragma once
 
 #if TANDEM_LANES == 16
-SHARED real square_root(real x) { return real((float_lanes)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
+SHARED real square_root(real x) { return real((float_vector)_mm512_maskz_sqrt_ps(0xffff, (__m512)x.v)); }
 SHARED bool any_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm512_movepi32_mask((__m512i)m.v) == 0xffff; }
 
@@ -35,7 +35,7 @@ SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm512_s
 SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm512_shuffle_ps(a, b, 0xee); }
 
 #elif TANDEM_LANES == 8
-SHARED real square_root(real x) { return real((float_lanes)_mm256_sqrt_ps((__m256)x.v)); }
+SHARED real square_root(real x) { return real((float_vector)_mm256_sqrt_ps((__m256)x.v)); }
 SHARED bool any_of(mask m) { return _mm256_movemask_ps((__m256)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm256_movemask_ps((__m256)m.v) == 0xff; }
 
@@ -55,7 +55,7 @@ SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm256_s
 SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm256_shuffle_ps(a, b, 0xee); }
 
 #else
-SHARED real square_root(real x) { return real((float_lanes)_mm_sqrt_ps((__m128)x.v)); }
+SHARED real square_root(real x) { return real((float_vector)_mm_sqrt_ps((__m128)x.v)); }
 SHARED bool any_of(mask m) { return _mm_movemask_ps((__m128)m.v) != 0; }
 SHARED bool all_of(mask m) { return _mm_movemask_ps((__m128)m.v) == 0xf; }
 
@@ -70,35 +70,35 @@ SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_mov
 
 /* The address sanitizer does not look into gathers: in its builds each lane loads by itself. */
 #if TANDEM_LANES == 4 || defined(__SANITIZE_ADDRESS__)
-SHARED real load_real(const memory_real *from, natural i)
+SHARED real load_real(const memory_real *from, uint_lanes i)
 {
   real r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }
-SHARED natural load_natural(const uint *from, natural i)
+SHARED uint_lanes load_uint(const uint *from, uint_lanes i)
 {
-  natural r;
+  uint_lanes r;
   for (int lane = 0; lane < width; ++lane) r.v[lane] = from[i.v[lane]];
   return r;
 }
 #elif TANDEM_LANES == 8
-SHARED real load_real(const memory_real *from, natural i)
+SHARED real load_real(const memory_real *from, uint_lanes i)
 {
-  return real((float_lanes)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
+  return real((float_vector)_mm256_i32gather_ps(from, (__m256i)i.v, 4));
 }
-SHARED natural load_natural(const uint *from, natural i)
+SHARED uint_lanes load_uint(const uint *from, uint_lanes i)
 {
-  return natural((uint_lanes)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
+  return uint_lanes((uint_vector)_mm256_i32gather_epi32((const int *)from, (__m256i)i.v, 4));
 }
 #else
-SHARED real load_real(const memory_real *from, natural i)
+SHARED real load_real(const memory_real *from, uint_lanes i)
 {
-  return real((float_lanes)_mm512_i32gather_ps((__m512i)i.v, from, 4));
+  return real((float_vector)_mm512_i32gather_ps((__m512i)i.v, from, 4));
 }
-SHARED natural load_natural(const uint *from, natural i)
+SHARED uint_lanes load_uint(const uint *from, uint_lanes i)
 {
-  return natural((uint_lanes)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
+  return uint_lanes((uint_vector)_mm512_i32gather_epi32((__m512i)i.v, from, 4));
 }
 #endif
 
@@ -121,8 +121,8 @@ SHARED vec4 transpose(quarters q)
 {
   const quarter_rows xy01 = unpack_low(q.a, q.b), zw01 = unpack_high(q.a, q.b);
   const quarter_rows xy23 = unpack_low(q.c, q.d), zw23 = unpack_high(q.c, q.d);
-  return {real((float_lanes)halves_low(xy01, xy23)), real((float_lanes)halves_high(xy01, xy23)),
-          real((float_lanes)halves_low(zw01, zw23)), real((float_lanes)halves_high(zw01, zw23))};
+  return {real((float_vector)halves_low(xy01, xy23)), real((float_vector)halves_high(xy01, xy23)),
+          real((float_vector)halves_low(zw01, zw23)), real((float_vector)halves_high(zw01, zw23))};
 }
 SHARED quarters transpose(vec4 value)
 {

@@ -23,7 +23,7 @@ struct Layout {
 Layout layout_of(Element element, size_t bytes)
 {
   switch (element) {
-  case Element::row:
+  case Element::float4:
   case Element::real: return {bytes, bytes};
   case Element::Parameters: return {reference_parameters.reals * sizeof(float), bytes};
   case Element::uint:

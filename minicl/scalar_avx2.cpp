@@ -1,4 +1,4 @@
-/* scalar_avx2.cpp - every kernel one item at a time, for processors with AVX2: strips (shared/strip.h) are one
+/* scalar_avx2.cpp - every kernel one item at a time, for processors with AVX2: chunks (shared/float8.h) are one
  * register. */
 #define WIDTH scalar_avx2
 #include "minicl/width.inc"

@@ -45,7 +45,7 @@ public:
   WaitingThreads(size_t most, size_t stack_bytes) : closed_(gate_)
   {
     threads_.reserve(most);
-    rooms_.reserve(most);
+    reservations_.reserve(most);
     ::pthread_attr_init(&attributes_);
     ::pthread_attr_setstacksize(&attributes_, stack_bytes);
   }
@@ -60,11 +60,11 @@ public:
 
   bool start_one()
   {
-    Reservation room(heap_bytes);
+    Reservation reservation(heap_bytes);
     pthread_t thread;
-    if (!room.granted() || ::pthread_create(&thread, &attributes_, pass, &gate_) != 0) return false;
+    if (!reservation.granted() || ::pthread_create(&thread, &attributes_, pass, &gate_) != 0) return false;
     threads_.push_back(thread);
-    rooms_.push_back(std::move(room));
+    reservations_.push_back(std::move(reservation));
     return true;
   }
   size_t count() const { return threads_.size(); }
@@ -80,7 +80,7 @@ private:
   std::unique_lock<std::mutex> closed_;
   pthread_attr_t attributes_;
   std::vector<pthread_t> threads_;
-  std::vector<Reservation> rooms_;
+  std::vector<Reservation> reservations_;
 };
 
 /* Of several controls TBB obeys the least, so there is one, which only grows. */

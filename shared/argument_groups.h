@@ -1,9 +1,9 @@
-/* argument_groups.h - buffers that always travel together, by one name.
+/* argument_groups.h - buffers that kernels always take together, under one name.
  *
  * A group lists its buffers once: GROUP_name(BUFFER) is BUFFER(name in buffers.def, type, name within the group) for
  * each. A row of kernels.def names it, as IN_GROUP(name), OUT_GROUP(name) or INOUT_GROUP(name), and is launched with
- * all its buffers, in this order; the shared function takes one struct, read_name or write_name. Of buffers that a
- * scene lacks nothing may be read, as of any other argument.
+ * all its buffers, in this order; the shared function takes one struct, read_name or write_name. As with any other
+ * argument, a kernel must not read a buffer that the scene lacks.
  */
 #ifndef TANDEM_SHARED_ARGUMENT_GROUPS_H
 #define TANDEM_SHARED_ARGUMENT_GROUPS_H
@@ -15,29 +15,29 @@
 
 /* --- the scene: shapes and what they are made of ---------------------------------------------------------- */
 #define GROUP_shapes(BUFFER)                                                                                           \
-  BUFFER(body_traits, uint, traits)                                                                                    \
-  BUFFER(body_shape, row, size)                                                                                        \
+  BUFFER(body_flags, uint, flags)                                                                                      \
+  BUFFER(body_shape, float4, size)                                                                                     \
   BUFFER(body_convex, uint, convex)                                                                                    \
-  BUFFER(body_shape_pose, row, pose)
+  BUFFER(body_shape_pose, float4, pose)
 
-/* Of hulls, and of triangles of meshes. */
+/* The tables of hulls, and of the triangles of meshes. */
 #define GROUP_surfaces(BUFFER)                                                                                         \
   BUFFER(hull_header, uint, header)                                                                                    \
-  BUFFER(hull_vertex, row, vertex)                                                                                     \
-  BUFFER(hull_plane, row, plane)                                                                                       \
+  BUFFER(hull_vertex, float4, vertex)                                                                                  \
+  BUFFER(hull_plane, float4, plane)                                                                                    \
   BUFFER(hull_face_start, uint, face_start)                                                                            \
   BUFFER(hull_corner, uint, corner)                                                                                    \
   BUFFER(hull_edge, uint, edge)                                                                                        \
-  BUFFER(hull_strip, row, strip)                                                                                       \
+  BUFFER(hull_chunk, float4, chunk)                                                                                    \
   BUFFER(hull_link, uint, link)                                                                                        \
-  BUFFER(mesh_vertex, row, mesh_vertex)                                                                                \
+  BUFFER(mesh_vertex, float4, mesh_vertex)                                                                             \
   BUFFER(mesh_triangle, uint, triangle)
 
-/* Of compounds and meshes. */
+/* The trees of compounds and meshes. */
 #define GROUP_trees(BUFFER)                                                                                            \
   BUFFER(body_tree, uint, of_body)                                                                                     \
   BUFFER(tree_header, uint, header)                                                                                    \
-  BUFFER(tree_frame, row, frame)                                                                                       \
+  BUFFER(tree_frame, float4, frame)                                                                                    \
   BUFFER(tree_node, uint, node)                                                                                        \
   BUFFER(tree_leaf, uint, leaf)
 
@@ -53,32 +53,32 @@ typedef struct {
 
 /* --- bodies ------------------------------------------------------------------------------------------------ */
 #define GROUP_bodies(BUFFER)                                                                                           \
-  BUFFER(body_position, row, position)                                                                                 \
-  BUFFER(body_orientation, row, orientation)                                                                           \
-  BUFFER(body_velocity, row, velocity)
+  BUFFER(body_position, float4, position)                                                                              \
+  BUFFER(body_orientation, float4, orientation)                                                                        \
+  BUFFER(body_velocity, float4, velocity)
 
-/* Of bodies that touch, as their contacts are set up. */
+/* What the set-up of a contact reads of its bodies. */
 #define GROUP_touching_bodies(BUFFER)                                                                                  \
-  BUFFER(body_traits, uint, traits)                                                                                    \
-  BUFFER(body_shape, row, shape)                                                                                       \
-  BUFFER(body_mass, row, mass)                                                                                         \
-  BUFFER(body_position, row, position)                                                                                 \
-  BUFFER(solver_velocity, row, velocity)                                                                               \
-  BUFFER(solver_inertia, row, inertia)
+  BUFFER(body_flags, uint, flags)                                                                                      \
+  BUFFER(body_shape, float4, shape)                                                                                    \
+  BUFFER(body_mass, float4, mass)                                                                                      \
+  BUFFER(body_position, float4, position)                                                                              \
+  BUFFER(solver_velocity, float4, velocity)                                                                            \
+  BUFFER(solver_inertia, float4, inertia)
 
-/* Of bodies whose velocities a kernel of the solver only reads. */
+/* The bodies of the solver, for kernels that only read velocities. */
 #define GROUP_solver_bodies(BUFFER)                                                                                    \
-  BUFFER(solver_velocity, row, velocity)                                                                               \
-  BUFFER(solver_inertia, row, inertia)                                                                                 \
-  BUFFER(solver_delta, row, delta)
+  BUFFER(solver_velocity, float4, velocity)                                                                            \
+  BUFFER(solver_inertia, float4, inertia)                                                                              \
+  BUFFER(solver_delta_pose, float4, delta)
 
 /* Of the bodies of solve/avbd_bodies.h, each a block of the descent. */
 #define GROUP_blocks(BUFFER)                                                                                           \
-  BUFFER(body_mass, row, mass)                                                                                         \
-  BUFFER(avbd_target, row, target)                                                                                     \
-  BUFFER(solver_inertia, row, inertia)                                                                                 \
-  BUFFER(solver_delta, row, delta)                                                                                     \
-  BUFFER(solver_orientation, row, orientation)
+  BUFFER(body_mass, float4, mass)                                                                                      \
+  BUFFER(avbd_target, float4, target)                                                                                  \
+  BUFFER(solver_inertia, float4, inertia)                                                                              \
+  BUFFER(solver_delta_pose, float4, delta)                                                                             \
+  BUFFER(solver_orientation, float4, orientation)
 
 typedef struct {
   GROUP_bodies(READ_MEMBER)
@@ -96,14 +96,14 @@ typedef struct {
 /* --- broadphase ------------------------------------------------------------------------------------------- */
 /* Of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
 #define GROUP_hierarchy_nodes(BUFFER)                                                                                  \
-  BUFFER(hierarchy, row, box)                                                                                          \
+  BUFFER(hierarchy, float4, box)                                                                                       \
   BUFFER(hierarchy_link, uint, link)                                                                                   \
   BUFFER(leaf_body, uint, leaf_body)
 
 /* Of broadphase/sweep_window.h, in the order of the sweep: boxes, their bodies, where the interval of each ends, and
  * where the last of each block does. */
 #define GROUP_sweep_intervals(BUFFER)                                                                                  \
-  BUFFER(sweep_bounds, row, bounds)                                                                                    \
+  BUFFER(sweep_bounds, float4, bounds)                                                                                 \
   BUFFER(sort_value, uint, body)                                                                                       \
   BUFFER(sweep_end, uint, end)                                                                                         \
   BUFFER(sweep_block, uint, block)
@@ -114,7 +114,7 @@ typedef struct {
   BUFFER(axis_place, uint, place)
 
 #define GROUP_kept_box_ends(BUFFER)                                                                                    \
-  BUFFER(kept_bounds, row, bounds)                                                                                     \
+  BUFFER(kept_bounds, float4, bounds)                                                                                  \
   BUFFER(kept_order, uint, order)                                                                                      \
   BUFFER(kept_place, uint, place)
 
@@ -145,7 +145,7 @@ typedef struct {
   BUFFER(pair_b, uint, b)                                                                                              \
   BUFFER(pair_of_kind, uint, of_kind)
 
-/* With the child or triangle of each body that takes part. */
+/* Pairs, with the child or triangle of each body that takes part. */
 #define GROUP_part_pairs(BUFFER)                                                                                       \
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)                                                                                              \
@@ -164,8 +164,8 @@ typedef struct {
   BUFFER(pair_leaf, uint, leaf)
 
 #define GROUP_manifolds(BUFFER)                                                                                        \
-  BUFFER(manifold_normal, row, normal)                                                                                 \
-  BUFFER(manifold_points, row, points)                                                                                 \
+  BUFFER(manifold_normal, float4, normal)                                                                              \
+  BUFFER(manifold_points, float4, points)                                                                              \
   BUFFER(manifold_count, uint, count)                                                                                  \
   BUFFER(manifold_feature, uint, feature)
 
@@ -196,11 +196,11 @@ typedef struct {
 
 /* Between the kernels of narrowphase/sat_split.h. */
 #define GROUP_separating_axes(BUFFER)                                                                                  \
-  BUFFER(split_axis, row, axis)                                                                                        \
+  BUFFER(split_axis, float4, axis)                                                                                     \
   BUFFER(split_state, uint, state)
 
 #define GROUP_clipped_points(BUFFER)                                                                                   \
-  BUFFER(split_point, row, point)                                                                                      \
+  BUFFER(split_point, float4, point)                                                                                   \
   BUFFER(split_count, uint, count)
 
 typedef struct {
@@ -222,35 +222,35 @@ typedef struct {
   BUFFER(constraint_pair, uint, pair)                                                                                  \
   BUFFER(constraint_a, uint, a)                                                                                        \
   BUFFER(constraint_b, uint, b)                                                                                        \
-  BUFFER(constraint_normal, row, normal)                                                                               \
-  BUFFER(constraint_points, row, points)                                                                               \
-  BUFFER(constraint_center, row, center)                                                                               \
-  BUFFER(constraint_normal_impulse, row, normal_impulse)                                                               \
-  BUFFER(constraint_friction_impulse, row, friction_impulse)                                                           \
-  BUFFER(constraint_bounce, row, bounce)                                                                               \
+  BUFFER(constraint_normal, float4, normal)                                                                            \
+  BUFFER(constraint_points, float4, points)                                                                            \
+  BUFFER(constraint_center, float4, center)                                                                            \
+  BUFFER(constraint_normal_impulse, float4, normal_impulse)                                                            \
+  BUFFER(constraint_friction_impulse, float4, friction_impulse)                                                        \
+  BUFFER(constraint_restitution, float4, restitution)                                                                  \
   BUFFER(constraint_slop, memory_real, slop)
 
 #define GROUP_contacts(BUFFER)                                                                                         \
   BUFFER(constraint_a, uint, a)                                                                                        \
   BUFFER(constraint_b, uint, b)                                                                                        \
-  BUFFER(constraint_normal, row, normal)
+  BUFFER(constraint_normal, float4, normal)
 
 /* Where the bodies of a contact touch, and how deep they may stay in each other. */
 #define GROUP_patches(BUFFER)                                                                                          \
-  BUFFER(constraint_points, row, points)                                                                               \
-  BUFFER(constraint_center, row, center)                                                                               \
+  BUFFER(constraint_points, float4, points)                                                                            \
+  BUFFER(constraint_center, float4, center)                                                                            \
   BUFFER(constraint_slop, memory_real, slop)
 
 #define GROUP_contact_impulses(BUFFER)                                                                                 \
-  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
-  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
-  BUFFER(constraint_bounce, row, bounce)
+  BUFFER(constraint_normal_impulse, float4, normal)                                                                    \
+  BUFFER(constraint_friction_impulse, float4, friction)                                                                \
+  BUFFER(constraint_restitution, float4, restitution)
 
 /* What solve/avbd.h holds contacts with: multipliers and penalties. */
 #define GROUP_duals(BUFFER)                                                                                            \
-  BUFFER(constraint_normal_impulse, row, normal)                                                                       \
-  BUFFER(constraint_friction_impulse, row, friction)                                                                   \
-  BUFFER(constraint_penalty, row, penalty)
+  BUFFER(constraint_normal_impulse, float4, normal)                                                                    \
+  BUFFER(constraint_friction_impulse, float4, friction)                                                                \
+  BUFFER(constraint_penalty, float4, penalty)
 
 /* Each body's pairs, and which of them touch: in this step, and in the last. */
 #define GROUP_touching_pairs(BUFFER)                                                                                   \
@@ -265,25 +265,25 @@ typedef struct {
 
 /* Between the iterations of solve/mass_split.h. */
 #define GROUP_iterates(BUFFER)                                                                                         \
-  BUFFER(split_pushed, row, pushed)                                                                                    \
-  BUFFER(split_rubbed, row, rubbed)
+  BUFFER(split_previous_normal, float4, previous_normal)                                                               \
+  BUFFER(split_previous_friction, float4, previous_friction)
 
 /* The constraints of each body. */
-#define GROUP_incidence_lists(BUFFER)                                                                                  \
-  BUFFER(incidence_start, uint, start)                                                                                 \
-  BUFFER(incidence, uint, entries)
+#define GROUP_body_constraint_lists(BUFFER)                                                                            \
+  BUFFER(body_constraint_start, uint, start)                                                                           \
+  BUFFER(body_constraint, uint, entries)
 
 /* What the last step kept: of pairs, and of those that touched. */
 #define GROUP_cached_pairs(BUFFER)                                                                                     \
   BUFFER(cached_start, uint, start)                                                                                    \
   BUFFER(cached_b, uint, b)                                                                                            \
-  BUFFER(cached_normal, row, normal)                                                                                   \
+  BUFFER(cached_normal, float4, normal)                                                                                \
   BUFFER(cached_color, uint, color)
 
 #define GROUP_cached_contacts(BUFFER)                                                                                  \
   BUFFER(cached_feature, uint, feature)                                                                                \
-  BUFFER(cached_normal_impulse, row, normal_impulse)                                                                   \
-  BUFFER(cached_friction_impulse, row, friction_impulse)
+  BUFFER(cached_normal_impulse, float4, normal_impulse)                                                                \
+  BUFFER(cached_friction_impulse, float4, friction_impulse)
 
 typedef struct {
   GROUP_constraints(WRITE_MEMBER)
@@ -313,8 +313,8 @@ typedef struct {
   GROUP_iterates(WRITE_MEMBER)
 } write_iterates;
 typedef struct {
-  GROUP_incidence_lists(READ_MEMBER)
-} read_incidence_lists;
+  GROUP_body_constraint_lists(READ_MEMBER)
+} read_body_constraint_lists;
 typedef struct {
   GROUP_cached_pairs(READ_MEMBER)
 } read_cached_pairs;
@@ -323,13 +323,14 @@ typedef struct {
 } read_cached_contacts;
 
 /* --- queries ---------------------------------------------------------------------------------------------- */
-/* What the broadphase left, to find bodies along a way: the hierarchy, and the boxes and cells of the grid. */
+/* The structures of the broadphase in which queries find bodies along a path: the hierarchy, and the boxes and cells of
+ * the grid. */
 #define GROUP_search_structures(BUFFER)                                                                                \
-  BUFFER(hierarchy, row, node)                                                                                         \
+  BUFFER(hierarchy, float4, node)                                                                                      \
   BUFFER(hierarchy_link, uint, link)                                                                                   \
   BUFFER(leaf_body, uint, leaf_body)                                                                                   \
-  BUFFER(bounds, row, bounds)                                                                                          \
-  BUFFER(grid, row, grid)                                                                                              \
+  BUFFER(bounds, float4, bounds)                                                                                       \
+  BUFFER(grid, float4, grid)                                                                                           \
   BUFFER(sort_value, uint, sorted_body)                                                                                \
   BUFFER(cell_start, uint, cell_start)                                                                                 \
   BUFFER(counts, uint, counts)
@@ -338,23 +339,23 @@ typedef struct {
 #define GROUP_queries(BUFFER)                                                                                          \
   BUFFER(query_body, uint, body)                                                                                       \
   BUFFER(query_filter, uint, filter)                                                                                   \
-  BUFFER(query_start, row, start)                                                                                      \
-  BUFFER(query_way, row, way)
+  BUFFER(query_start, float4, start)                                                                                   \
+  BUFFER(query_displacement, float4, displacement)
 
-/* The same of one shape on many ways. */
+/* The same for one shape that is cast along many paths. */
 #define GROUP_shape_queries(BUFFER)                                                                                    \
   BUFFER(query_body, uint, body)                                                                                       \
   BUFFER(query_filter, uint, filter)                                                                                   \
-  BUFFER(query_start, row, start)                                                                                      \
-  BUFFER(query_turn, row, turn)                                                                                        \
-  BUFFER(query_way, row, way)                                                                                          \
-  BUFFER(query_shape, row, shape)                                                                                      \
-  BUFFER(query_vertex, row, vertex)                                                                                    \
-  BUFFER(query_strip, row, strip)
+  BUFFER(query_start, float4, start)                                                                                   \
+  BUFFER(query_turn, float4, turn)                                                                                     \
+  BUFFER(query_displacement, float4, displacement)                                                                     \
+  BUFFER(query_shape, float4, shape)                                                                                   \
+  BUFFER(query_vertex, float4, vertex)                                                                                 \
+  BUFFER(query_chunk, float4, chunk)
 
 #define GROUP_hits(BUFFER)                                                                                             \
-  BUFFER(query_hit, row, hit)                                                                                          \
-  BUFFER(query_point, row, point)                                                                                      \
+  BUFFER(query_hit, float4, hit)                                                                                       \
+  BUFFER(query_point, float4, point)                                                                                   \
   BUFFER(query_hit_body, uint, body)
 
 typedef struct {

@@ -1,12 +1,13 @@
-/* body_codes.h - the numbers in body_traits and body_convex, and of methods; kernels and the host both name them.
+/* body_codes.h - the numbers in body_flags and body_convex, and of methods; kernels and the host both name them.
  *
- * body_traits: bits 0-2 shape, 3-4 motion, 5 trigger, 8-27 material, 30 continuous collision.
+ * body_flags: bits 0-2 shape, 3-4 motion, 5 trigger, 8-27 material, 30 continuous collision.
  */
 #ifndef TANDEM_SHARED_BODY_CODES_H
 #define TANDEM_SHARED_BODY_CODES_H
 
-/* SHAPE_OTHER: what body_convex says, where body_shape_pose says. SHAPE_TRIANGLE: one of a mesh, in the narrowphase
- * alone. The others are those of ShapeType in host/include/tandem/scene.h. */
+/* SHAPE_OTHER: body_convex names the shape, and body_shape_pose places it in the body. SHAPE_TRIANGLE: a triangle of a
+ * mesh, which exists in the narrowphase alone. The other codes are those of ShapeType in
+ * host/include/tandem/scene.h. */
 enum {
   SHAPE_SPHERE = 0,
   SHAPE_BOX = 1,
@@ -20,13 +21,13 @@ enum {
   SHAPE_TRIANGLE = 9
 };
 
-/* Quarantined: taken out of the simulation, since it stopped being finite. */
-enum { MOTION_FIXED = 0, MOTION_KINEMATIC = 1, MOTION_DYNAMIC = 2, MOTION_QUARANTINED = 3 };
+/* A quarantined body has been taken out of the simulation, because its state stopped being finite. */
+enum { BODY_TYPE_FIXED = 0, BODY_TYPE_KINEMATIC = 1, BODY_TYPE_DYNAMIC = 2, BODY_TYPE_QUARANTINED = 3 };
 
-/* Found and reported by the pairs it is in, never solved. */
-enum { TRAIT_TRIGGER = 1 << 5 };
-/* Collides along its way through the step: narrowphase/conservative_advancement.h. */
-#define TRAIT_CONTINUOUS (1u << 30u)
+/* A trigger is found and reported in its pairs, and is never solved. */
+enum { BODY_FLAG_TRIGGER = 1 << 5 };
+/* The body collides along its path through the step: narrowphase/conservative_advancement.h. */
+#define BODY_FLAG_CONTINUOUS (1u << 30u)
 #define MOST_MATERIALS (1u << 20u)
 
 /* Kinds of pairs, from the rows of pairs.def: which kernel of the narrowphase finds their contacts. */
@@ -37,8 +38,9 @@ enum {
   PAIR_KIND_NONE /* how many there are, and what two half-spaces are */
 };
 
-/* In body_share: all of a motion, as whole numbers count it. */
-#define WHOLE_MOTION (1u << 24u)
+/* The value of body_toi_fraction that keeps the whole motion. Fractions are whole numbers, so that their minimum does
+ * not depend on order. */
+#define WHOLE_TOI_FRACTION (1u << 24u)
 /* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex
  * (hull_support.h). */
 enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS = 3 };

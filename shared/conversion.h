@@ -1,5 +1,5 @@
-/* conversion.h - numbers to integers that saturate: an out-of-range cast is undefined in C and differs
- * between devices, so none may be reached. For ITEM and GROUP kernels (width 1). */
+/* conversion.h - conversions to integers that saturate. An out-of-range cast is undefined in C and differs between
+ * devices, so these functions clamp before they cast. ITEM and GROUP kernels (width 1) use them. */
 #ifndef TANDEM_SHARED_CONVERSION_H
 #define TANDEM_SHARED_CONVERSION_H
 

@@ -1,4 +1,4 @@
-/* counts.h - every number of things that the device alone knows: one array of uint.
+/* counts.h - the counts that only the device knows, in one array of uint.
  *
  * Counts stay on the device: a kernel's range is [counts[first], counts[last]), so no stage waits
  * for the host. The host reads the array once, at the end of a step: reading after each stage would cost
@@ -8,14 +8,14 @@
 
 #include "shared/body_codes.h"
 
-/* Colours of the constraint graph; contacts past the last go to the tail (solve/mass_split.h). Two words hold a bit for
- * each and one for the tail. */
+/* Colours of the constraint graph; contacts past the last go to the overflow constraints (solve/mass_split.h). Two
+ * words hold a bit for each and one for the overflow constraints. */
 #define COLOR_LIMIT 63u
-#define COLOR_TAIL COLOR_LIMIT /* sort key of a constraint without a colour of its own */
-#define COLOR_NONE 254u        /* touching, not coloured yet */
-#define COLOR_INACTIVE 255u    /* pair of bounds that do not touch, or one with a trigger */
+#define COLOR_OVERFLOW COLOR_LIMIT /* sort key of a constraint without a colour of its own */
+#define COLOR_NONE 254u            /* touching, not coloured yet */
+#define COLOR_INACTIVE 255u        /* pair of bounds that do not touch, or one with a trigger */
 
-#define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* where each colour starts, the tail's start and end */
+#define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* where each colour starts, start and end of the overflow constraints */
 #if COLOR_LIMIT > 63u
 #error "two words hold the colours of a body"
 #endif
@@ -27,17 +27,17 @@ enum {
   COUNT_ONE,    /* always 1 */
   COUNT_BODIES, /* bodies of the scene; set by the host */
   COUNT_BODIES_PLUS_ONE,
-  COUNT_BOUNDLESS,    /* the first bodies: half-spaces; set by the host */
-  COUNT_BOUNDED,      /* the bodies after them */
-  COUNT_LARGE,        /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
-  COUNT_SMALL,        /* the bodies after them */
-  COUNT_HIERARCHY,    /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
-  COUNT_LEAVES,       /* leaves of the pyramid under it: a power of two, at least as many */
-  COUNT_LEAF_TILES,   /* nodes of that with TILE leaves each, at least 1 */
-  COUNT_FILED,        /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
-  COUNT_FILED_LEAVES, /* leaves of the pyramid in a step that does so */
-  COUNT_RAISED,       /* leaves above which boxes are made anew: all, or none */
-  COUNT_STRAYS,       /* leaves that have left the boxes they were filed under */
+  COUNT_UNBOUNDED,  /* the first bodies: half-spaces; set by the host */
+  COUNT_BOUNDED,    /* the bodies after them */
+  COUNT_LARGE,      /* the first bodies, half-spaces among them, too large for a grid or a sweep; set by the host */
+  COUNT_SMALL,      /* the bodies after them */
+  COUNT_HIERARCHY,  /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
+  COUNT_LEAVES,     /* leaves of the pyramid under it: a power of two, at least as many */
+  COUNT_LEAF_TILES, /* nodes of that with TILE leaves each, at least 1 */
+  COUNT_INSERTED,   /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
+  COUNT_INSERTED_LEAVES, /* leaves of the pyramid in a step that does so */
+  COUNT_RAISED,          /* leaves above which boxes are made anew: all, or none */
+  COUNT_ESCAPED,         /* leaves that have left the boxes they were inserted with */
   COUNT_KEPT, /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or
                  bodies change */
   COUNT_HIERARCHY_KEPT,   /* the same of the order of the hierarchy */
@@ -50,7 +50,7 @@ enum {
   COUNT_CONSTRAINTS,      /* touching pairs, in colour order */
   COUNT_UNCOLORED,        /* touching pairs that no round of colouring has reached yet */
   COUNT_ROUNDS,           /* rounds that coloured something */
-  COUNT_COLORS,           /* colours in use; COLOR_LIMIT + 1 if there is a tail */
+  COUNT_COLORS,           /* colours in use; COLOR_LIMIT + 1 if there are overflow constraints */
   COUNT_STATUS,           /* STATUS_ bits; 0: the step may be committed */
   COUNT_NONFINITE,        /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
   COUNT_COMMIT_BODIES,    /* what the commit kernels run over: nothing unless the status is 0 */
@@ -63,29 +63,29 @@ enum {
   COUNT_CELLS,
   COUNT_CELLS_PLUS_ONE,
   CAPACITY_CELLS,
-  COUNT_SHARES,       /* four times the bodies: work-items of the windowed sweep; set by the host */
-  COUNT_SWEEP_BLOCKS, /* groups of it, of SWEEP_BLOCK bodies each */
-  COUNT_SWEEP_ITEMS,  /* TILE times as many: a group a block */
-  COUNT_HALVES,       /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
-  COUNT_LEFT,         /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
-  COUNT_LARGE_LEFT,   /* COUNT_LARGE if one of these did */
-  COUNT_CHANGED,      /* all bodies if any did */
-  COUNT_NEAR_KEYS,    /* new pairs of fat boxes, as many as found room */
-  COUNT_NEAR_NEEDED,  /* the most that any list of them needed */
-  COUNT_NEAR_SIDE,    /* 0 or 1: the side of the kept list that holds */
-  COUNT_CHANGES,      /* pairs that came or went since the last launch of an incremental broadphase: min(found,
+  COUNT_SHARES,         /* four times the bodies: work-items of the windowed sweep; set by the host */
+  COUNT_SWEEP_BLOCKS,   /* groups of it, of SWEEP_BLOCK bodies each */
+  COUNT_SWEEP_ITEMS,    /* TILE times as many: a group a block */
+  COUNT_HALVES,         /* twice the bodies: the two halves of the hybrid broadphase, the ends of boxes along an axis */
+  COUNT_LEFT,           /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
+  COUNT_LARGE_LEFT,     /* COUNT_LARGE if one of these did */
+  COUNT_CHANGED,        /* all bodies if any did */
+  COUNT_CANDIDATE_KEYS, /* new pairs of fat boxes, as many as found room */
+  COUNT_CANDIDATES_NEEDED, /* the most that any list of them needed */
+  COUNT_CANDIDATE_SIDE,    /* 0 or 1: the side of the kept list that holds */
+  COUNT_CHANGES,           /* pairs that came or went since the last launch of an incremental broadphase: min(found,
                          CAPACITY_PAIRS) */
   COUNT_CHANGES_FOUND,
-  COUNT_SWEEP_AXIS,      /* axis of the sweep and prune: 0, 1 or 2 */
-  COUNT_DIRECT_ISLANDS,  /* islands that the solver `direct` solved in the last pass of the step */
-  COUNT_DIRECT_LEFT,     /* constraints it left to the iterative rows: their islands are too large, or not finite */
-  COUNT_DIRECT_STALLED,  /* islands, over the passes of the step, whose solve did not reach its tolerance */
-  COUNT_LENGTH,          /* length of a free-standing primitive (tests, benchmarks), or of a batch of queries */
-  COUNT_INCIDENCES,      /* twice the constraints: each has two bodies */
-  COUNT_TAIL_INCIDENCES, /* twice the constraints of the tail */
-  COUNT_COLOR_STARTS,    /* always COLOR_LIMIT + 1: the colours and the tail */
-  COUNT_BATCH_CELLS,     /* cells of a class for two-stage batching, a power of two; set by the host */
-  COUNT_BATCH_ITEMS,     /* TILE times as many: a group a cell */
+  COUNT_SWEEP_AXIS,       /* axis of the sweep and prune: 0, 1 or 2 */
+  COUNT_DIRECT_ISLANDS,   /* islands that the solver `direct` solved in the last pass of the step */
+  COUNT_DIRECT_LEFT,      /* constraints it left to the iterative rows: their islands are too large, or not finite */
+  COUNT_DIRECT_STALLED,   /* islands, over the passes of the step, whose solve did not reach its tolerance */
+  COUNT_LENGTH,           /* length of a free-standing primitive (tests, benchmarks), or of a batch of queries */
+  COUNT_BODY_CONSTRAINTS, /* twice the constraints: each has two bodies */
+  COUNT_OVERFLOW_BODY_CONSTRAINTS, /* twice the overflow constraints */
+  COUNT_COLOR_STARTS,              /* always COLOR_LIMIT + 1: the colours and the overflow constraints */
+  COUNT_BATCH_CELLS,               /* cells of a class for two-stage batching, a power of two; set by the host */
+  COUNT_BATCH_ITEMS,               /* TILE times as many: a group a cell */
   COUNT_CONFLICTS,      /* constraints whose colour touches one of their moving bodies twice; filled by --check alone */
   COUNT_FIRST_CONFLICT, /* the first of them, INDEX_NONE if none */
   COUNT_MISBATCHED,     /* pairs that touch and stand in no batch or in several, or do not touch and stand in one */

@@ -23,8 +23,8 @@ enum {
 #ifdef FEATURES
 #define IS_BUILT(index) HAS_BIT((ulong)(FEATURES), index)
 #define HAS_FEATURE(parameters, name) IS_BUILT(FEATURE_INDEX_##name)
-/* For what cannot be true of a scene without the feature: a compiler of devices then leaves it out. The shape of a
- * query need not be one of the scene's. */
+/* MAY_OCCUR(bit) is false where the scene lacks the feature, so that the compiler of a device drops the code. Hulls and
+ * round shapes may occur in queries of any scene, because the shape of a query need not be one of the scene's. */
 #ifdef ASKED_ABOUT_ANY_SHAPE
 #define MAY_OCCUR(name)                                                            \
   (IS_BUILT(FEATURE_INDEX_##name) || FEATURE_INDEX_##name == FEATURE_INDEX_HULL || \

@@ -27,7 +27,7 @@
 #include "shared/integrate/positions.h"
 #include "shared/integrate/commit.h"
 #include "shared/integrate/cache_rolling.h"
-#include "shared/integrate/stop_motion.h"
+#include "shared/integrate/stop_at_time_of_impact.h"
 #include "shared/events/impulses.h"
 #endif
 

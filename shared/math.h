@@ -63,19 +63,19 @@ SHARED vec4 choose4(mask m, vec4 a, vec4 b)
 {
   return make_vec4(choose(m, a.x, b.x), choose(m, a.y, b.y), choose(m, a.z, b.z), choose(m, a.w, b.w));
 }
-/* Of the row of four: k from 0. */
-SHARED real component(vec4 v, natural k)
+/* Component k, from 0. */
+SHARED real component(vec4 v, uint_lanes k)
 {
   return choose(k < 2u, choose(k == 0u, v.x, v.y), choose(k == 2u, v.z, v.w));
 }
 
-SHARED real inner(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-SHARED vec3 outer(vec3 a, vec3 b)
+SHARED real dot3(vec3 a, vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+SHARED vec3 cross3(vec3 a, vec3 b)
 {
   return make_vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
-SHARED real length_squared(vec3 v) { return inner(v, v); }
-SHARED real length_of(vec3 v) { return square_root(inner(v, v)); }
+SHARED real length_squared(vec3 v) { return dot3(v, v); }
+SHARED real length_of(vec3 v) { return square_root(dot3(v, v)); }
 
 SHARED vec3 symmetric_times(symmetric3 m, vec3 v)
 {
@@ -103,7 +103,7 @@ SHARED quat make_quat(real x, real y, real z, real w)
   return q;
 }
 SHARED quat quat_from(vec4 v) { return make_quat(v.x, v.y, v.z, v.w); }
-SHARED vec4 quat_to_row(quat q) { return make_vec4(q.x, q.y, q.z, q.w); }
+SHARED vec4 quat_to_vec4(quat q) { return make_vec4(q.x, q.y, q.z, q.w); }
 SHARED quat quat_multiply(quat a, quat b)
 {
   return make_quat(a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
@@ -124,7 +124,7 @@ SHARED mat3 rotation_of(quat q)
             {R(2.0) * (xz - wy), R(2.0) * (yz + wx), R(1.0) - R(2.0) * (xx + yy)}};
   return m;
 }
-SHARED vec3 rotate(mat3 m, vec3 v) { return make_vec3(inner(m.x, v), inner(m.y, v), inner(m.z, v)); }
+SHARED vec3 rotate(mat3 m, vec3 v) { return make_vec3(dot3(m.x, v), dot3(m.y, v), dot3(m.z, v)); }
 /* The transpose times v: from world to body axes. */
 SHARED vec3 rotate_back(mat3 m, vec3 v)
 {
@@ -158,8 +158,8 @@ SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)
   real least = minimum(d.x, minimum(d.y, d.z));
   vec3 rest = make_vec3(d.x - least, d.y - least, d.z - least);
   vec3 x = multiply(m.x, rest), y = multiply(m.y, rest), z = multiply(m.z, rest);
-  symmetric3 s = {least + inner(x, m.x), least + inner(y, m.y), least + inner(z, m.z),
-                  inner(x, m.y),         inner(x, m.z),         inner(y, m.z)};
+  symmetric3 s = {least + dot3(x, m.x), least + dot3(y, m.y), least + dot3(z, m.z),
+                  dot3(x, m.y),         dot3(x, m.z),         dot3(y, m.z)};
   return s;
 }
 

@@ -11,16 +11,16 @@
 #define ONE_SHAPE(shape) (1u << (uint)(shape))
 
 /* PAIR_KIND_ of two bodies; PAIR_KIND_NONE of two half-spaces, which have no test. */
-SHARED natural pair_kind(natural traits_a, natural traits_b)
+SHARED uint_lanes pair_kind(uint_lanes flags_a, uint_lanes flags_b)
 {
-  natural shapes = ((natural)1u << shape_of(traits_a)) | ((natural)1u << shape_of(traits_b));
-  natural kind = choose((shapes & ONE_SHAPE(SHAPE_HALF_SPACE)) != 0u, (natural)(uint)PAIR_KIND_CONVEX_HALF_SPACE,
-                        (natural)(uint)PAIR_KIND_CONVEX_CONVEX);
-  kind = choose(shapes == ONE_SHAPE(SHAPE_HALF_SPACE), (natural)(uint)PAIR_KIND_NONE, kind);
+  uint_lanes shapes = ((uint_lanes)1u << shape_of(flags_a)) | ((uint_lanes)1u << shape_of(flags_b));
+  uint_lanes kind = choose((shapes & ONE_SHAPE(SHAPE_HALF_SPACE)) != 0u, (uint_lanes)(uint)PAIR_KIND_CONVEX_HALF_SPACE,
+                           (uint_lanes)(uint)PAIR_KIND_CONVEX_CONVEX);
+  kind = choose(shapes == ONE_SHAPE(SHAPE_HALF_SPACE), (uint_lanes)(uint)PAIR_KIND_NONE, kind);
 #define GENERAL_PAIR(name, first, second, kernel, follower, what)
-#define PAIR(name, first, second, kernel, follower, what) \
-  kind =                                                  \
-      choose(shapes == (ONE_SHAPE(SHAPE_##first) | ONE_SHAPE(SHAPE_##second)), (natural)(uint)PAIR_KIND_##name, kind);
+#define PAIR(name, first, second, kernel, follower, what)                                                             \
+  kind = choose(shapes == (ONE_SHAPE(SHAPE_##first) | ONE_SHAPE(SHAPE_##second)), (uint_lanes)(uint)PAIR_KIND_##name, \
+                kind);
 #include "shared/pairs.def"
 #undef PAIR
 #undef GENERAL_PAIR

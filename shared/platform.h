@@ -13,9 +13,9 @@
  * The types that change with the width:
  *
  *   real      a number                      float, or one float a lane
- *   natural   an unsigned 32-bit integer    uint, or one uint a lane
+ *   uint_lanes an unsigned 32-bit integer    uint, or one uint a lane
  *   mask      the result of a comparison    int 0/1, or all-ones/zero a lane
- *   row       four floats in memory, 16-byte aligned; never a lane type
+ *   float4    four floats in memory, 16-byte aligned; never a lane type
  *
  * Kernels marked LANES in kernels.def use only these, choose() for data-dependent choices,
  * load and store functions for memory, and uniform loop counts.
@@ -31,7 +31,6 @@
 #define CONSTANT_TABLE __constant
 #define SHARED static inline
 #define FORCE_INLINE static inline
-typedef float4 row;
 
 #define ATOMIC_ADD(pointer, value) atomic_add((pointer), (value))
 #define ATOMIC_MAX(pointer, value) atomic_max((pointer), (value))
@@ -48,7 +47,7 @@ typedef unsigned short half_word;
 #define FOR_EACH_ITEM(i, n)                                                                                  \
   for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); i < (uint)(n); \
        i += (uint)get_local_size(0))
-#define STRIPS(many) (many)
+#define CHUNKS(many) (many)
 
 #else /* C or C++ on the CPU */
 
@@ -72,14 +71,14 @@ typedef uint64_t ulong;
 typedef unsigned short __attribute__((may_alias)) half_word;
 #ifdef TANDEM_REFERENCE
 typedef double memory_real;
-typedef struct __attribute__((aligned(32))) row {
+typedef struct __attribute__((aligned(32))) float4 {
   memory_real x, y, z, w;
-} row;
+} float4;
 #else
 typedef float memory_real;
-typedef struct __attribute__((aligned(16))) row {
+typedef struct __attribute__((aligned(16))) float4 {
   memory_real x, y, z, w;
-} row;
+} float4;
 #endif
 
 static inline uint float_bits(float x)
@@ -133,10 +132,10 @@ static inline uint local_add_uint(uint *pointer, uint value)
 /* One thread walks a whole phase; test builds walk it backwards to show a planted race. */
 #ifdef TANDEM_BACKWARD
 #define FOR_EACH_ITEM(i, n) for (uint i = (uint)(n); i-- > 0u;)
-#define STRIPS(many) (many)
+#define CHUNKS(many) (many)
 #else
 #define FOR_EACH_ITEM(i, n) for (uint i = 0; i < (uint)(n); ++i)
-#define STRIPS(many) 1u
+#define CHUNKS(many) 1u
 #endif
 
 #endif
@@ -147,8 +146,8 @@ static inline uint local_add_uint(uint *pointer, uint value)
 #define LOCAL_WORDS 8192
 
 /* For GROUP kernels:
- *   STRIPS(many)  how many strips of consecutive items a phase walks, one item a strip. A work-group needs many; one
- *                 thread walks everything, so a single strip spares it the joining. Only where the result does not
+ *   CHUNKS(many)  how many chunks of consecutive items a phase walks, one item a chunk. A work-group needs many; one
+ *                 thread walks everything, so a single chunk spares it the joining. Only where the result does not
  *                 depend on the cut: sums of whole numbers and ranks, never sums of reals.
  *   LOCAL_ADD     adds to a count in local memory to which other items of the phase add as well; what it was before.
  *   half_word     16 bits of local memory that another phase may see as part of a uint. */

@@ -5,7 +5,7 @@
  *
  *   choose(m, a, b)          m ? a : b, both sides evaluated
  *   item_index               which item (lanes: the first of a run of items, so that memory is read in order);
- *                            plus a uint it stays one, anything else makes it a natural
+ *                            plus a uint it stays one, anything else makes it a uint_lanes
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds; listed: by an index from a
  *                            list, where lanes mostly are neighbours in memory
@@ -35,7 +35,7 @@
 typedef float memory_real;
 #endif
 typedef memory_real real;
-typedef uint natural;
+typedef uint uint_lanes;
 typedef uint item_index;
 typedef int mask;
 
@@ -49,49 +49,49 @@ SHARED int any_of(mask m) { return m; }
 SHARED real square_root(real x) { return SQUARE_ROOT(x); }
 /* Truncation toward zero; the caller keeps |x| below 2^31. */
 SHARED int truncate_to_int(real x) { return (int)x; }
-SHARED natural to_natural(real x) { return (natural)(int)x; }
-SHARED real to_real(natural x) { return (real)x; }
-SHARED real int_to_real(natural two_complement) { return (real)(int)two_complement; }
+SHARED uint_lanes to_uint(real x) { return (uint_lanes)(int)x; }
+SHARED real to_real(uint_lanes x) { return (real)x; }
+SHARED real int_to_real(uint_lanes two_complement) { return (real)(int)two_complement; }
 
 SHARED uint real_bits(real x) { return FLOAT_BITS(x); }
 
-SHARED real load_real(GLOBAL const memory_real *from, natural i) { return from[i]; }
-SHARED natural load_natural(GLOBAL const uint *from, natural i) { return from[i]; }
-SHARED void store_real(GLOBAL memory_real *to, natural i, real value) { to[i] = value; }
-SHARED void store_natural(GLOBAL uint *to, natural i, natural value) { to[i] = value; }
-SHARED void store_natural_if(mask m, GLOBAL uint *to, natural i, natural value)
+SHARED real load_real(GLOBAL const memory_real *from, uint_lanes i) { return from[i]; }
+SHARED uint_lanes load_uint(GLOBAL const uint *from, uint_lanes i) { return from[i]; }
+SHARED void store_real(GLOBAL memory_real *to, uint_lanes i, real value) { to[i] = value; }
+SHARED void store_uint(GLOBAL uint *to, uint_lanes i, uint_lanes value) { to[i] = value; }
+SHARED void store_uint_if(mask m, GLOBAL uint *to, uint_lanes i, uint_lanes value)
 {
   if (m) to[i] = value;
 }
-SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, natural value)
+SHARED void atomic_min_if(mask m, GLOBAL uint *to, uint at, uint_lanes value)
 {
   if (m) ATOMIC_MIN(to + at, value);
 }
-SHARED void atomic_clear_if(mask m, GLOBAL uint *to, natural at)
+SHARED void atomic_clear_if(mask m, GLOBAL uint *to, uint_lanes at)
 {
   if (m) ATOMIC_MIN(to + at, 0u);
 }
 
-SHARED vec4 load_row(GLOBAL const row *from, natural i)
+SHARED vec4 load_float4(GLOBAL const float4 *from, uint_lanes i)
 {
-  row r = from[i];
+  float4 r = from[i];
   vec4 v = {r.x, r.y, r.z, r.w};
   return v;
 }
-SHARED void store_row(GLOBAL row *to, natural i, vec4 v)
+SHARED void store_float4(GLOBAL float4 *to, uint_lanes i, vec4 v)
 {
-  row r;
+  float4 r;
   r.x = v.x;
   r.y = v.y;
   r.z = v.z;
   r.w = v.w;
   to[i] = r;
 }
-SHARED void store_row_if(mask m, GLOBAL row *to, natural i, vec4 v)
+SHARED void store_float4_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v)
 {
-  if (m) store_row(to, i, v);
+  if (m) store_float4(to, i, v);
 }
-SHARED void store_listed_row_if(mask m, GLOBAL row *to, natural i, vec4 v) { store_row_if(m, to, i, v); }
+SHARED void store_listed_row_if(mask m, GLOBAL float4 *to, uint_lanes i, vec4 v) { store_float4_if(m, to, i, v); }
 
 #endif /* TANDEM_LANES */
 

@@ -8,23 +8,23 @@
 #include "shared/math.h"
 #include "shared/parameters.h"
 
-/* Half extent of what has no end, in metres. */
-#define BOUNDLESS R(1e30)
+/* The half extent of an unbounded shape, in metres. */
+#define UNBOUNDED R(1e30)
 
-SHARED natural shape_of(natural traits) { return traits & 7u; }
+SHARED uint_lanes shape_of(uint_lanes flags) { return flags & 7u; }
 /* Shapes that body_convex and body_shape_pose tell more of: neither sphere, box nor half-space, or no plain one. */
-SHARED mask is_general_shape(natural shape) { return shape > (uint)SHAPE_HALF_SPACE; }
-SHARED natural motion_of(natural traits) { return (traits >> 3u) & 3u; }
-SHARED natural is_trigger(natural traits) { return (traits >> 5u) & 1u; }
-SHARED natural material_of(natural traits) { return (traits >> 8u) & (MOST_MATERIALS - 1u); }
-SHARED mask is_continuous(natural traits) { return (traits & TRAIT_CONTINUOUS) != 0u; }
+SHARED mask is_general_shape(uint_lanes shape) { return shape > (uint)SHAPE_HALF_SPACE; }
+SHARED uint_lanes body_type_of(uint_lanes flags) { return (flags >> 3u) & 3u; }
+SHARED uint_lanes is_trigger(uint_lanes flags) { return (flags >> 5u) & 1u; }
+SHARED uint_lanes material_of(uint_lanes flags) { return (flags >> 8u) & (MOST_MATERIALS - 1u); }
+SHARED mask is_continuous(uint_lanes flags) { return (flags & BODY_FLAG_CONTINUOUS) != 0u; }
 
 /* The shape that takes part in a pair: the body's own, or in scenes with trees one of its children. side: 0 for a, 1
  * for b. */
-SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, natural pair, uint side,
-                             natural body)
+SHARED uint_lanes shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_leaf, uint_lanes pair,
+                                uint side, uint_lanes body)
 {
-  return HAS_FEATURE(parameters, TREES) ? load_natural(pair_leaf, pair * 4u + side * 2u) : body;
+  return HAS_FEATURE(parameters, TREES) ? load_uint(pair_leaf, pair * 4u + side * 2u) : body;
 }
 
 /* A position as the sum of two numbers of one precision, so that a body 1,000 km away still moves by micrometres: `low`
@@ -32,17 +32,17 @@ SHARED natural shape_in_pair(GLOBAL const Parameters *parameters, GLOBAL const u
  * 1971). */
 typedef struct {
   vec3 high, low;
-} place;
+} double_float3;
 
-SHARED place load_place(GLOBAL const row *body_position, natural body)
+SHARED double_float3 load_position(GLOBAL const float4 *body_position, uint_lanes body)
 {
-  place p = {xyz(load_row(body_position, body * 2u)), xyz(load_row(body_position, body * 2u + 1u))};
+  double_float3 p = {xyz(load_float4(body_position, body * 2u)), xyz(load_float4(body_position, body * 2u + 1u))};
   return p;
 }
-SHARED void store_place(GLOBAL row *body_position, natural body, place p)
+SHARED void store_position(GLOBAL float4 *body_position, uint_lanes body, double_float3 p)
 {
-  store_row(body_position, body * 2u, extend(p.high, R(0.0)));
-  store_row(body_position, body * 2u + 1u, extend(p.low, R(0.0)));
+  store_float4(body_position, body * 2u, extend(p.high, R(0.0)));
+  store_float4(body_position, body * 2u + 1u, extend(p.low, R(0.0)));
 }
 
 /* What a + b lost when it became `sum`, exactly (Knuth's two-sum). */
@@ -51,54 +51,54 @@ SHARED vec3 lost_in_sum(vec3 a, vec3 b, vec3 sum)
   vec3 from_b = subtract(sum, a), from_a = subtract(sum, from_b);
   return add(subtract(a, from_a), subtract(b, from_b));
 }
-SHARED place moved_place(place p, vec3 by)
+SHARED double_float3 moved_position(double_float3 p, vec3 by)
 {
   vec3 sum = add(p.high, by), low = add(p.low, lost_in_sum(p.high, by, sum));
-  place moved = {add(sum, low), low};
+  double_float3 moved = {add(sum, low), low};
   moved.low = lost_in_sum(sum, low, moved.high);
   return moved;
 }
 
 /* The centre of `to` seen from that of `from`: differences first, so that far away costs nothing. */
-SHARED vec3 offset_between(GLOBAL const row *body_position, natural from, natural to)
+SHARED vec3 offset_between(GLOBAL const float4 *body_position, uint_lanes from, uint_lanes to)
 {
-  place a = load_place(body_position, from), b = load_place(body_position, to);
+  double_float3 a = load_position(body_position, from), b = load_position(body_position, to);
   return add(subtract(b.high, a.high), subtract(b.low, a.low));
 }
 
 /* The smallest half extent of a pair; of two that have none (half-spaces, flat meshes), 0. */
-SHARED real size_between(GLOBAL const row *body_shape, natural a, natural b)
+SHARED real size_between(GLOBAL const float4 *body_shape, uint_lanes a, uint_lanes b)
 {
-  vec4 of_a = load_row(body_shape, a), of_b = load_row(body_shape, b);
+  vec4 of_a = load_float4(body_shape, a), of_b = load_float4(body_shape, b);
   real size_a = minimum(of_a.x, minimum(of_a.y, of_a.z)), size_b = minimum(of_b.x, minimum(of_b.y, of_b.z));
   return choose(size_a > R(0.0), choose(size_b > R(0.0), minimum(size_a, size_b), size_a), size_b);
 }
 
-/* Linear velocity and inverse mass, angular velocity: two rows, one 32-byte record. */
+/* Linear velocity and inverse mass, angular velocity: two float4, one 32-byte record. */
 typedef struct {
   vec3 linear, angular;
   real inverse_mass;
-} motion;
+} spatial_velocity;
 
-SHARED motion motion_of_rows(vec4 first, vec4 second)
+SHARED spatial_velocity velocity_of_float4s(vec4 first, vec4 second)
 {
-  motion m = {xyz(first), xyz(second), first.w};
+  spatial_velocity m = {xyz(first), xyz(second), first.w};
   return m;
 }
-SHARED motion load_motion(GLOBAL const row *velocity, natural body)
+SHARED spatial_velocity load_velocity(GLOBAL const float4 *velocity, uint_lanes body)
 {
-  return motion_of_rows(load_row(velocity, body * 2u), load_row(velocity, body * 2u + 1u));
+  return velocity_of_float4s(load_float4(velocity, body * 2u), load_float4(velocity, body * 2u + 1u));
 }
-/* Which share of what two bodies slide past each other the arm of a follows; that of b follows the rest. Arms must end
- * in one point of the world, or an impulse through them adds angular momentum: a body that cannot move takes the whole,
- * two that can share it. */
-SHARED real share_of_slide(motion a, motion b)
+/* When two bodies slide past each other, the arm of a follows this share of the sliding, and the arm of b follows the
+ * rest. Both arms must end in one point of the world, because an impulse through them would otherwise add angular
+ * momentum. A body that cannot move takes the whole; two bodies that can move share it. */
+SHARED real share_of_slide(spatial_velocity a, spatial_velocity b)
 {
   return choose(a.inverse_mass == R(0.0), (real)R(1.0), choose(b.inverse_mass == R(0.0), (real)R(0.0), (real)R(0.5)));
 }
 
-/* What manifold_normal keeps beside the normal: the moment of the contacts, s of the step; below 0 where arms that
- * followed the bodies would turn the plane of the contact into what it was to leave alone. */
+/* The fourth number of manifold_normal is the time of the contacts within the step, s. It is negative where arms that
+ * followed the bodies would turn the plane of the contact into something that the contact must leave alone. */
 #define LEAST_MOMENT R(1e-12)
 SHARED real packed_moment(real time, mask arms_stay)
 {
@@ -112,7 +112,7 @@ SHARED vec3 gravity_of(GLOBAL const Parameters *parameters)
   return make_vec3(parameters->gravity_x, parameters->gravity_y, parameters->gravity_z);
 }
 
-/* Of its weight: constraints that bear less leave a body to fall (integrate/positions.h). */
+/* A body falls freely if its constraints bear less than this share of its weight (integrate/positions.h). */
 #define WEIGHTLESS R(1e-3)
 
 /* The velocity that gravity adds over a step, on average. first, second: rows of body_velocity. */
@@ -121,34 +121,34 @@ SHARED vec3 mean_fall(GLOBAL const Parameters *parameters, vec4 first, vec4 seco
   real factor = choose(first.w > R(0.0), second.w, (real)R(0.0));
   return scale(gravity_of(parameters), factor * R(0.5) * parameters->step);
 }
-SHARED void store_motion(GLOBAL row *velocity, natural body, motion m)
+SHARED void store_velocity(GLOBAL float4 *velocity, uint_lanes body, spatial_velocity m)
 {
-  store_row(velocity, body * 2u, extend(m.linear, m.inverse_mass));
-  store_row(velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
+  store_float4(velocity, body * 2u, extend(m.linear, m.inverse_mass));
+  store_float4(velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
 }
-SHARED void store_motion_if(mask wanted, GLOBAL row *velocity, natural body, motion m)
+SHARED void store_velocity_if(mask wanted, GLOBAL float4 *velocity, uint_lanes body, spatial_velocity m)
 {
-  store_row_if(wanted, velocity, body * 2u, extend(m.linear, m.inverse_mass));
-  store_row_if(wanted, velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
+  store_float4_if(wanted, velocity, body * 2u, extend(m.linear, m.inverse_mass));
+  store_float4_if(wanted, velocity, body * 2u + 1u, extend(m.angular, R(0.0)));
 }
 
-SHARED vec3 velocity_at(motion m, vec3 arm) { return add(m.linear, outer(m.angular, arm)); }
+SHARED vec3 velocity_at(spatial_velocity m, vec3 arm) { return add(m.linear, cross3(m.angular, arm)); }
 
-SHARED symmetric3 load_inertia(GLOBAL const row *inertia, natural body)
+SHARED symmetric3 load_inertia(GLOBAL const float4 *inertia, uint_lanes body)
 {
-  vec4 first = load_row(inertia, body * 2u), second = load_row(inertia, body * 2u + 1u);
+  vec4 first = load_float4(inertia, body * 2u), second = load_float4(inertia, body * 2u + 1u);
   symmetric3 s = {first.x, first.y, first.z, first.w, second.x, second.y};
   return s;
 }
-SHARED void store_inertia(GLOBAL row *inertia, natural body, symmetric3 s)
+SHARED void store_inertia(GLOBAL float4 *inertia, uint_lanes body, symmetric3 s)
 {
-  store_row(inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
-  store_row(inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
+  store_float4(inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
+  store_float4(inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
 }
-SHARED void store_inertia_if(mask wanted, GLOBAL row *inertia, natural body, symmetric3 s)
+SHARED void store_inertia_if(mask wanted, GLOBAL float4 *inertia, uint_lanes body, symmetric3 s)
 {
-  store_row_if(wanted, inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
-  store_row_if(wanted, inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
+  store_float4_if(wanted, inertia, body * 2u, make_vec4(s.xx, s.yy, s.zz, s.xy));
+  store_float4_if(wanted, inertia, body * 2u + 1u, make_vec4(s.xz, s.yz, R(0.0), R(0.0)));
 }
 
 /* True where every component is a finite number. */

@@ -57,7 +57,7 @@ SHARED angle_functions sine_cosine(real angle)
   real rr = r * r;
   real s = r + r * rr * SINE_TERMS(rr);
   real c = (R(1.0) - R(0.5) * rr) + rr * rr * COSINE_TERMS(rr);
-  natural quadrant = to_natural(quarter_turns) & 3u;
+  uint_lanes quadrant = to_uint(quarter_turns) & 3u;
   mask swapped = (quadrant & 1u) == 1u;
   real sine = choose(swapped, c, s), cosine = choose(swapped, s, c);
   angle_functions f = {choose(quadrant >= 2u, -sine, sine),

@@ -42,7 +42,7 @@ inline Body &add_ground(Scene &scene)
 {
   Body &ground = add_body(scene, add_shape(scene, half_space_shape()));
   ground.name = "ground";
-  ground.motion = Motion::fixed;
+  ground.type = BodyType::fixed;
   return ground;
 }
 
@@ -81,7 +81,7 @@ inline void add_walls(Scene &scene, double inner)
   for (int side = 0; side < 4; ++side) {
     Body &wall = add_body(scene, first + (side >= 2), {0, half_height, 0});
     wall.name = "wall";
-    wall.motion = Motion::fixed;
+    wall.type = BodyType::fixed;
     wall.position[side < 2 ? 0 : 2] = side % 2 ? far : -far;
   }
 }

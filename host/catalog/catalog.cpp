@@ -47,7 +47,7 @@ Scene box_grid(const SceneValues &v)
   scene.shapes = {box_shape(400, 400, 400), box_shape(1, 1, 1)};
   Body &ground = add_body(scene, 0, {0, -400, 0});
   ground.name = "ground";
-  ground.motion = Motion::fixed;
+  ground.type = BodyType::fixed;
   for (int64_t i = 0; i < nx; ++i)
     for (int64_t j = 0; j < ny; ++j)
       for (int64_t k = 0; k < nz; ++k) {

@@ -48,7 +48,7 @@ Scene hulls_on_mesh(const SceneValues &v)
   const double half_side = (0.5 * double(grid.side) * grid.cell + 1) / 0.875;
   Body &ground = add_body(scene, add_shape(scene, bowl(half_side, uint32_t(2 * half_side / number(v, "spacing")) + 2)));
   ground.name = "bowl";
-  ground.motion = Motion::fixed;
+  ground.type = BodyType::fixed;
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     const uint32_t shape =
         random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
@@ -152,7 +152,7 @@ Scene mesh_slide(const SceneValues &v)
   const double speed = number(v, "speed");
   Body &floor = add_body(scene, add_shape(scene, flat_mesh(5 + 5 * speed, 10, 0.4, random)), {-2, 0, 0});
   floor.name = "floor";
-  floor.motion = Motion::fixed;
+  floor.type = BodyType::fixed;
   const Shape sliders[] = {sphere_shape(0.3f),
                            box_shape(0.3f, 0.3f, 0.3f),
                            box_shape(0.5f, 0.05f, 0.4f),

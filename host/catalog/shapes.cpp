@@ -80,7 +80,7 @@ Scene rolling(const SceneValues &v)
   Scene scene;
   Body &ramp = add_body(scene, add_shape(scene, half_space_shape()));
   ramp.name = "ramp";
-  ramp.motion = Motion::fixed;
+  ramp.type = BodyType::fixed;
   ramp.orientation = {0, 0, round_to_float(-half.sine), round_to_float(half.cosine)};
   const Shape round[] = {sphere_shape(0.3f), cylinder_shape(0.3f, 0.4f), cylinder_shape(0.3f, 0.05f),
                          capsule_shape(0.3f, 0.4f)};
@@ -106,7 +106,7 @@ Scene thin_wall(const SceneValues &v)
   Body &wall = add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2),
                                                           round_to_float(wall_side), round_to_float(wall_side))));
   wall.name = "wall";
-  wall.motion = Motion::fixed;
+  wall.type = BodyType::fixed;
   const auto first = uint32_t(scene.shapes.size());
   for (const Shape &shape : {sphere_shape(0.02f), box_shape(0.03f, 0.02f, 0.01f), capsule_shape(0.01f, 0.03f),
                              cylinder_shape(0.015f, 0.03f), Shape{ShapeType::cylinder, {0.02f, 0.03f, 0}}})
@@ -151,7 +151,7 @@ Scene bullet_stack(const SceneValues &v)
   Body &wall =
       add_body(scene, add_shape(scene, box_shape(round_to_float(number(v, "thickness") / 2), 2, 2)), {0, 2, 0});
   wall.name = "wall";
-  wall.motion = Motion::fixed;
+  wall.type = BodyType::fixed;
   const uint32_t box = add_shape(scene, box_shape(half, half, half));
   for (int64_t row = 0; row < rows; ++row)
     for (int64_t level = 0; level < height; ++level)

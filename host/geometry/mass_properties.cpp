@@ -95,11 +95,11 @@ void rotate_away(Matrix &m, Matrix &axes, int p, int q)
 /* Jacobi's method, which finds small moments beside large ones, too; it converges with the square of what is left. */
 Eigensystem eigensystem_of(Matrix m)
 {
-  constexpr int most_sweeps = 30;
+  constexpr int most_iterations = 30;
   constexpr double negligible = 0x1p-60;
   Matrix axes = Matrix::diagonal(1, 1, 1);
   bool changed = true;
-  for (int sweep = 0; sweep < most_sweeps && changed; ++sweep) {
+  for (int iteration = 0; iteration < most_iterations && changed; ++iteration) {
     changed = false;
     for (const auto &[p, q] : {std::pair{0, 1}, {0, 2}, {1, 2}})
       if (std::abs(m.at[p][q]) > negligible * (std::abs(m.at[p][p]) + std::abs(m.at[q][q]))) {

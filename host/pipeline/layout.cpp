@@ -9,7 +9,7 @@
 #include <tandem/scene.h>
 
 #include "host/pipeline/primitives.h"
-#include "shared/broadphase/near_limits.h"
+#include "shared/broadphase/candidate_limits.h"
 #include "shared/broadphase/sweep_limits.h"
 #include "shared/platform.h"
 
@@ -25,7 +25,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
    * products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
   const size_t most_sorted =
-      std::max(sortable, size_t{NEAR_PER_PAIR} * sizes.pairs); /* incidences are sorted in buffers of their own */
+      std::max(sortable, size_t{CANDIDATES_PER_PAIR} * sizes.pairs); /* entries are sorted in buffers of their own */
   switch (capacity) {
   case Capacity::NOTHING: return 0;
   case Capacity::ONE: return 1;
@@ -42,7 +42,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::MESH_VERTICES: return sizes.trees.vertices;
   case Capacity::MESH_TRIANGLES: return sizes.trees.triangles;
   case Capacity::SHAPES: return size_t{sizes.bodies} + sizes.trees.children;
-  case Capacity::HULL_STRIPS: return sizes.hulls.strip_rows;
+  case Capacity::HULL_CHUNKS: return sizes.hulls.chunk_float4s;
   case Capacity::HULL_LINKS: return sizes.hulls.links;
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
@@ -52,7 +52,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::LEAVES: return leaves_for(sizes.bodies);
   case Capacity::LEAF_TILES: return leaves_for(sizes.bodies) / TILE + 1;
-  case Capacity::NEAR_PAIRS: return size_t{NEAR_PER_PAIR} * sizes.pairs;
+  case Capacity::CANDIDATE_PAIRS: return size_t{CANDIDATES_PER_PAIR} * sizes.pairs;
   case Capacity::TILES: return (size_t{sizes.bodies} + TILE) / TILE;
   case Capacity::SORTABLE: return sortable;
   case Capacity::SORT_HISTOGRAM: return histogram_words(most_sorted);

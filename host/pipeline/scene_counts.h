@@ -9,7 +9,7 @@ namespace tandem {
 
 struct SceneCounts {
   uint32_t bodies = 0;
-  uint32_t boundless = 0; /* half-spaces: the first bodies */
+  uint32_t unbounded = 0; /* half-spaces: the first bodies */
   uint32_t large = 0;     /* these, and the bodies after them that are too large for a grid */
 };
 

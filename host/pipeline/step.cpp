@@ -38,7 +38,7 @@ public:
     run_extensions(StepPoint::contacts);
     color_contacts();
     run(Kernel::prepare_contacts);
-    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_tail, COLOR_START + COLOR_TAIL, COUNT_CONSTRAINTS);
+    if (plan().colors > COLOR_LIMIT) run_range(Kernel::mark_overflow, COLOR_START + COLOR_OVERFLOW, COUNT_CONSTRAINTS);
     if (has(FEATURE_ROLLING)) run(Kernel::prepare_rolling);
     run_extensions(StepPoint::constraints);
     row_of(settings().solver).launch(*this);
@@ -81,8 +81,8 @@ private:
   {
     run(Kernel::group_manifolds);
     run(Kernel::merge_manifolds);
-    run(Kernel::find_grazing);
-    run(Kernel::drop_grazing);
+    run(Kernel::find_internal_edges);
+    run(Kernel::drop_internal_edges);
   }
 
   /* The matrix of shape pairs (shared/pairs.def), as far as the scene has them. */
@@ -124,9 +124,9 @@ private:
 
   void keep_out_of_walls()
   {
-    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_MOTION}, {Buffer::body_share});
-    run_pairs(Kernel::limit_motion, PAIR_KIND_CONVEX_CONVEX, PAIR_KIND_CONVEX_HALF_SPACE, {});
-    run(Kernel::stop_motion);
+    run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {WHOLE_TOI_FRACTION}, {Buffer::body_toi_fraction});
+    run_pairs(Kernel::clamp_to_time_of_impact, PAIR_KIND_CONVEX_CONVEX, PAIR_KIND_CONVEX_HALF_SPACE, {});
+    run(Kernel::stop_at_time_of_impact);
   }
 
   void commit()

@@ -17,7 +17,7 @@ namespace tandem {
 void StepLaunches::run(Kernel kernel, const Values &values, const Slots &slots)
 {
   const KernelRow &row = row_of(kernel);
-  if (row.form == Form::group && !is_told_by_scene(row.items))
+  if (row.execution == Execution::group && !is_told_by_scene(row.items))
     throw std::logic_error(std::string(row.name) + " is launched for as many groups as the last step had");
   run_range(kernel, COUNT_ZERO, row.items, values, slots);
 }
@@ -43,8 +43,9 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_k
   const bool listed = has(FEATURE_PAIR_KINDS);
   const uint32_t first = listed ? KIND_START + first_kind : uint32_t{COUNT_ZERO};
   const uint32_t last = listed ? KIND_START + last_kind + 1 : uint32_t{COUNT_PAIRS};
-  const uint32_t expected = row_of(kernel).form == Form::group ? pair_group_items(plan_.capacity_pairs, FOLLOW_PAIRS)
-                                                               : plan_.known[last] - plan_.known[first];
+  const uint32_t expected = row_of(kernel).execution == Execution::group
+                                ? pair_group_items(plan_.capacity_pairs, FOLLOW_PAIRS)
+                                : plan_.known[last] - plan_.known[first];
   launcher_.launch({kernel, {}, values, first, last, expected});
 }
 
@@ -54,10 +55,10 @@ void StepLaunches::for_each_color(Kernel kernel, const Values &values)
     run_range(kernel, COLOR_START + color, COLOR_START + color + 1, values);
 }
 
-void StepLaunches::for_each_color(Kernel kernel, Kernel tail, const Values &values)
+void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &values)
 {
   for_each_color(kernel, values);
-  if (plan_.colors > COLOR_LIMIT) run(tail, values);
+  if (plan_.colors > COLOR_LIMIT) run(overflow, values);
 }
 
 uint32_t StepLaunches::most_items(Kernel kernel) const
@@ -102,7 +103,7 @@ void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slot
   if (row_of(kernel).items == items_given)
     throw InputError(std::string("kernel '") + row_of(kernel).name +
                      "' has GIVEN items, which the pipeline's own launches give alone; name a count in its row");
-  if (row_of(kernel).form == Form::group) run_at_most(kernel, most_items(kernel), values, slots);
+  if (row_of(kernel).execution == Execution::group) run_at_most(kernel, most_items(kernel), values, slots);
   else run(kernel, values, slots);
 }
 

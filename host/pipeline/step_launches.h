@@ -1,6 +1,6 @@
-/* step_launches.h - the words a step is written in: launch a kernel, once a colour, scan, sort.
+/* step_launches.h - the operations of which a step is written: launch a kernel, launch it for each colour, scan, sort.
  *
- * host/pipeline/step.cpp writes the pipeline with them, host/pipeline/solvers/ each a solver. */
+ * host/pipeline/step.cpp writes the pipeline with them, and each file of host/pipeline/solvers/ a solver. */
 #pragma once
 
 #include "host/pipeline/step.h"
@@ -31,8 +31,8 @@ public:
   /* One launch a colour of constraints; those without a colour of their own are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
-  /* The same, and `tail` over those without a colour. */
-  void for_each_color(Kernel kernel, Kernel tail, const Values &values = {});
+  /* The same, and `overflow` over those without a colour. */
+  void for_each_color(Kernel kernel, Kernel overflow, const Values &values = {});
   /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
   void begin_substep(uint32_t substep);
   /* From how many pairs each of so many finds to where its first goes, and to how many there are. */

@@ -1,7 +1,7 @@
 /* backend_list.h - lists of backends as a user writes them.
  *
- * The options of a backend contain commas themselves ("tbb:threads=2,lanes=4"), so a plain split at
- * commas would tear them apart. This is the one place that knows better; --between and --place share it.
+ * The options of a backend contain commas themselves ("tbb:threads=2,lanes=4"), so a plain split at commas would tear
+ * them apart. The options --between and --place both use this parser.
  */
 #pragma once
 

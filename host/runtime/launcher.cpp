@@ -12,8 +12,8 @@ void PlacedLauncher::launch(const Launch &launch)
   step_of_launch = step_;
   Backend &backend = choice_(launch.kernel);
   const KernelRow &row = row_of(launch.kernel);
-  if (row.form == Form::host) {
-    backend.run_host_stage(launch, memory_);
+  if (row.execution == Execution::host) {
+    backend.run_cpu_kernel(launch, memory_);
     if (observer_) observer_(launch);
     return;
   }

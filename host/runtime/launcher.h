@@ -1,6 +1,6 @@
 /* launcher.h - takes launches, finds their backend, and moves the buffers they need there.
  *
- * The one place where placement is decided: step.cpp and the primitives only name kernels.
+ * Placement is decided here alone: step.cpp and the primitives only name kernels.
  */
 #pragma once
 

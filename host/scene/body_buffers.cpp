@@ -19,10 +19,10 @@
 namespace tandem {
 namespace {
 
-row row_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
-Vec3 vec_of_row(const row &r) { return {r.x, r.y, r.z}; }
+float4 float4_of_vec(const Vec3 &v, float w) { return {v[0], v[1], v[2], w}; }
+Vec3 vec_of_float4(const float4 &r) { return {r.x, r.y, r.z}; }
 
-Point point_of(const row *place)
+Point point_of(const float4 *place)
 {
   return {double{place[0].x} + double{place[1].x}, double{place[0].y} + double{place[1].y},
           double{place[0].z} + double{place[1].z}};
@@ -68,25 +68,25 @@ std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uin
   return placed;
 }
 
-uint32_t traits_of(const Scene &scene, const PlacedShape &placed)
+uint32_t flags_of(const Scene &scene, const PlacedShape &placed)
 {
-  return shape_code(scene, *placed.body) | static_cast<uint32_t>(placed.body->motion) << 3 | placed.material << 8 |
-         (placed.body->trigger ? uint32_t{TRAIT_TRIGGER} : 0u) |
-         (placed.body->continuous ? uint32_t{TRAIT_CONTINUOUS} : 0u);
+  return shape_code(scene, *placed.body) | static_cast<uint32_t>(placed.body->type) << 3 | placed.material << 8 |
+         (placed.body->trigger ? uint32_t{BODY_FLAG_TRIGGER} : 0u) |
+         (placed.body->continuous ? uint32_t{BODY_FLAG_CONTINUOUS} : 0u);
 }
 
-float inverse_mass_of(const Body &body) { return body.motion == Motion::dynamic ? 1.0f / body.mass : 0.0f; }
+float inverse_mass_of(const Body &body) { return body.type == BodyType::dynamic ? 1.0f / body.mass : 0.0f; }
 
 Vec3 velocity_of(const Body &body, const Vec3 &velocity)
 {
-  return body.motion == Motion::fixed ? Vec3{0, 0, 0} : velocity;
+  return body.type == BodyType::fixed ? Vec3{0, 0, 0} : velocity;
 }
 
 } // namespace
 
-std::array<row, 2> place_of(const Point &p)
+std::array<float4, 2> double_float3_of(const Point &p)
 {
-  const row high{round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
+  const float4 high{round_to_float(p[0]), round_to_float(p[1]), round_to_float(p[2]), 0};
   return {high,
           {round_to_float(p[0] - double{high.x}), round_to_float(p[1] - double{high.y}),
            round_to_float(p[2] - double{high.z}), 0}};
@@ -104,17 +104,17 @@ Quat unit(const Quat &q)
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  std::vector<row> mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
+  std::vector<float4> mass(2 * n), position(2 * n), orientation(n), velocity(2 * n);
   for (size_t i = 0; i < n; ++i) {
     const Body &body = scene.bodies[order[i]];
     const Quat q = unit(body.orientation);
-    mass[2 * i] = row_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
+    mass[2 * i] = float4_of_vec(inverse_inertia_of(scene, body), body.gravity_factor);
     mass[2 * i + 1] = {body.linear_damping, body.angular_damping, 0, 0};
-    const auto place = place_of(body.position);
+    const auto place = double_float3_of(body.position);
     std::copy(place.begin(), place.end(), &position[2 * i]);
     orientation[i] = {q[0], q[1], q[2], q[3]};
-    velocity[2 * i] = row_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
-    velocity[2 * i + 1] = row_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor);
+    velocity[2 * i] = float4_of_vec(velocity_of(body, body.linear_velocity), inverse_mass_of(body));
+    velocity[2 * i + 1] = float4_of_vec(velocity_of(body, body.angular_velocity), body.gravity_factor);
   }
   upload_all(memory, Buffer::body_mass, mass);
   upload_all(memory, Buffer::body_position, position);
@@ -125,22 +125,22 @@ void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_
 void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order)
 {
   const std::map<const ConvexHull *, uint32_t> hulls = hull_numbers(scene);
-  std::vector<row> sizes, poses;
-  std::vector<uint32_t> traits, filters, convexes;
+  std::vector<float4> sizes, poses;
+  std::vector<uint32_t> flags, filters, convexes;
   for (const PlacedShape &placed : placed_shapes(scene, order)) {
     const Shape &shape = *placed.shape;
     const Quat q = unit(placed.orientation);
     const ShapeBox box =
         shape.type == ShapeType::half_space ? ShapeBox{} : box_around(shape, placed.position, placed.orientation);
-    sizes.push_back(row_of_vec(kernel_size(shape), placed.radius));
-    traits.push_back(traits_of(scene, placed));
+    sizes.push_back(float4_of_vec(kernel_size(shape), placed.radius));
+    flags.push_back(flags_of(scene, placed));
     filters.insert(filters.end(), {placed.filter.group, placed.filter.mask});
     convexes.insert(convexes.end(), {static_cast<uint32_t>(shape.type), shape.hull ? hulls.at(shape.hull.get()) : 0});
-    poses.insert(poses.end(), {row_of_vec(placed.position, 0), row{q[0], q[1], q[2], q[3]}, row_of_vec(box.center, 0),
-                               row_of_vec(box.half_extents, 0)});
+    poses.insert(poses.end(), {float4_of_vec(placed.position, 0), float4{q[0], q[1], q[2], q[3]},
+                               float4_of_vec(box.center, 0), float4_of_vec(box.half_extents, 0)});
   }
   upload_all(memory, Buffer::body_shape, sizes);
-  upload_all(memory, Buffer::body_traits, traits);
+  upload_all(memory, Buffer::body_flags, flags);
   upload_all(memory, Buffer::body_filter, filters);
   upload_all(memory, Buffer::body_convex, convexes);
   upload_all(memory, Buffer::body_shape_pose, poses);
@@ -148,7 +148,7 @@ void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_
 
 void upload_materials(Memory &memory, const Scene &scene)
 {
-  std::vector<row> rows, rolling;
+  std::vector<float4> rows, rolling;
   for (const Material &material : scene.materials) {
     const float rules =
         static_cast<uint32_t>(material.friction_combine) + 8 * static_cast<uint32_t>(material.restitution_combine);
@@ -161,59 +161,59 @@ void upload_materials(Memory &memory, const Scene &scene)
 
 namespace {
 
-/* All but the traits. What can fail comes before the first change. */
+/* All but the flags. What can fail comes before the first change. */
 void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
 {
   for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity})
     memory.prepare_upload(buffer);
-  memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
-  memory.upload(Buffer::body_orientation, &record.orientation, sizeof(row), size_t{index} * sizeof(row));
-  memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(row), 2 * size_t{index} * sizeof(row));
+  memory.upload(Buffer::body_position, record.position.data(), 2 * sizeof(float4), 2 * size_t{index} * sizeof(float4));
+  memory.upload(Buffer::body_orientation, &record.orientation, sizeof(float4), size_t{index} * sizeof(float4));
+  memory.upload(Buffer::body_velocity, record.velocity.data(), 2 * sizeof(float4), 2 * size_t{index} * sizeof(float4));
 }
 
 } // namespace
 
 BodyRecord read_body(Memory &memory, uint32_t index)
 {
-  const auto position = memory.read<row>(Buffer::body_position, 2, 2 * size_t{index}),
-             velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
-  const row orientation = memory.read<row>(Buffer::body_orientation, 1, index).front();
+  const auto position = memory.read<float4>(Buffer::body_position, 2, 2 * size_t{index}),
+             velocity = memory.read<float4>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const float4 orientation = memory.read<float4>(Buffer::body_orientation, 1, index).front();
   return {{position[0], position[1]},
           orientation,
           {velocity[0], velocity[1]},
-          memory.read<uint32_t>(Buffer::body_traits, 1, index).front()};
+          memory.read<uint32_t>(Buffer::body_flags, 1, index).front()};
 }
 
 void write_body(Memory &memory, uint32_t index, const BodyRecord &record)
 {
-  memory.prepare_upload(Buffer::body_traits);
+  memory.prepare_upload(Buffer::body_flags);
   write_state(memory, index, record);
-  memory.upload(Buffer::body_traits, &record.traits, sizeof record.traits, size_t{index} * sizeof record.traits);
+  memory.upload(Buffer::body_flags, &record.flags, sizeof record.flags, size_t{index} * sizeof record.flags);
 }
 
 void upload_body(Memory &memory, uint32_t index, const BodyState &state)
 {
   const Quat q = unit(state.orientation);
-  const auto place = place_of(state.position);
-  const row orientation{q[0], q[1], q[2], q[3]};
-  const auto velocity = memory.read<row>(Buffer::body_velocity, 2, 2 * size_t{index});
-  const row linear = row_of_vec(state.linear_velocity, velocity[0].w),
-            angular = row_of_vec(state.angular_velocity, velocity[1].w);
+  const auto place = double_float3_of(state.position);
+  const float4 orientation{q[0], q[1], q[2], q[3]};
+  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2, 2 * size_t{index});
+  const float4 linear = float4_of_vec(state.linear_velocity, velocity[0].w),
+               angular = float4_of_vec(state.angular_velocity, velocity[1].w);
   write_state(memory, index, {place, orientation, {linear, angular}, 0});
 }
 
 std::vector<BodyState> download_bodies(Memory &memory, const std::vector<uint32_t> &order)
 {
   const size_t n = order.size();
-  const auto position = memory.read<row>(Buffer::body_position, 2 * n),
-             orientation = memory.read<row>(Buffer::body_orientation, n);
-  const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * n);
+  const auto position = memory.read<float4>(Buffer::body_position, 2 * n),
+             orientation = memory.read<float4>(Buffer::body_orientation, n);
+  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * n);
   std::vector<BodyState> states(n);
   for (size_t i = 0; i < n; ++i)
     states[order[i]] = {point_of(&position[2 * i]),
                         {orientation[i].x, orientation[i].y, orientation[i].z, orientation[i].w},
-                        vec_of_row(velocity[2 * i]),
-                        vec_of_row(velocity[2 * i + 1])};
+                        vec_of_float4(velocity[2 * i]),
+                        vec_of_float4(velocity[2 * i + 1])};
   return states;
 }
 
@@ -250,17 +250,18 @@ void quarantine_body(Memory &memory, uint32_t index)
     if (!std::isfinite(x)) record.position = {};
   record.orientation = {0, 0, 0, 1};
   record.velocity = {};
-  record.traits = (record.traits & ~(3u << 3)) | uint32_t{MOTION_QUARANTINED} << 3;
+  record.flags = (record.flags & ~(3u << 3)) | uint32_t{BODY_TYPE_QUARANTINED} << 3;
   write_body(memory, index, record);
 }
 
 std::vector<uint32_t> bodies_not_finite(Memory &memory, uint32_t bodies)
 {
   std::vector<bool> bad(bodies);
-  for (const auto &[buffer, rows] : {std::pair(Buffer::body_position, 2u), std::pair(Buffer::body_orientation, 1u),
-                                     std::pair(Buffer::body_velocity, 2u), std::pair(Buffer::solver_velocity, 2u),
-                                     std::pair(Buffer::solver_delta, 2u), std::pair(Buffer::solver_orientation, 1u)}) {
-    const std::vector<row> values = memory.read<row>(buffer, size_t{bodies} * rows);
+  for (const auto &[buffer, rows] :
+       {std::pair(Buffer::body_position, 2u), std::pair(Buffer::body_orientation, 1u),
+        std::pair(Buffer::body_velocity, 2u), std::pair(Buffer::solver_velocity, 2u),
+        std::pair(Buffer::solver_delta_pose, 2u), std::pair(Buffer::solver_orientation, 1u)}) {
+    const std::vector<float4> values = memory.read<float4>(buffer, size_t{bodies} * rows);
     for (size_t i = 0; i < values.size(); ++i)
       if (!is_finite_vector(std::array{values[i].x, values[i].y, values[i].z, values[i].w})) bad[i / rows] = true;
   }
@@ -284,7 +285,7 @@ void measure_contacts(Memory &memory, Statistics &statistics)
              colors = memory.read<uint32_t>(Buffer::pair_color, pairs);
   double sum = 0;
   for (uint32_t plane = 0; plane < 4; ++plane) {
-    const auto rows = memory.read<row>(Buffer::manifold_points, pairs, size_t{plane} * stride);
+    const auto rows = memory.read<float4>(Buffer::manifold_points, pairs, size_t{plane} * stride);
     for (uint32_t i = 0; i < pairs; ++i) {
       if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* of triggers nothing counts */
       const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
@@ -302,7 +303,7 @@ double kinetic_energy(Memory &memory, const Scene &scene, const std::vector<uint
   double energy = 0;
   for (size_t i = 0; i < states.size(); ++i) {
     const Body &body = scene.bodies[i];
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const BodyState &s = states[i];
     const Vec3 inverse = inverse_inertia_of(scene, body);
     const double x = s.orientation[0], y = s.orientation[1], z = s.orientation[2], w = s.orientation[3];

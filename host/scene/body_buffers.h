@@ -1,4 +1,5 @@
-/* body_buffers.h - between the scene's bodies and the records that kernels read, and what is measured on them. */
+/* body_buffers.h - conversions between the scene's bodies and the records that kernels read, and what is measured on
+ * these records. */
 #pragma once
 
 #include <vector>
@@ -11,13 +12,13 @@
 namespace tandem {
 
 /* The two rows of a place: shared/records.h. */
-std::array<row, 2> place_of(const Point &p);
+std::array<float4, 2> double_float3_of(const Point &p);
 /* Of length 1; left alone where it is. */
 Quat unit(const Quat &q);
 
 /* Buffer index i holds scene body order[i]. */
 void upload_bodies(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
-/* Size, traits, filter and pose of every body's shape, then of the children of compounds. Poses also of bodies with
+/* Size, flags, filter and pose of every body's shape, then of the children of compounds. Poses also of bodies with
  * tests of their own: any of them may meet a shape that has none. */
 void upload_shapes(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
 void upload_materials(Memory &memory, const Scene &scene);
@@ -29,10 +30,10 @@ bool is_finite(const BodyState &state);
 
 /* What the host may change of a body, as it lies in the buffers. */
 struct BodyRecord {
-  std::array<row, 2> position;
-  row orientation;
-  std::array<row, 2> velocity;
-  uint32_t traits;
+  std::array<float4, 2> position;
+  float4 orientation;
+  std::array<float4, 2> velocity;
+  uint32_t flags;
 };
 BodyRecord read_body(Memory &memory, uint32_t index);
 /* Whole or, where memory or a device fails, not at all. */

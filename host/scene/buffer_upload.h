@@ -1,4 +1,4 @@
-/* buffer_upload.h - a list into the front of a buffer, unless no kernel of the scene reads it. */
+/* buffer_upload.h - copies a list to the front of a buffer, unless no kernel of the scene reads that buffer. */
 #pragma once
 
 #include <vector>

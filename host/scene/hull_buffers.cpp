@@ -7,7 +7,7 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/scene/buffer_upload.h"
-#include "host/scene/hull_strips.h"
+#include "host/scene/hull_chunks.h"
 #include "shared/platform.h"
 
 namespace tandem {
@@ -38,13 +38,13 @@ uint32_t corners_of(const ConvexHull &hull)
 
 struct Tables {
   std::vector<uint32_t> headers, face_starts, corners, edges, links;
-  std::vector<row> vertices, planes, strips;
+  std::vector<float4> vertices, planes, chunks;
 
   void add(const ConvexHull &hull, uint32_t map_side)
   {
     const auto size = [](const auto &list) { return static_cast<uint32_t>(list.size()); };
     for (uint32_t word : {size(vertices), size(hull.vertices), size(planes), size(hull.faces), size(edges) / 4,
-                          size(hull.edges), size(corners), corners_of(hull), size(strips), size(links), map_side})
+                          size(hull.edges), size(corners), corners_of(hull), size(chunks), size(links), map_side})
       headers.push_back(word);
     for (const Vec3 &v : hull.vertices) vertices.push_back({v[0], v[1], v[2], 0});
     for (const HullPlane &p : hull.planes)
@@ -55,12 +55,12 @@ struct Tables {
       corners.insert(corners.end(), face.begin(), face.end());
     }
     for (const HullEdge &e : hull.edges) edges.insert(edges.end(), {e.v0, e.v1, e.face_left, e.face_right});
-    append_strips(strips, std::span(vertices).last(hull.vertices.size()), 3);
-    append_strips(strips, std::span(planes).last(hull.faces.size()), 4);
-    strips.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
+    append_chunks(chunks, std::span(vertices).last(hull.vertices.size()), 3);
+    append_chunks(chunks, std::span(planes).last(hull.faces.size()), 4);
+    chunks.push_back(middle_of(std::span(vertices).last(hull.vertices.size())));
     append_links(links, size(hull.vertices), hull.faces, std::span(edges).last(4 * hull.edges.size()));
     append_cube_maps(links, std::span(vertices).last(hull.vertices.size()), std::span(planes).last(hull.faces.size()),
-                     strips.back(), map_side);
+                     chunks.back(), map_side);
   }
 };
 
@@ -75,7 +75,7 @@ HullSizes hull_sizes(const Scene &scene, uint32_t map_side)
     sizes.faces += hull->faces.size();
     sizes.edges += hull->edges.size();
     sizes.corners += corners_of(*hull);
-    sizes.strip_rows += strip_rows(hull->vertices.size(), 3) + strip_rows(hull->faces.size(), 4) + 1;
+    sizes.chunk_float4s += chunk_float4s(hull->vertices.size(), 3) + chunk_float4s(hull->faces.size(), 4) + 1;
     sizes.links += hull->vertices.size() + 1 + 2 * uint64_t{corners_of(*hull)} + 12 * uint64_t{map_side} * map_side;
   }
   return sizes;
@@ -99,7 +99,7 @@ void upload_hulls(Memory &memory, const Scene &scene, uint32_t map_side)
   upload_all(memory, Buffer::hull_face_start, tables.face_starts);
   upload_all(memory, Buffer::hull_corner, tables.corners);
   upload_all(memory, Buffer::hull_edge, tables.edges);
-  upload_all(memory, Buffer::hull_strip, tables.strips);
+  upload_all(memory, Buffer::hull_chunk, tables.chunks);
   upload_all(memory, Buffer::hull_link, tables.links);
 }
 

@@ -13,7 +13,7 @@ namespace tandem {
 /* How many of each the hulls of a scene have together: cube maps may be too many for 32 bits (check_size of
  * layout.h). */
 struct HullSizes {
-  uint64_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, strip_rows = 0, links = 0;
+  uint64_t hulls = 0, vertices = 0, faces = 0, corners = 0, edges = 0, chunk_float4s = 0, links = 0;
 };
 /* map_side: cells along a side of the cube maps of hull_support.h and cube_field.h; 0: none are made. */
 HullSizes hull_sizes(const Scene &scene, uint32_t map_side);

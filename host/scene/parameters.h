@@ -1,4 +1,4 @@
-/* parameters.h - from settings to the numbers that kernels read (shared/parameters.h). */
+/* parameters.h - converts settings into the numbers that kernels read (shared/parameters.h). */
 #pragma once
 
 #include <tandem/scene.h>

@@ -227,7 +227,7 @@ void check_materials_of_children(const Shape &shape, const Scene &scene, const C
 
 void check_body(const Body &body, const Scene &scene, const Checker &check)
 {
-  if (body.motion > Motion::dynamic) check.fail("unknown motion; fixed, kinematic and dynamic exist");
+  if (body.type > BodyType::dynamic) check.fail("unknown motion; fixed, kinematic and dynamic exist");
   if (body.shape >= scene.shapes.size())
     check.fail(fmt::format("shape {} does not exist; the scene has {}", body.shape, scene.shapes.size()));
   if (body.material >= scene.materials.size())
@@ -246,7 +246,7 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
     check.fail("a half_space has no pose in its body (shape_position, shape_orientation); move and turn the body");
   if (shape.type == ShapeType::half_space && body.continuous)
     check.fail("a half_space is not continuous: nothing comes out behind it; make the bodies that hit it so");
-  if (body.motion != Motion::dynamic) return;
+  if (body.type != BodyType::dynamic) return;
   if (shape.type == ShapeType::half_space) check.fail("a half_space cannot be dynamic; make it fixed or kinematic");
   check.mass("mass", body.mass);
   check_inertia(body, shape, check);
@@ -299,7 +299,7 @@ std::vector<std::string> warnings_of(const Scene &scene, const std::string &wher
       warnings.push_back(fmt::format("{}: shape {}: {}", where, i, note));
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body &body = scene.bodies[i];
-    const bool from_shape = body.motion == Motion::dynamic && body.inertia == Vec3{0, 0, 0} && !body.infinite_inertia;
+    const bool from_shape = body.type == BodyType::dynamic && body.inertia == Vec3{0, 0, 0} && !body.infinite_inertia;
     const std::string doubt = from_shape ? volume_doubt(scene.shapes[body.shape]) : "";
     if (!doubt.empty()) warnings.push_back(fmt::format("{}: {}: {}", where, label("body", i, body.name), doubt));
   }

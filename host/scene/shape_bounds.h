@@ -1,4 +1,4 @@
-/* shape_bounds.h - how far a shape reaches in its body: what broadphase, midphase and contact distances start from. */
+/* shape_bounds.h - how far a shape reaches in its body; broadphase, midphase and contact distances start from it. */
 #pragma once
 
 #include <tandem/scene.h>

@@ -15,7 +15,7 @@
 namespace tandem {
 namespace {
 
-bool is_dynamic(const Body &body) { return body.motion == Motion::dynamic; }
+bool is_dynamic(const Body &body) { return body.type == BodyType::dynamic; }
 
 bool is_posed(const Body &body)
 {
@@ -39,7 +39,7 @@ bool has_triggers(const Scene &scene)
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body &body) { return body.trigger; });
 }
 
-constexpr uint32_t shape_codes = 8; /* of body_traits */
+constexpr uint32_t shape_codes = 8; /* of body_flags */
 
 struct Presence {
   bool fixed[shape_codes] = {};   /* by shape: bodies that cannot be moved */
@@ -51,7 +51,7 @@ Presence presence_of(const Scene &scene)
   Presence present;
   const bool triggers = has_triggers(scene);
   for (const Body &body : scene.bodies) {
-    const bool moves = is_dynamic(body) || (triggers && body.motion == Motion::kinematic);
+    const bool moves = is_dynamic(body) || (triggers && body.type == BodyType::kinematic);
     (moves ? present.dynamic : present.fixed)[shape_code(scene, body)] = true;
   }
   return present;
@@ -194,7 +194,7 @@ Features body_features(const Scene &scene)
 }
 
 struct LargeBodies {
-  std::vector<uint32_t> boundless, large;
+  std::vector<uint32_t> unbounded, large;
 };
 
 LargeBodies large_bodies(const Scene &scene)
@@ -203,16 +203,16 @@ LargeBodies large_bodies(const Scene &scene)
   std::vector<float> radii;
   for (const Body &body : scene.bodies) radii.push_back(bounding_radius(scene, body));
   const auto radius = [&](uint32_t body) { return radii[body]; };
-  std::vector<uint32_t> boundless, large;
+  std::vector<uint32_t> unbounded, large;
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
-    if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) boundless.push_back(body);
+    if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) unbounded.push_back(body);
     else if (radius(body) > limit || scene.bodies[body].continuous)
       large.push_back(body); /* what is fast has bounds as large */
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);
   std::sort(large.begin(), large.end());
-  return {boundless, large};
+  return {unbounded, large};
 }
 
 } // namespace
@@ -283,9 +283,9 @@ Specialisation specialise(const Scene &scene, const Settings &settings)
       narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);
   if (settings.events) result.features |= FEATURE_EVENTS;
   const LargeBodies first = large_bodies(scene);
-  result.order = first.boundless;
+  result.order = first.unbounded;
   result.order.insert(result.order.end(), first.large.begin(), first.large.end());
-  result.boundless = static_cast<uint32_t>(first.boundless.size());
+  result.unbounded = static_cast<uint32_t>(first.unbounded.size());
   result.large = static_cast<uint32_t>(result.order.size());
   std::vector<bool> taken(scene.bodies.size());
   for (uint32_t body : result.order) taken[body] = true;

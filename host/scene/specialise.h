@@ -23,10 +23,10 @@ constexpr float large_ratio = 4.0f;
 struct Specialisation {
   Features features = 0; /* FEATURE_ bits */
   /* Body buffers hold scene body order[i] at index i: half-spaces come first, then the few bodies too large for a grid,
-   * so that the small ones are one stretch; otherwise the scene's order. Those with continuous collision count as
+   * so that the small ones are one range; otherwise the scene's order. Those with continuous collision count as
    * large, as their bounds are. */
   std::vector<uint32_t> order;
-  uint32_t boundless = 0; /* half-spaces */
+  uint32_t unbounded = 0; /* half-spaces */
   uint32_t large = 0;     /* these and the large ones */
 };
 
@@ -42,7 +42,7 @@ float median_radius(const Scene &scene);
  * of its body, or with continuous collision. */
 bool is_general(const Scene &scene, const Body &body);
 
-/* What body_traits call the shape: SHAPE_OTHER unless a row of shared/pairs.def names it, and it is as such a row takes
+/* What body_flags call the shape: SHAPE_OTHER unless a row of shared/pairs.def names it, and it is as such a row takes
  * it, in the middle of its body and without continuous collision. */
 uint32_t shape_code(const Scene &scene, const Body &body);
 

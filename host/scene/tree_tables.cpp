@@ -119,7 +119,7 @@ private:
                         tables_.subtrees.size() / 4, bvh.subtrees.size()})
       tables_.headers.push_back(count_of(word));
     tables_.frames.insert(tables_.frames.end(),
-                          {row{origin[0], origin[1], origin[2], 0}, row{step[0], step[1], step[2], 0}});
+                          {float4{origin[0], origin[1], origin[2], 0}, float4{step[0], step[1], step[2], 0}});
     for (const BvhNode &node : bvh.nodes) add_box(tables_.nodes, node.bounds, static_cast<uint32_t>(node.value));
     for (const BvhSubtree &subtree : bvh.subtrees) add_box(tables_.subtrees, subtree.bounds, subtree.root);
     for (const Leaf &leaf : leaves) tables_.leaves.insert(tables_.leaves.end(), {leaf.child, leaf.triangle});

@@ -26,7 +26,7 @@ struct TreeTables {
   std::vector<uint32_t> tree_of_shape; /* of Scene::shapes; INDEX_NONE for convex ones */
   std::vector<uint32_t> headers, nodes, leaves, subtrees,
       triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, .. */
-  std::vector<row> frames, vertices;
+  std::vector<float4> frames, vertices;
 };
 
 /* InputError where a mesh or compound has too much for 32-bit numbers, or bounds that are not finite. */

@@ -31,8 +31,8 @@ bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with
 /* Numbered as the kernel's own iterations are, whatever those stand for. */
 bool is_by_item(Buffer buffer)
 {
-  return buffer == Buffer::sweep_start || buffer == Buffer::small_finds || buffer == Buffer::large_finds ||
-         buffer == Buffer::finds || buffer == Buffer::grid_finds;
+  return buffer == Buffer::key_start || buffer == Buffer::small_neighbors || buffer == Buffer::large_neighbors ||
+         buffer == Buffer::neighbors || buffer == Buffer::grid_neighbors;
 }
 
 bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
@@ -112,7 +112,7 @@ std::optional<uint32_t> iteration_of_body(World &world, Domain runs, uint32_t bo
   if (runs == Domain::bodies_in_grid_order)
     return place_in_order(world, Buffer::sort_value, count_of(world, COUNT_LARGE), body);
   if (runs == Domain::bodies_on_curve)
-    return place_in_order(world, Buffer::leaf_body, count_of(world, COUNT_BOUNDLESS), body);
+    return place_in_order(world, Buffer::leaf_body, count_of(world, COUNT_UNBOUNDED), body);
   return body;
 }
 
@@ -138,7 +138,8 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
 {
   const KernelRow &row = row_of(launch.kernel);
   const Domain runs = domain_of(row), written = domain_of(buffer);
-  if (row.form == Form::group) return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
+  if (row.execution == Execution::group)
+    return row_of(buffer).capacity == Capacity::TILES ? std::optional(item) : std::nullopt;
   if (is_by_item(buffer)) return item;
   if (runs == Domain::unknown || written == Domain::unknown || (buffer == Buffer::pair_key && runs != Domain::pairs))
     return {};
@@ -168,17 +169,17 @@ std::vector<uint32_t> pair_bodies(World &world, Buffer a, Buffer b, size_t item)
 
 const char *iteration_name(Kernel kernel)
 {
-  if (row_of(kernel).form == Form::group) return "group";
+  if (row_of(kernel).execution == Execution::group) return "group";
   switch (kernel) {
   case Kernel::brute_force_count:
   case Kernel::brute_force_write:
   case Kernel::count_events:
   case Kernel::write_events:
   case Kernel::count_pair_events:
-  case Kernel::merge_near_count:
-  case Kernel::merge_near_write:
-  case Kernel::filter_near:
-  case Kernel::take_near:
+  case Kernel::merge_candidate_count:
+  case Kernel::merge_candidate_write:
+  case Kernel::filter_candidates:
+  case Kernel::take_candidates:
   case Kernel::write_pair_events: return "a";
   case Kernel::merge_count:
   case Kernel::merge_write:
@@ -210,7 +211,9 @@ std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, si
   const KernelRow &row = row_of(launch.kernel);
   const auto iteration = iteration_that_wrote(world, launch, buffer, static_cast<uint32_t>(item));
   const std::string which = iteration ? fmt::format("{} == {} && ", iteration_name(launch.kernel), *iteration) : "";
-  const char *const ending = row.form == Form::host ? "" : row.form == Form::group ? "_group" : "_item";
+  const char *const ending = row.execution == Execution::host    ? ""
+                             : row.execution == Execution::group ? "_group"
+                                                                 : "_item";
   return fmt::format("{}{} if {}tandem::step_of_launch == {}", row.name, ending, which, step);
 }
 

@@ -1,4 +1,4 @@
-/* breakpoint.h - from a place in a buffer back to the bodies it is about and the item that wrote it.
+/* breakpoint.h - leads from a location in a buffer back to its bodies and to the item that wrote it.
  *
  * The last part of a comparison's report: a gdb breakpoint on the serial backend that stops in the one
  * item of the one step where two backends first differ.

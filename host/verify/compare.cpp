@@ -11,7 +11,7 @@
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
-#include "host/verify/buffer_place.h"
+#include "host/verify/buffer_location.h"
 
 namespace tandem {
 std::vector<Buffer> buffers_written(const Launch &launch)
@@ -93,7 +93,7 @@ template <class Visit> void Lockstep::step(size_t index, World &world, uint64_t 
   uint32_t number = 0;
   world.set_observer([&](const Launch &launch) {
     world.backend_of(launch.kernel).finish();
-    if (request_.tamper) request_.tamper(index, step, world, launch);
+    if (request_.inject_fault) request_.inject_fault(index, step, world, launch);
     visit(launch, number++);
   });
   world.step();
@@ -198,12 +198,12 @@ void Lockstep::lay_side_by_side(World &reference, const Launch &launch, Differen
     return;
   }
   difference.scalar = first;
-  difference.place = place_in(buffer, first, pair_capacity(reference));
+  difference.location = location_in(buffer, first, pair_capacity(reference));
   difference.values[0] = value_at(buffer, contents + first * width);
   difference.values[1] = value_at(buffer, other.data() + first * width);
   difference.ulps = ulps_between(buffer, contents + first * width, other.data() + first * width);
-  difference.bodies = bodies_of_item(reference, buffer, difference.place.item);
-  difference.breakpoint = breakpoint_for(reference, launch, buffer, difference.place.item, difference.step);
+  difference.bodies = bodies_of_item(reference, buffer, difference.location.item);
+  difference.breakpoint = breakpoint_for(reference, launch, buffer, difference.location.item, difference.step);
 }
 
 Comparison Lockstep::run()
@@ -240,7 +240,7 @@ void change_in_memory(Memory &memory, Buffer buffer, size_t scalar)
 }
 
 /* Empty if the error can be planted behind this launch. */
-std::string what_is_missing(const PlantedError &error, const Memory &memory, const Launch &launch)
+std::string what_is_missing(const InjectedFault &error, const Memory &memory, const Launch &launch)
 {
   const std::vector<Buffer> written = buffers_written(launch);
   if (std::find(written.begin(), written.end(), error.buffer) == written.end())
@@ -252,7 +252,7 @@ std::string what_is_missing(const PlantedError &error, const Memory &memory, con
 
 } // namespace
 
-Tamper plant(const PlantedError &error, std::string *missing)
+FaultInjector inject_fault(const InjectedFault &error, std::string *missing)
 {
   if (missing) *missing = fmt::format("{} does not run in step {}", row_of(error.kernel).name, error.step);
   /* The world that this step was planted in: a fresh world of the same index (the second run) gets it again. */

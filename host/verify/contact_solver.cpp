@@ -93,11 +93,11 @@ public:
   }
   ~ProblemSolver() { backend_.finish(); }
 
-  void sweep(const std::string &solver)
+  void iterate(const std::string &solver)
   {
-    if (solver == "jacobi") return jacobi_sweep();
+    if (solver == "jacobi") return jacobi_pass();
     for (uint32_t level = 0; level + 1 < levels_.start.size(); ++level)
-      launcher_.launch({Kernel::problem_sweep,
+      launcher_.launch({Kernel::problem_pass,
                         {},
                         {},
                         COUNT_TOTAL + level,
@@ -159,7 +159,7 @@ private:
     upload(Buffer::problem_free, free);
     for (const Buffer rows :
          {Buffer::problem_step, Buffer::problem_impulse, Buffer::problem_previous, Buffer::problem_direction})
-      memory_.resize(rows, size_of(Element::row) * contacts_);
+      memory_.resize(rows, size_of(Element::float4) * contacts_);
     for (const Buffer terms : {Buffer::problem_term_a, Buffer::problem_term_b, Buffer::problem_term_c})
       memory_.resize(terms, size_of(Element::real) * contacts_);
     for (const Buffer sum :
@@ -186,7 +186,7 @@ private:
     return scale_ * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
   }
 
-  void jacobi_sweep()
+  void jacobi_pass()
   {
     const Buffer to = impulse_ == Buffer::problem_impulse ? Buffer::problem_previous : Buffer::problem_impulse;
     run({Kernel::problem_jacobi, {impulse_, to}, {}});
@@ -259,10 +259,10 @@ ContactSolution solve_contact_problem(const ContactProblem &problem, const Conta
   backend.finish();
   const auto begin = std::chrono::steady_clock::now();
   double residual = solver.natural_residual();
-  while (!(residual <= settings.tolerance) && solution.sweeps < settings.iterations && std::isfinite(residual)) {
-    solver.sweep(settings.solver);
+  while (!(residual <= settings.tolerance) && solution.iterations < settings.iterations && std::isfinite(residual)) {
+    solver.iterate(settings.solver);
     solution.history.push_back(residual = solver.natural_residual());
-    ++solution.sweeps;
+    ++solution.iterations;
   }
   backend.finish();
   solution.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -1,7 +1,7 @@
 /* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
  *
  * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and
- * shared/problem/sweep.h for the methods.
+ * shared/problem/pass.h for the methods.
  */
 #pragma once
 
@@ -26,17 +26,17 @@ struct ContactSolverSettings {
 };
 
 struct ContactResiduals {
-  double natural = 0, fischer_burmeister = 0; /* relative */
-  double cone_violation = 0;                  /* the largest of a contact, N s */
+  double natural_map = 0, fischer_burmeister = 0; /* relative */
+  double cone_violation = 0;                      /* the largest of a contact, N s */
 };
 
 struct ContactSolution {
   bool converged = false;
-  uint32_t sweeps = 0;
-  std::vector<double> history; /* relative natural-map residual after each sweep */
+  uint32_t iterations = 0;
+  std::vector<double> history; /* relative natural-map residual after each pass */
   ContactResiduals residuals;  /* after the last */
   std::vector<std::array<double, 3>> impulse;
-  double milliseconds = 0; /* sweeps and residuals; without building kernels and the first moves */
+  double milliseconds = 0; /* passes and residuals; without building kernels and the first moves */
 };
 
 ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,

@@ -52,14 +52,14 @@ public:
     a_ = memory.read<uint32_t>(Buffer::constraint_a, count);
     b_ = memory.read<uint32_t>(Buffer::constraint_b, count);
     velocity_ = memory.read_reals(Buffer::solver_velocity, 8 * size_t{counts[COUNT_BODIES]});
-    delta_ = memory.read_reals(Buffer::solver_delta, 8 * size_t{counts[COUNT_BODIES]});
+    delta_ = memory.read_reals(Buffer::solver_delta_pose, 8 * size_t{counts[COUNT_BODIES]});
     normal_ = plane(memory, Buffer::constraint_normal, 0);
     for (size_t k = 0; k < 8; ++k) points_[k] = plane(memory, Buffer::constraint_points, k);
     for (size_t k = 0; k < 2; ++k) center_[k] = plane(memory, Buffer::constraint_center, k);
     normal_impulse_ = plane(memory, Buffer::constraint_normal_impulse, 0);
     friction_impulse_ = plane(memory, Buffer::constraint_friction_impulse, 0);
-    if (memory.bytes(Buffer::constraint_bounce) == 0) return;
-    for (size_t k = 0; k < 2; ++k) bounce_[k] = plane(memory, Buffer::constraint_bounce, k);
+    if (memory.bytes(Buffer::constraint_restitution) == 0) return;
+    for (size_t k = 0; k < 2; ++k) restitution_[k] = plane(memory, Buffer::constraint_restitution, k);
   }
 
   struct Point {
@@ -81,17 +81,17 @@ public:
     p.impulse = normal_impulse_[4 * i + k];
     p.started = points_[k][4 * i + 3];
     p.speed = normal(i).dot(relative_velocity(i, at(points_[k], i), at(points_[k + 4], i)));
-    const double wished = bounce_[0].empty() ? -1 : bounce_[0][4 * i + k];
-    if (wished >= 0 && bounce_[1][4 * i + k] > 0) p.speed -= wished;
+    const double target_velocity = restitution_[0].empty() ? -1 : restitution_[0][4 * i + k];
+    if (target_velocity >= 0 && restitution_[1][4 * i + k] > 0) p.speed -= target_velocity;
     return p;
   }
 
   Friction friction(size_t i) const
   {
     Friction f;
-    double pressure = 0;
-    for (size_t k = 0; k < 4; ++k) pressure += normal_impulse_[4 * i + k];
-    f.limit = coefficient(i) * pressure;
+    double normal_impulse_sum = 0;
+    for (size_t k = 0; k < 4; ++k) normal_impulse_sum += normal_impulse_[4 * i + k];
+    f.limit = coefficient(i) * normal_impulse_sum;
     f.mass = center_[0][4 * i + 3];
     f.impulse = {friction_impulse_[4 * i], friction_impulse_[4 * i + 1]};
     const Vector slide = relative_velocity(i, at(center_[0], i), at(center_[1], i)), n = normal(i);
@@ -156,7 +156,7 @@ private:
   std::vector<uint32_t> a_, b_;
   std::vector<double> velocity_, delta_, normal_, normal_impulse_, friction_impulse_;
   std::array<std::vector<double>, 8> points_;
-  std::array<std::vector<double>, 2> center_, bounce_;
+  std::array<std::vector<double>, 2> center_, restitution_;
 };
 
 /* What a point still owes at the end of the step: a gap may be closed within the step, so any speed from closing it to
@@ -234,7 +234,7 @@ double angle_between(const std::array<double, 4> &one, const std::array<double, 
 void TrajectoryError::add(const Scene &scene, const PreciseBodies &states, const PreciseBodies &truth)
 {
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
-    if (scene.bodies[i].motion != Motion::dynamic) continue;
+    if (scene.bodies[i].type != BodyType::dynamic) continue;
     const double distance = (vector_of(states[i].position) - vector_of(truth[i].position)).norm();
     const double angle = angle_between(states[i].orientation, truth[i].orientation);
     position_squares_ += distance * distance;
@@ -260,7 +260,7 @@ Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states)
   Vector momentum = Vector::Zero(), angular = Vector::Zero();
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body &body = scene.bodies[i];
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const double mass = body.mass;
     const Vector x = vector_of(states[i].position), v = vector_of(states[i].linear_velocity),
                  w = vector_of(states[i].angular_velocity);
@@ -282,7 +282,7 @@ double mean_height(const Scene &scene, const PreciseBodies &states)
   const Vector up = gravity.norm() > 0 ? Vector(-gravity.normalized()) : Vector(Vector::UnitY());
   double sum = 0, count = 0;
   for (size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].motion == Motion::dynamic) sum += up.dot(vector_of(states[i].position)), ++count;
+    if (scene.bodies[i].type == BodyType::dynamic) sum += up.dot(vector_of(states[i].position)), ++count;
   return count > 0 ? sum / count : 0;
 }
 

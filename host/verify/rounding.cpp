@@ -16,7 +16,7 @@
 #include "host/runtime/launcher.h"
 #include "host/runtime/make_backend.h"
 #include "host/runtime/memory.h"
-#include "host/verify/buffer_place.h"
+#include "host/verify/buffer_location.h"
 #include "host/world/carried.h"
 #include "shared/counts.h"
 #include "shared/platform.h"
@@ -25,10 +25,10 @@ namespace tandem {
 namespace {
 
 /* All planes of a buffer under one name: "separation[2]" is "separation". */
-std::string field_of(const BufferPlace &place) { return place.field.substr(0, place.field.find('[')); }
+std::string field_of(const BufferLocation &location) { return location.field.substr(0, location.field.find('[')); }
 
-/* What stands for no end (BOUNDLESS of records.h) is no measured number. */
-constexpr double boundless = 1e29;
+/* What stands for no end (UNBOUNDED of records.h) is no measured number. */
+constexpr double unbounded = 1e29;
 
 /* The last place of a float of this size. */
 double unit_of(double size) { return std::ldexp(1.0, size == 0 ? -149 : std::max(std::ilogb(size) - 23, -149)); }
@@ -57,7 +57,7 @@ public:
       ++row_.nonfinite;
       return;
     }
-    if (std::abs(exact) > boundless) return;
+    if (std::abs(exact) > unbounded) return;
     const double distance = std::abs(value - exact);
     ulps_.push_back(round_to_float(ulps_from(value, exact)));
     launch_distance_ = std::max(launch_distance_, distance);
@@ -180,7 +180,7 @@ private:
     std::set<Samples *> touched;
     for (size_t k = 0; k < count; ++k) {
       if (value[k] == old[k] && exact[k] == old[k]) continue;
-      Samples &samples = samples_[{kernel, buffer, field_of(place_in(buffer, k, capacity))}];
+      Samples &samples = samples_[{kernel, buffer, field_of(location_in(buffer, k, capacity))}];
       samples.add(value[k], exact[k]);
       touched.insert(&samples);
     }

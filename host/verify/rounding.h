@@ -7,7 +7,7 @@
  *
  * After each launch of a world that runs in float the same launch runs on the reference backend, on what the float
  * launch read. So each kernel's own error is seen, not what earlier ones handed on. Numbers that neither launch changed
- * are left out: a kernel writes a stretch of its buffers, and what lies around it would make every error look small.
+ * are left out: a kernel writes a range of its buffers, and what lies around it would make every error look small.
  */
 #pragma once
 

@@ -16,7 +16,7 @@ public:
       : counts_(counts), order_(order), a_(memory.read<uint32_t>(Buffer::pair_a, counts[COUNT_PAIRS])),
         b_(memory.read<uint32_t>(Buffer::pair_b, counts[COUNT_PAIRS])),
         pair_of_(memory.read<uint32_t>(Buffer::constraint_pair, counts[COUNT_CONSTRAINTS])),
-        traits_(memory.read<uint32_t>(Buffer::body_traits, counts[COUNT_BODIES]))
+        flags_(memory.read<uint32_t>(Buffer::body_flags, counts[COUNT_BODIES]))
   {}
 
   BatchFault misbatched() const
@@ -46,12 +46,12 @@ public:
   }
 
 private:
-  bool moves(uint32_t body) const { return motion_of(traits_[body]) == MOTION_DYNAMIC; }
+  bool moves(uint32_t body) const { return body_type_of(flags_[body]) == BODY_TYPE_DYNAMIC; }
   std::array<uint32_t, 2> bodies_of(uint32_t pair) const { return {order_[a_[pair]], order_[b_[pair]]}; }
 
   const std::array<uint32_t, COUNT_TOTAL> &counts_;
   const std::vector<uint32_t> &order_;
-  std::vector<uint32_t> a_, b_, pair_of_, traits_;
+  std::vector<uint32_t> a_, b_, pair_of_, flags_;
 };
 
 } // namespace

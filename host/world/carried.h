@@ -1,7 +1,8 @@
-/* carried.h - what one step hands to the next: the rows of buffers.def whose lifetime is STATE or CACHE.
+/* carried.h - the buffers that one step hands to the next: those of buffers.def whose lifetime is STATE or CACHE.
  *
- * Each has two sides. The commit reads the previous one and writes the other, so the host turns them when it begins,
- * and turns them back when the step fails: then the state is as it was, whatever the commit had written by then.
+ * Each of them has two sides. The commit reads the previous side and writes the other. The host swaps the sides when
+ * the commit begins, and swaps them back if the step fails; the state is then as it was, whatever the commit had
+ * written by then.
  */
 #pragma once
 

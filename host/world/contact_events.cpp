@@ -16,7 +16,7 @@ static_assert(EVENT_BEGIN == static_cast<int>(ContactEvent::Kind::begin) &&
               EVENT_END == static_cast<int>(ContactEvent::Kind::end));
 
 /* The records of one event in event_bodies and event_contact. */
-ContactEvent event_of(const uint32_t *bodies, const row *contact, const Scene &scene,
+ContactEvent event_of(const uint32_t *bodies, const float4 *contact, const Scene &scene,
                       const std::vector<uint32_t> &order)
 {
   ContactEvent event{};
@@ -43,7 +43,7 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
 {
   const uint32_t n = memory.read<uint32_t>(Buffer::counts, 1, COUNT_EVENTS).front();
   const auto bodies = memory.read<uint32_t>(Buffer::event_bodies, 4 * size_t{n});
-  const auto contacts = memory.read<row>(Buffer::event_contact, 3 * size_t{n});
+  const auto contacts = memory.read<float4>(Buffer::event_contact, 3 * size_t{n});
   std::vector<std::pair<uint64_t, uint32_t>> places(
       n); /* the two bodies as one number, and where: shorter to sort than events */
   for (uint32_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
-/* contact_events.h - from the lists that the events stage leaves on the device to what World::contact_events and
- * World::pair_events give. */
+/* contact_events.h - turns the lists that the events stage leaves on the device into the events of
+ * World::contact_events and World::pair_events. */
 #pragma once
 
 #include <vector>

@@ -23,7 +23,7 @@ Settings resolved(Settings settings, const Scene &scene, const Placement &placem
 
 } // namespace
 
-uint32_t first_room(const Scene &scene, const Settings &settings)
+uint32_t first_capacity(const Scene &scene, const Settings &settings)
 {
   return static_cast<uint32_t>(std::min<uint64_t>(5 * uint64_t{scene.bodies.size()} + 1024, settings.max_pairs));
 }
@@ -38,9 +38,9 @@ World::Implementation::Implementation(const Scene &given, const Settings &chosen
   if (!settings.specialise) special.features = all_features();
   plan.features = special.features;
   plan.bodies = static_cast<uint32_t>(scene.bodies.size());
-  scene_entries = entries_of({plan.bodies, special.boundless, special.large});
+  scene_entries = entries_of({plan.bodies, special.unbounded, special.large});
   plan.capacity_cells = cells_for(plan.bodies);
-  plan.capacity_pairs = first_room(scene, settings);
+  plan.capacity_pairs = first_capacity(scene, settings);
   record_kernels();
   place(placement);
   buffers.allocate(sizes());
@@ -74,7 +74,7 @@ void note_shapes(Recorder &recorder)
 
 } // namespace
 
-/* Kernels and buffers of the tail only once there is one. */
+/* Kernels and buffers of the overflow constraints only once there are some. */
 void World::Implementation::record_kernels()
 {
   StepPlan all = plan;
@@ -146,7 +146,7 @@ QueryTarget World::Implementation::query_target()
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
     launch_query_structure(recorded, structure);
     for (size_t i = 0; i < recorder.touched.size(); ++i)
-      if (recorder.touched[i] && !buffers.is_queried(buffer_at(i))) buffers.make_room(buffer_at(i), sizes());
+      if (recorder.touched[i] && !buffers.is_queried(buffer_at(i))) buffers.ensure_capacity(buffer_at(i), sizes());
     begin_launches();
     launch_query_structure(launches, structure);
     launches_ended = true;

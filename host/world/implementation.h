@@ -30,7 +30,7 @@ namespace tandem {
 constexpr uint32_t body_numbers = 1u << 28;
 
 /* The pairs that there is room for at first; a step that finds more runs again. */
-uint32_t first_room(const Scene &scene, const Settings &settings);
+uint32_t first_capacity(const Scene &scene, const Settings &settings);
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
@@ -62,7 +62,7 @@ struct World::Implementation {
   void begin_launches();
   void accept();
   void prepare_repetition(uint32_t status, bool &may_forget);
-  bool near_list_overflows() const;
+  bool candidates_overflow() const;
   void grow_pairs(uint32_t needed, bool &may_forget);
   void enlarge(uint32_t pairs);
   void quarantine_from(uint32_t code);

@@ -4,7 +4,7 @@
 #include <exception>
 #include <utility>
 
-#include "host/pipeline/host_stages.h"
+#include "host/pipeline/cpu_kernels.h"
 #include "host/runtime/make_backend.h"
 
 namespace tandem {
@@ -40,11 +40,11 @@ Backend &PlacedBackends::named(const std::string &text, bool allow_inexact)
 Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
 {
   Backend &as_said = named(backend_text(placement, kernel), placement.allow_inexact);
-  if (row_of(kernel).form != Form::host) return as_said;
-  if (const auto known = backends_.find(host_stages_name); known != backends_.end()) return *known->second;
-  std::unique_ptr<Backend> host = make_host_stages();
+  if (row_of(kernel).execution != Execution::host) return as_said;
+  if (const auto known = backends_.find(cpu_kernels_name); known != backends_.end()) return *known->second;
+  std::unique_ptr<Backend> host = make_cpu_kernels();
   host->set_profiling(profiling_);
-  return *backends_.emplace(host_stages_name, std::move(host)).first->second;
+  return *backends_.emplace(cpu_kernels_name, std::move(host)).first->second;
 }
 
 /* All that can fail comes before the first change of what is placed. */

@@ -11,7 +11,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/primitives.h"
 #include "host/scene/body_buffers.h"
-#include "host/scene/hull_strips.h"
+#include "host/scene/hull_chunks.h"
 #include "host/scene/shape_bounds.h"
 #include "shared/platform.h"
 
@@ -59,9 +59,9 @@ void check_number(size_t queries)
     throw InputError(fmt::format("{} queries in one batch; at most {} are possible", queries, most_queries));
 }
 
-void make_room_for_hits(Memory &memory, size_t hits)
+void reserve_hits(Memory &memory, size_t hits)
 {
-  for (const Buffer buffer : {Buffer::query_hit, Buffer::query_point}) memory.resize(buffer, hits * sizeof(row));
+  for (const Buffer buffer : {Buffer::query_hit, Buffer::query_point}) memory.resize(buffer, hits * sizeof(float4));
   memory.resize(Buffer::query_hit_body, hits * sizeof(uint32_t));
 }
 
@@ -72,7 +72,7 @@ void launch(const QueryTarget &target, Kernel kernel, size_t queries, std::vecto
   target.launcher.launch({kernel, {}, values, COUNT_ZERO, COUNT_LENGTH, static_cast<uint32_t>(queries)});
 }
 
-QueryHit hit_of(uint32_t body, const row &hit, const row &point, const Point &from)
+QueryHit hit_of(uint32_t body, const float4 &hit, const float4 &point, const Point &from)
 {
   return {body,
           hit.w,
@@ -82,8 +82,8 @@ QueryHit hit_of(uint32_t body, const row &hit, const row &point, const Point &fr
 
 template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t queries, Start &&start)
 {
-  const auto hits = memory.read<row>(Buffer::query_hit, queries),
-             points = memory.read<row>(Buffer::query_point, queries);
+  const auto hits = memory.read<float4>(Buffer::query_hit, queries),
+             points = memory.read<float4>(Buffer::query_point, queries);
   const auto bodies = memory.read<uint32_t>(Buffer::query_hit_body, queries);
   std::vector<QueryHit> found(queries);
   for (size_t i = 0; i < queries; ++i)
@@ -104,7 +104,7 @@ std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel w
   const std::vector<uint32_t> starts = memory.read<uint32_t>(Buffer::query_found, queries + 1);
   if (starts.back() == UINT32_MAX) /* the scan saturates */
     throw InputError(fmt::format("{} queries have {} hits or more; smaller batches are needed", queries, UINT32_MAX));
-  make_room_for_hits(memory, std::max(starts.back(), 1u));
+  reserve_hits(memory, std::max(starts.back(), 1u));
   launch(target, write, queries);
   return starts;
 }
@@ -117,35 +117,35 @@ template <class Hit> bool comes_before(const Hit &a, const Hit &b)
 
 void upload_rays(const QueryTarget &target, std::span<const Ray> rays)
 {
-  std::vector<row> starts, ways;
+  std::vector<float4> starts, paths;
   std::vector<uint32_t> filters;
   for (const Ray &ray : rays) {
-    const std::array<row, 2> place = place_of(ray.origin);
+    const std::array<float4, 2> place = double_float3_of(ray.origin);
     starts.insert(starts.end(), place.begin(), place.end());
-    ways.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
+    paths.push_back({ray.direction[0], ray.direction[1], ray.direction[2], ray.reach});
     filters.insert(filters.end(), {ray.filter.group, ray.filter.mask});
   }
   upload_filters(target.memory, target.scene, target.order, filters);
   upload(target.memory, Buffer::query_start, starts);
-  upload(target.memory, Buffer::query_way, ways);
+  upload(target.memory, Buffer::query_displacement, paths);
   set_length(target.memory, rays.size());
 }
 
 void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
 {
-  std::vector<row> starts, ways, extents;
+  std::vector<float4> starts, paths, extents;
   std::vector<uint32_t> filters;
   for (const QueryBox &box : boxes) {
-    const std::array<row, 2> place = place_of(box.center);
-    const Vec3 &way = box.displacement, &half = box.half_extents;
+    const std::array<float4, 2> place = double_float3_of(box.center);
+    const Vec3 &displacement = box.displacement, &half = box.half_extents;
     starts.insert(starts.end(), place.begin(), place.end());
-    ways.push_back({way[0], way[1], way[2], 1});
+    paths.push_back({displacement[0], displacement[1], displacement[2], 1});
     extents.push_back({half[0], half[1], half[2], 0});
     filters.insert(filters.end(), {box.filter.group, box.filter.mask});
   }
   upload_filters(target.memory, target.scene, target.order, filters);
   upload(target.memory, Buffer::query_start, starts);
-  upload(target.memory, Buffer::query_way, ways);
+  upload(target.memory, Buffer::query_displacement, paths);
   upload(target.memory, Buffer::query_extent, extents);
   set_length(target.memory, boxes.size());
 }
@@ -159,16 +159,16 @@ float radius_of(const Shape &shape)
   return bounding_radius(scene, scene.bodies[0]);
 }
 
-/* What a scene would refuse, a sweep refuses: as a body that need not have a mass. */
+/* What a scene would refuse, a shape cast refuses: as a body that need not have a mass. */
 void check_swept_shape(const Shape &shape)
 {
   const ShapeType type = shape.type;
   if (type == ShapeType::half_space || type == ShapeType::mesh || type == ShapeType::compound)
     throw InputError(
-        "sweep: half_spaces, meshes and compounds cannot be swept; a box, sphere, capsule, cylinder or hull can");
+        "shape cast: half_spaces, meshes and compounds cannot be cast; a box, sphere, capsule, cylinder or hull can");
   Scene scene;
   scene.shapes = {shape};
-  validate(scene, "sweep");
+  validate(scene, "shape cast");
 }
 
 } // namespace
@@ -207,26 +207,26 @@ void check_boxes(std::span<const QueryBox> boxes)
   }
 }
 
-void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
+void check_shape_casts(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements)
 {
   check_swept_shape(shape);
   check_number(poses.size());
   if (poses.size() != displacements.size())
-    throw InputError(
-        fmt::format("sweep: {} poses and {} displacements; one of each is needed", poses.size(), displacements.size()));
+    throw InputError(fmt::format("shape cast: {} poses and {} displacements; one of each is needed", poses.size(),
+                                 displacements.size()));
   for (size_t i = 0; i < poses.size(); ++i) {
     if (!is_finite_vector(poses[i].position))
-      refuse("sweep", i,
+      refuse("shape cast", i,
              fmt::format("position is {}; three finite numbers are needed", vector_text(poses[i].position)));
     if (!is_finite_vector(displacements[i]) || length(displacements[i]) > longest)
       refuse(
-          "sweep", i,
+          "shape cast", i,
           fmt::format("displacement is {}; a vector of at most {} is needed", vector_text(displacements[i]), longest));
     const Quat &q = poses[i].orientation;
     const double square = double{q[0]} * q[0] + double{q[1]} * q[1] + double{q[2]} * q[2] + double{q[3]} * q[3];
     if (!(std::abs(square - 1) < 2e-3))
       refuse(
-          "sweep", i,
+          "shape cast", i,
           fmt::format("orientation is [{}, {}, {}, {}]; a quaternion of length 1 is needed", q[0], q[1], q[2], q[3]));
   }
 }
@@ -242,28 +242,28 @@ std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> ra
 {
   if (rays.empty()) return {};
   upload_rays(target, rays);
-  make_room_for_hits(target.memory, rays.size());
+  reserve_hits(target.memory, rays.size());
   launch(target, Kernel::cast_rays, rays.size());
   return take_hits(target.memory, rays.size(), [&](size_t i) -> const Point & { return rays[i].origin; });
 }
 
-std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays)
+std::vector<bool> cast_rays_any(const QueryTarget &target, std::span<const Ray> rays)
 {
   if (rays.empty()) return {};
   upload_rays(target, rays);
   target.memory.resize(Buffer::query_found, rays.size() * sizeof(uint32_t));
-  launch(target, Kernel::find_blocked_rays, rays.size());
+  launch(target, Kernel::cast_rays_any, rays.size());
   const auto found = target.memory.read<uint32_t>(Buffer::query_found, rays.size());
   return {found.begin(), found.end()};
 }
 
-std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays)
+std::vector<std::vector<RayHit>> cast_rays_all(const QueryTarget &target, std::span<const Ray> rays)
 {
   if (rays.empty()) return {};
   upload_rays(target, rays);
   const std::vector<uint32_t> starts = find_all(target, Kernel::count_ray_hits, Kernel::write_ray_hits, rays.size());
-  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back()),
-             points = target.memory.read<row>(Buffer::query_point, starts.back());
+  const auto hits = target.memory.read<float4>(Buffer::query_hit, starts.back()),
+             points = target.memory.read<float4>(Buffer::query_point, starts.back());
   const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
   std::vector<std::vector<RayHit>> found(rays.size());
   for (size_t i = 0; i < rays.size(); ++i) {
@@ -274,12 +274,12 @@ std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, st
   return found;
 }
 
-std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
+std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
 {
   if (boxes.empty()) return {};
   upload_boxes(target, boxes);
   const std::vector<uint32_t> starts = find_all(target, Kernel::count_box_hits, Kernel::write_box_hits, boxes.size());
-  const auto hits = target.memory.read<row>(Buffer::query_hit, starts.back());
+  const auto hits = target.memory.read<float4>(Buffer::query_hit, starts.back());
   const auto bodies = target.memory.read<uint32_t>(Buffer::query_hit_body, starts.back());
   std::vector<std::vector<BoxHit>> found(boxes.size());
   for (size_t i = 0; i < boxes.size(); ++i) {
@@ -289,37 +289,37 @@ std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::spa
   return found;
 }
 
-std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
-                            std::span<const Vec3> displacements, const QueryFilter &filter)
+std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                                      std::span<const Vec3> displacements, const QueryFilter &filter)
 {
   if (poses.empty()) return {};
   Memory &memory = target.memory;
-  std::vector<row> starts, turns, ways, vertices{{0, 0, 0, 0}}, strips;
+  std::vector<float4> starts, turns, paths, vertices{{0, 0, 0, 0}}, chunks;
   std::vector<uint32_t> filters;
   for (size_t i = 0; i < poses.size(); ++i) {
-    const std::array<row, 2> place = place_of(poses[i].position);
+    const std::array<float4, 2> place = double_float3_of(poses[i].position);
     const Quat q = unit(poses[i].orientation);
     starts.insert(starts.end(), place.begin(), place.end());
     turns.push_back({q[0], q[1], q[2], q[3]});
-    ways.push_back({displacements[i][0], displacements[i][1], displacements[i][2], 1});
+    paths.push_back({displacements[i][0], displacements[i][1], displacements[i][2], 1});
     filters.insert(filters.end(), {filter.group, filter.mask});
   }
   if (shape.hull) {
     vertices.clear();
     for (const Vec3 &v : shape.hull->vertices) vertices.push_back({v[0], v[1], v[2], 0});
   }
-  append_strips(strips, vertices, 3);
+  append_chunks(chunks, vertices, 3);
   const Vec3 size = kernel_size(shape);
   upload_filters(memory, target.scene, target.order, filters);
   upload(memory, Buffer::query_start, starts);
   upload(memory, Buffer::query_turn, turns);
-  upload(memory, Buffer::query_way, ways);
-  upload(memory, Buffer::query_shape, std::vector<row>{{size[0], size[1], size[2], radius_of(shape)}});
+  upload(memory, Buffer::query_displacement, paths);
+  upload(memory, Buffer::query_shape, std::vector<float4>{{size[0], size[1], size[2], radius_of(shape)}});
   upload(memory, Buffer::query_vertex, vertices);
-  upload(memory, Buffer::query_strip, strips);
+  upload(memory, Buffer::query_chunk, chunks);
   set_length(memory, poses.size());
-  make_room_for_hits(memory, poses.size());
-  launch(target, Kernel::sweep_shape, poses.size(),
+  reserve_hits(memory, poses.size());
+  launch(target, Kernel::cast_shapes, poses.size(),
          {static_cast<uint32_t>(shape.type), static_cast<uint32_t>(vertices.size())});
   return take_hits(memory, poses.size(), [&](size_t i) -> const Point & { return poses[i].position; });
 }

@@ -19,7 +19,7 @@ namespace tandem {
 void check_rays(std::span<const Ray> rays);
 void check_boxes(std::span<const QueryBox> boxes);
 /* Also for half-spaces, which cannot be swept, for shapes that no scene could hold, and for lists of two lengths. */
-void check_sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
+void check_shape_casts(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
 
 /* The launches that make a structure, QUERY_ of shared/body_codes.h. */
 void launch_query_structure(StepLaunches &step, uint32_t structure);
@@ -35,10 +35,10 @@ struct QueryTarget {
 };
 
 std::vector<RayHit> cast_rays(const QueryTarget &target, std::span<const Ray> rays);
-std::vector<bool> find_blocked_rays(const QueryTarget &target, std::span<const Ray> rays);
-std::vector<std::vector<RayHit>> cast_rays_through(const QueryTarget &target, std::span<const Ray> rays);
-std::vector<std::vector<BoxHit>> sweep_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);
-std::vector<SweepHit> sweep(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
-                            std::span<const Vec3> displacements, const QueryFilter &filter);
+std::vector<bool> cast_rays_any(const QueryTarget &target, std::span<const Ray> rays);
+std::vector<std::vector<RayHit>> cast_rays_all(const QueryTarget &target, std::span<const Ray> rays);
+std::vector<std::vector<BoxHit>> cast_boxes(const QueryTarget &target, std::span<const QueryBox> boxes);
+std::vector<ShapeCastHit> cast_shapes(const QueryTarget &target, const Shape &shape, std::span<const Pose> poses,
+                                      std::span<const Vec3> displacements, const QueryFilter &filter);
 
 } // namespace tandem

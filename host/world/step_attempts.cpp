@@ -10,7 +10,7 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/world/batch_fault.h"
 #include "host/world/implementation.h"
-#include "shared/broadphase/near_limits.h"
+#include "shared/broadphase/candidate_limits.h"
 
 namespace tandem {
 namespace {
@@ -147,9 +147,9 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
 }
 
 /* The pairs among what did not fit are not known then. */
-bool World::Implementation::near_list_overflows() const
+bool World::Implementation::candidates_overflow() const
 {
-  return plan.known[COUNT_NEAR_NEEDED] > uint64_t{NEAR_PER_PAIR} * plan.capacity_pairs;
+  return plan.known[COUNT_CANDIDATES_NEEDED] > uint64_t{CANDIDATES_PER_PAIR} * plan.capacity_pairs;
 }
 
 /* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs
@@ -160,7 +160,7 @@ void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
   if (needed > settings.max_pairs)
     throw std::runtime_error(
         fmt::format("room for {}{} pairs is needed, and {} are the most (--max-pairs, Settings::max_pairs)",
-                    needed == UINT32_MAX || near_list_overflows() ? "at least " : "", needed, settings.max_pairs));
+                    needed == UINT32_MAX || candidates_overflow() ? "at least " : "", needed, settings.max_pairs));
   ++statistics.overflow;
   enlarge(static_cast<uint32_t>(std::min<uint64_t>(uint64_t{needed} + needed / 4, settings.max_pairs)));
   guess_counts();

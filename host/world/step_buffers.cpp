@@ -76,7 +76,7 @@ void StepBuffers::settle(Backend &backend)
   }
 }
 
-void StepBuffers::make_room(Buffer buffer, const Sizes &sizes)
+void StepBuffers::ensure_capacity(Buffer buffer, const Sizes &sizes)
 {
   queried_[index_of(buffer)] = true;
   if (!needs_.touched[index_of(buffer)]) memory_.resize(buffer, bytes_of(buffer, sizes));

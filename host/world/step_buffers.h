@@ -38,7 +38,7 @@ public:
   void make_ready(const Sizes &sizes);
   void changed() { ready_ = false; }
   /* For queries between steps, of a buffer that the step itself may not have. */
-  void make_room(Buffer buffer, const Sizes &sizes);
+  void ensure_capacity(Buffer buffer, const Sizes &sizes);
   bool is_queried(Buffer buffer) const { return queried_[index_of(buffer)]; }
 
   const std::vector<CarriedBuffer> &carried() const { return carried_; }

@@ -28,7 +28,7 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
   const minicl::ExactFloatingPoint environment; /* what is derived from the scene rounds alike too */
   const auto told = [&](const char *why) {
     return fmt::format("scene '{}' of {} bodies, with room for {} pairs: {}", scene.name, scene.bodies.size(),
-                       first_room(scene, settings), why);
+                       first_capacity(scene, settings), why);
   };
   try {
     validate(scene, scene.name);
@@ -156,37 +156,38 @@ std::vector<RayHit> World::cast_rays(std::span<const Ray> rays)
                 [&] { return tandem::cast_rays(implementation_->query_target(), rays); });
 }
 
-std::vector<bool> World::find_blocked_rays(std::span<const Ray> rays)
+std::vector<bool> World::cast_rays_any(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
   return answer("queries", implementation_->plan.bodies,
-                [&] { return tandem::find_blocked_rays(implementation_->query_target(), rays); });
+                [&] { return tandem::cast_rays_any(implementation_->query_target(), rays); });
 }
 
-std::vector<std::vector<RayHit>> World::cast_rays_through(std::span<const Ray> rays)
+std::vector<std::vector<RayHit>> World::cast_rays_all(std::span<const Ray> rays)
 {
   check_rays(rays);
   const minicl::ExactFloatingPoint environment;
   return answer("queries", implementation_->plan.bodies,
-                [&] { return tandem::cast_rays_through(implementation_->query_target(), rays); });
+                [&] { return tandem::cast_rays_all(implementation_->query_target(), rays); });
 }
 
-std::vector<std::vector<BoxHit>> World::sweep_boxes(std::span<const QueryBox> boxes)
+std::vector<std::vector<BoxHit>> World::cast_boxes(std::span<const QueryBox> boxes)
 {
   check_boxes(boxes);
   const minicl::ExactFloatingPoint environment;
   return answer("queries", implementation_->plan.bodies,
-                [&] { return tandem::sweep_boxes(implementation_->query_target(), boxes); });
+                [&] { return tandem::cast_boxes(implementation_->query_target(), boxes); });
 }
 
-std::vector<SweepHit> World::sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
-                                   const QueryFilter &filter)
+std::vector<ShapeCastHit> World::cast_shapes(const Shape &shape, std::span<const Pose> poses,
+                                             std::span<const Vec3> displacements, const QueryFilter &filter)
 {
-  check_sweep(shape, poses, displacements);
+  check_shape_casts(shape, poses, displacements);
   const minicl::ExactFloatingPoint environment;
-  return answer("queries", implementation_->plan.bodies,
-                [&] { return tandem::sweep(implementation_->query_target(), shape, poses, displacements, filter); });
+  return answer("queries", implementation_->plan.bodies, [&] {
+    return tandem::cast_shapes(implementation_->query_target(), shape, poses, displacements, filter);
+  });
 }
 
 Statistics World::statistics()

@@ -1,4 +1,5 @@
-/* cells.h - the two-stage batching of the talks (GS-4150 slide 44, 2015 talk): cells of space first, contacts within.
+/* cells.h - the two-stage batching of the talks (GS-4150 slide 44, 2015 talk): cells of space first, then the contacts
+ * within each cell.
  *
  * A contact belongs to the cell of its first body that can move. Cells have eight classes, by the parity of their three
  * numbers; cells of one class are never neighbours, so they can be worked on at once, a work-group each:
@@ -14,7 +15,8 @@
  * of one class, whatever the sizes. The contacts left over, none where cells are larger than bodies, are coloured by
  * the rounds of coloring.h after the cells.
  *
- * Space has no end, so a cell's number is a hash: cells that share it are worked on by one group, as one cell.
+ * The number of a cell is a hash, because space is unbounded. Cells that share a number are worked on by one group, as
+ * one cell.
  */
 #ifndef TANDEM_SHARED_BATCHING_CELLS_H
 #define TANDEM_SHARED_BATCHING_CELLS_H
@@ -24,7 +26,7 @@
 #include "shared/batching/order.h"
 #include "shared/conversion.h"
 
-/* Never negative: floor_to_int saturates at 2^30. */
+/* The result is never negative, because floor_to_int saturates at 2^30. */
 SHARED uint place_along(real position, real inverse_cell)
 {
   return (uint)(floor_to_int(position * inverse_cell) + 1073741824);
@@ -40,11 +42,11 @@ SHARED uint cell_key(vec3 position, real inverse_cell, uint cells)
   return parity * cells + ((hash ^ hash >> 15) & (cells - 1u));
 }
 
-SHARED uint cell_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                         GLOBAL const row *body_position, GLOBAL const uint *counts, uint a, uint b)
+SHARED uint cell_of_pair(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                         GLOBAL const float4 *body_position, GLOBAL const uint *counts, uint a, uint b)
 {
-  uint body = is_moving(body_traits, a) ? a : b;
-  return cell_key(load_place(body_position, body).high, (real)parameters->inverse_batch_cell,
+  uint body = is_moving(body_flags, a) ? a : b;
+  return cell_key(load_position(body_position, body).high, (real)parameters->inverse_batch_cell,
                   counts[COUNT_BATCH_CELLS]);
 }
 
@@ -54,46 +56,46 @@ SHARED void clear_cells_item(GLOBAL uint *body_cells, uint i)
 }
 
 SHARED void claim_cells_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *body_traits, GLOBAL const row *body_position,
+                             GLOBAL const uint *body_flags, GLOBAL const float4 *body_position,
                              GLOBAL const uint *pair_color, GLOBAL const uint *counts, GLOBAL uint *body_cells, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
-  uint a = pair_a[i], b = pair_b[i], key = cell_of_pair(parameters, body_traits, body_position, counts, a, b);
+  uint a = pair_a[i], b = pair_b[i], key = cell_of_pair(parameters, body_flags, body_position, counts, a, b);
   uint parity = key / counts[COUNT_BATCH_CELLS];
-  if (is_moving(body_traits, a)) ATOMIC_MIN(body_cells + CELL_CLASSES * a + parity, key);
-  if (is_moving(body_traits, b)) ATOMIC_MIN(body_cells + CELL_CLASSES * b + parity, key);
+  if (is_moving(body_flags, a)) ATOMIC_MIN(body_cells + CELL_CLASSES * a + parity, key);
+  if (is_moving(body_flags, b)) ATOMIC_MIN(body_cells + CELL_CLASSES * b + parity, key);
 }
 
-SHARED uint owns_body(GLOBAL const uint *body_traits, GLOBAL const uint *body_cells, uint body, uint parity, uint key)
+SHARED uint owns_body(GLOBAL const uint *body_flags, GLOBAL const uint *body_cells, uint body, uint parity, uint key)
 {
-  return !is_moving(body_traits, body) || body_cells[CELL_CLASSES * body + parity] == key ? 1u : 0u;
+  return !is_moving(body_flags, body) || body_cells[CELL_CLASSES * body + parity] == key ? 1u : 0u;
 }
 
-/* The cell of each contact that its cell alone can touch; all others behind the last cell. */
+/* The key of a contact is its cell if no other cell can touch it; all other contacts sort behind the last cell. */
 SHARED void cell_keys_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                           GLOBAL const uint *body_traits, GLOBAL const row *body_position,
+                           GLOBAL const uint *body_flags, GLOBAL const float4 *body_position,
                            GLOBAL const uint *pair_color, GLOBAL const uint *counts, GLOBAL const uint *body_cells,
                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint cells = counts[COUNT_BATCH_CELLS], behind = CELL_CLASSES * cells;
   uint a = pair_a[i], b = pair_b[i];
-  uint key = pair_color[i] == COLOR_NONE ? cell_of_pair(parameters, body_traits, body_position, counts, a, b) : behind;
-  uint inside = key < behind && owns_body(body_traits, body_cells, a, key / cells, key) &&
-                owns_body(body_traits, body_cells, b, key / cells, key);
+  uint key = pair_color[i] == COLOR_NONE ? cell_of_pair(parameters, body_flags, body_position, counts, a, b) : behind;
+  uint inside = key < behind && owns_body(body_flags, body_cells, a, key / cells, key) &&
+                owns_body(body_flags, body_cells, b, key / cells, key);
   sort_key[i] = inside ? key : behind;
   sort_value[i] = i;
 }
 
-SHARED void clear_bids(GLOBAL const uint *body_traits, GLOBAL uint *body_bid, uint body)
+SHARED void clear_bids(GLOBAL const uint *body_flags, GLOBAL uint *body_bid, uint body)
 {
-  if (!is_moving(body_traits, body)) return;
+  if (!is_moving(body_flags, body)) return;
   ATOMIC_MIN(body_bid + 2u * body, 0u);
   ATOMIC_MIN(body_bid + 2u * body + 1u, 0u);
 }
 
 /* One group a cell of the class `parity`: the rounds of coloring.h over its contacts alone. local_memory[round]:
- * contacts without a colour before the round. Bids are left cleared for whoever comes next. */
-SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+ * contacts without a colour before the round. The group clears its bids, so that the next kernel finds none. */
+SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                               GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL uint *counts,
                               GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint parity,
                               LOCAL uint *local_memory, uint group)
@@ -103,19 +105,19 @@ SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   if (group >= counts[COUNT_BATCH_CELLS] || count == 0u) return;
   FOR_EACH_ITEM(round, CELL_ROUNDS + 1u) local_memory[round] = round == 0u ? count : 0u;
   for (uint round = 0u; round < CELL_ROUNDS; ++round) {
-    FOR_EACH_ITEM(k, count) place_bid(pair_a, pair_b, body_traits, pair_color, body_bid, round, sort_value[first + k]);
+    FOR_EACH_ITEM(k, count) place_bid(pair_a, pair_b, body_flags, pair_color, body_bid, round, sort_value[first + k]);
     const uint active = local_memory[round] > 0u ? count : 0u;
     FOR_EACH_ITEM(k, active)
     {
       const uint pair = sort_value[first + k];
-      color_assign_item(pair_a, pair_b, body_traits, counts, pair_color, body_colors, body_bid, round, pair);
+      color_assign_item(pair_a, pair_b, body_flags, counts, pair_color, body_colors, body_bid, round, pair);
       if (pair_color[pair] == COLOR_NONE) LOCAL_ADD(local_memory + round + 1u, 1u);
     }
   }
   FOR_EACH_ITEM(k, count)
   {
-    clear_bids(body_traits, body_bid, pair_a[sort_value[first + k]]);
-    clear_bids(body_traits, body_bid, pair_b[sort_value[first + k]]);
+    clear_bids(body_flags, body_bid, pair_a[sort_value[first + k]]);
+    clear_bids(body_flags, body_bid, pair_b[sort_value[first + k]]);
   }
 }
 

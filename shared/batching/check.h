@@ -1,15 +1,16 @@
 /* check.h - proves the batches of a step: run with --check, after the constraints are in colour order.
  *
- * The solver works on all constraints between two entries of COLOR_START at once, so that is what is checked, not what
- * the batcher believes: a constraint's colour is the stretch in which it stands. No body that can move may stand in one
- * stretch twice (the tail is solved in order and may hold anything), and each touching pair must stand in exactly one.
+ * The check reads what the solver uses. The solver works on all constraints between two entries of COLOR_START at once,
+ * so the colour of a constraint is the range in which it stands, whatever the batcher stored. No body that can move may
+ * stand in one range twice (the overflow constraints are solved in order and may hold anything), and each touching pair
+ * must stand in exactly one.
  *
  *   mark_batches    each body: a bit for each colour that touches it, and a second where a colour does so again
  *   check_batches   each constraint: is its colour doubled at one of its bodies?
- *   check_pairs     each pair: does it stand in as many stretches as it should, one if it touches and is no trigger's,
+ *   check_pairs     each pair: does it stand in as many ranges as it should, one if it touches and is no trigger's,
  *                   else none?
  *
- * Sums, bits and minima: the verdict does not depend on order.
+ * The verdict is made of sums, bits and minima, so it does not depend on order.
  */
 #ifndef TANDEM_SHARED_BATCHING_CHECK_H
 #define TANDEM_SHARED_BATCHING_CHECK_H
@@ -26,11 +27,11 @@ SHARED void clear_body_marks_item(GLOBAL uint *body_marks, uint i)
 
 SHARED void clear_pair_marks_item(GLOBAL uint *pair_marks, uint i) { pair_marks[i] = 0u; }
 
-/* The stretch in which constraint i stands. */
+/* The range in which constraint i stands. */
 SHARED uint color_at(GLOBAL const uint *counts, uint i)
 {
   uint color = 0;
-  while (color < COLOR_TAIL && counts[COLOR_START + color + 1u] <= i) ++color;
+  while (color < COLOR_OVERFLOW && counts[COLOR_START + color + 1u] <= i) ++color;
   return color;
 }
 
@@ -40,40 +41,40 @@ SHARED void mark_body(GLOBAL uint *body_marks, uint body, uint color)
   if (ATOMIC_OR(body_marks + word, bit) & bit) ATOMIC_OR(body_marks + word + 2u, bit);
 }
 
-SHARED void mark_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void mark_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                               GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *body_marks,
                               GLOBAL uint *pair_marks, uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
   ATOMIC_ADD(pair_marks + pair, 1u);
-  if (color == COLOR_TAIL) return;
-  if (is_moving(body_traits, pair_a[pair])) mark_body(body_marks, pair_a[pair], color);
-  if (is_moving(body_traits, pair_b[pair])) mark_body(body_marks, pair_b[pair], color);
+  if (color == COLOR_OVERFLOW) return;
+  if (is_moving(body_flags, pair_a[pair])) mark_body(body_marks, pair_a[pair], color);
+  if (is_moving(body_flags, pair_b[pair])) mark_body(body_marks, pair_b[pair], color);
 }
 
-SHARED uint is_doubled(GLOBAL const uint *body_traits, GLOBAL const uint *body_marks, uint body, uint color)
+SHARED uint is_doubled(GLOBAL const uint *body_flags, GLOBAL const uint *body_marks, uint body, uint color)
 {
-  return is_moving(body_traits, body) ? body_marks[BODY_MARKS * body + 2u + (color >> 5)] >> (color & 31u) & 1u : 0u;
+  return is_moving(body_flags, body) ? body_marks[BODY_MARKS * body + 2u + (color >> 5)] >> (color & 31u) & 1u : 0u;
 }
 
-SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void check_batches_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                                GLOBAL const uint *sort_value, GLOBAL const uint *body_marks, GLOBAL uint *counts,
                                uint i)
 {
   uint pair = sort_value[i], color = color_at(counts, i);
-  if (color == COLOR_TAIL) return;
-  if (!is_doubled(body_traits, body_marks, pair_a[pair], color) &&
-      !is_doubled(body_traits, body_marks, pair_b[pair], color))
+  if (color == COLOR_OVERFLOW) return;
+  if (!is_doubled(body_flags, body_marks, pair_a[pair], color) &&
+      !is_doubled(body_flags, body_marks, pair_b[pair], color))
     return;
   ATOMIC_ADD(counts + COUNT_CONFLICTS, 1u);
   ATOMIC_MIN(counts + COUNT_FIRST_CONFLICT, i);
 }
 
 SHARED void check_pairs_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
-                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
+                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_flags,
                              GLOBAL const uint *pair_marks, GLOBAL uint *counts, uint i)
 {
-  uint solved = manifold_count[i] > 0u && !has_trigger(parameters, body_traits, pair_a[i], pair_b[i]) ? 1u : 0u;
+  uint solved = manifold_count[i] > 0u && !has_trigger(parameters, body_flags, pair_a[i], pair_b[i]) ? 1u : 0u;
   if (pair_marks[i] == solved) return;
   ATOMIC_ADD(counts + COUNT_MISBATCHED, 1u);
   ATOMIC_MIN(counts + COUNT_FIRST_MISBATCHED, i);

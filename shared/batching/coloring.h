@@ -24,19 +24,19 @@ SHARED uint bid_of(uint pair)
   return h;
 }
 
-SHARED uint is_moving(GLOBAL const uint *body_traits, uint body)
+SHARED uint is_moving(GLOBAL const uint *body_flags, uint body)
 {
-  return motion_of(body_traits[body]) == (uint)MOTION_DYNAMIC;
+  return body_type_of(body_flags[body]) == (uint)BODY_TYPE_DYNAMIC;
 }
 
-/* The lowest colour not in the two masks; COLOR_TAIL if all are taken. */
+/* The lowest colour not in the two masks; COLOR_OVERFLOW if all are taken. */
 SHARED uint lowest_free_color(uint low_used, uint high_used)
 {
   for (uint color = 0; color < COLOR_LIMIT; ++color) {
     uint word = color < 32u ? low_used : high_used;
     if ((word >> (color & 31u) & 1u) == 0u) return color;
   }
-  return COLOR_TAIL;
+  return COLOR_OVERFLOW;
 }
 
 SHARED void take_color(GLOBAL uint *body_colors, uint body, uint color)
@@ -51,29 +51,30 @@ SHARED uint free_color(GLOBAL const uint *body_colors, uint a, uint moving_a, ui
   return lowest_free_color(low, high);
 }
 
-/* Even and odd rounds bid in places of their own, so that one can be cleared while the other is read. */
-SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+/* Even and odd rounds have separate bids, so that those of one can be cleared while those of the other are read. */
+SHARED void place_bid(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                       GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
-  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
-  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
+  if (is_moving(body_flags, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
+  if (is_moving(body_flags, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
 
-/* A contact whose bodies have all colours in use between them goes to the tail at once: of ten thousand contacts of one
- * body a single one wins a round. */
-SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+/* A contact joins the overflow constraints at once if its bodies have all colours in use between them. If it waited for
+ * a round, ten thousand contacts of one body would need ten thousand rounds, because one contact of a body wins
+ * each. */
+SHARED void color_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                            GLOBAL const uint *body_colors, GLOBAL uint *counts, GLOBAL uint *pair_color,
                            GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i];
-  if (free_color(body_colors, a, is_moving(body_traits, a), b, is_moving(body_traits, b)) != COLOR_TAIL) {
-    place_bid(pair_a, pair_b, body_traits, pair_color, body_bid, round, i);
+  if (free_color(body_colors, a, is_moving(body_flags, a), b, is_moving(body_flags, b)) != COLOR_OVERFLOW) {
+    place_bid(pair_a, pair_b, body_flags, pair_color, body_bid, round, i);
     return;
   }
-  pair_color[i] = COLOR_TAIL;
+  pair_color[i] = COLOR_OVERFLOW;
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
@@ -89,13 +90,13 @@ SHARED uint wins_round(GLOBAL uint *body_bid, uint a, uint moving_a, uint b, uin
 }
 
 /* Only the winner of a body reads or writes the body's colours in this round. */
-SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                               GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
                               GLOBAL uint *body_bid, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = bid_of(i);
-  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
   if (!wins_round(body_bid, a, moving_a, b, moving_b, bid, round)) return;
   uint color = free_color(body_colors, a, moving_a, b, moving_b);
   pair_color[i] = color;
@@ -105,27 +106,27 @@ SHARED void color_assign_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* A body of the tail alone shall not count as free: it takes the tail's bit, by itself so that no colouring reads it
- * meanwhile. */
-SHARED void mark_tail_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                           GLOBAL const uint *body_traits, GLOBAL uint *body_colors, uint i)
+/* The bodies of overflow constraints take the overflow bit, so that a body with no other constraint does not count as
+ * free. A kernel of its own sets the bit, because no colouring may read it at the same time. */
+SHARED void mark_overflow_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                               GLOBAL const uint *body_flags, GLOBAL uint *body_colors, uint i)
 {
   uint a = constraint_a[i], b = constraint_b[i];
-  if (is_moving(body_traits, a)) occupy_color(body_colors, a, COLOR_TAIL);
-  if (is_moving(body_traits, b)) occupy_color(body_colors, b, COLOR_TAIL);
+  if (is_moving(body_flags, a)) occupy_color(body_colors, a, COLOR_OVERFLOW);
+  if (is_moving(body_flags, b)) occupy_color(body_colors, b, COLOR_OVERFLOW);
 }
 
 /* The oracle: one item colours all contacts greedily in pair order. The sequential batching of the talks (GS-4150 slide
  * 42) fills batch after batch and takes each contact whose bodies are free; a contact comes into batch k if earlier
  * ones bar it from the batches before k, so "the lowest free colour, in order" gives the same batches in one pass. */
-SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void color_in_order_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                                 GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   (void)i;
   for (uint pair = 0; pair < counts[COUNT_PAIRS]; ++pair) {
     if (pair_color[pair] != COLOR_NONE) continue;
     uint a = pair_a[pair], b = pair_b[pair];
-    uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+    uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
     uint color = free_color(body_colors, a, moving_a, b, moving_b);
     pair_color[pair] = color;
     if (moving_a) take_color(body_colors, a, color);

@@ -19,7 +19,8 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/limits.h"
 
-/* Never 0: a contact that does not bid must not hold a body for which nobody bids. */
+/* A bid is never 0, which means that nobody bids: a contact that does not bid must not hold a body for which nobody
+ * bids. */
 SHARED uint batch_bid_of(uint pair) { return bid_of(pair + 1u); }
 
 SHARED uint is_reserved(GLOBAL const uint *body_colors, uint body, uint batch)
@@ -27,25 +28,25 @@ SHARED uint is_reserved(GLOBAL const uint *body_colors, uint body, uint batch)
   return body_colors[2u * body + (batch >> 5)] >> (batch & 31u) & 1u;
 }
 
-SHARED void batch_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void batch_bid_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                            GLOBAL const uint *pair_color, GLOBAL const uint *body_colors, GLOBAL uint *body_bid,
                            uint batch, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i], bid = batch_bid_of(i);
-  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
   if ((moving_a && is_reserved(body_colors, a, batch)) || (moving_b && is_reserved(body_colors, b, batch))) return;
   if (moving_a) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
   if (moving_b) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
 
-SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                                GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
                                GLOBAL uint *body_bid, uint batch, uint round, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
   uint a = pair_a[i], b = pair_b[i];
-  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
   if (!wins_round(body_bid, a, moving_a, b, moving_b, batch_bid_of(i), round)) return;
   pair_color[i] = batch;
   if (moving_a) take_color(body_colors, a, batch);
@@ -54,14 +55,14 @@ SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* After the last batch: what is left goes to the tail. */
-SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+/* After the last batch: what is left goes to the overflow constraints. */
+SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                             GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {
   if (pair_color[i] != COLOR_NONE) return;
-  pair_color[i] = COLOR_TAIL;
-  if (is_moving(body_traits, pair_a[i])) occupy_color(body_colors, pair_a[i], COLOR_TAIL);
-  if (is_moving(body_traits, pair_b[i])) occupy_color(body_colors, pair_b[i], COLOR_TAIL);
+  pair_color[i] = COLOR_OVERFLOW;
+  if (is_moving(body_flags, pair_a[i])) occupy_color(body_colors, pair_a[i], COLOR_OVERFLOW);
+  if (is_moving(body_flags, pair_b[i])) occupy_color(body_colors, pair_b[i], COLOR_OVERFLOW);
   ATOMIC_ADD(counts + COUNT_UNCOLORED, 0xffffffffu);
 }
 

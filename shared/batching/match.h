@@ -1,11 +1,11 @@
-/* match.h - finds each pair in the cache of the last step: its impulses and its colour live on.
+/* match.h - finds each pair in the cache of the last step, so that it keeps its impulses and its colour.
  *
  * Persistent pairs of the 2009 talk. A touching pair that had a colour keeps it: pairs that were free of
  * conflict among themselves still are, so only new contacts need colouring. Batchers whose batches follow from the
  * list of contacts alone (`keep` 0) take over the impulses and no colour.
  *
- * In scenes with trees two bodies may have several manifolds, now and then. Those are one another's whose normals agree
- * best from either side, so that none is taken twice:
+ * In scenes with trees two bodies may have several manifolds, both in this step and in the last. Two manifolds match if
+ * the normal of each agrees best with that of the other, so that none is matched twice:
  *
  *      then  1 --------> 2         now 1 prefers then 1, then 1 prefers now 1: a match
  *            ^  \                   now 2 prefers then 1, which prefers another: new
@@ -52,12 +52,12 @@ SHARED pair_run run_of_cached(GLOBAL const uint *cached_start, GLOBAL const uint
 }
 
 /* The entry of a run whose normal is nearest to `normal`; INDEX_NONE if none is near. Without contact a normal is 0. */
-SHARED uint nearest_normal(GLOBAL const row *normals, pair_run run, vec3 normal)
+SHARED uint nearest_normal(GLOBAL const float4 *normals, pair_run run, vec3 normal)
 {
   uint best = INDEX_NONE;
   real most = SAME_MANIFOLD;
   for (uint k = run.first; k < run.end; ++k) {
-    real cosine = inner(xyz(load_row(normals, k)), normal);
+    real cosine = dot3(xyz(load_float4(normals, k)), normal);
     if (cosine <= most) continue;
     most = cosine;
     best = k;
@@ -66,19 +66,19 @@ SHARED uint nearest_normal(GLOBAL const row *normals, pair_run run, vec3 normal)
 }
 
 /* Where each of two bodies' manifolds now is sought among those then. found: the first of those. */
-SHARED uint matching_manifold(GLOBAL const row *normals, pair_run now, GLOBAL const row *cached_normals, pair_run then,
-                              uint i)
+SHARED uint matching_manifold(GLOBAL const float4 *normals, pair_run now, GLOBAL const float4 *cached_normals,
+                              pair_run then, uint i)
 {
   if (now.end - now.first == 1u && then.end - then.first == 1u) return then.first;
-  uint best = nearest_normal(cached_normals, then, xyz(load_row(normals, i)));
+  uint best = nearest_normal(cached_normals, then, xyz(load_float4(normals, i)));
   if (best == INDEX_NONE) return INDEX_NONE;
-  return nearest_normal(normals, now, xyz(load_row(cached_normals, best))) == i ? best : INDEX_NONE;
+  return nearest_normal(normals, now, xyz(load_float4(cached_normals, best))) == i ? best : INDEX_NONE;
 }
 
 /* A pair with a trigger is found and reported, but nothing of it is solved. */
-SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits, uint a, uint b)
+SHARED uint has_trigger(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags, uint a, uint b)
 {
-  return HAS_FEATURE(parameters, TRIGGER) ? is_trigger(body_traits[a] | body_traits[b]) : 0u;
+  return HAS_FEATURE(parameters, TRIGGER) ? is_trigger(body_flags[a] | body_flags[b]) : 0u;
 }
 
 SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
@@ -86,10 +86,11 @@ SHARED void occupy_color(GLOBAL uint *body_colors, uint body, uint color)
   ATOMIC_OR(body_colors + 2u * body + (color >> 5), 1u << (color & 31u));
 }
 
-SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs, GLOBAL const row *manifold_normal,
-                             GLOBAL const uint *manifold_count, GLOBAL const uint *body_traits,
-                             read_cached_pairs cached_pairs, GLOBAL uint *counts, GLOBAL uint *pair_cached,
-                             GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep, uint i)
+SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pairs,
+                             GLOBAL const float4 *manifold_normal, GLOBAL const uint *manifold_count,
+                             GLOBAL const uint *body_flags, read_cached_pairs cached_pairs, GLOBAL uint *counts,
+                             GLOBAL uint *pair_cached, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint keep,
+                             uint i)
 {
   uint a = pairs.a[i], b = pairs.b[i];
   uint cached = find_cached(cached_pairs.start, cached_pairs.b, a, b);
@@ -97,14 +98,14 @@ SHARED void match_pairs_item(GLOBAL const Parameters *parameters, read_pairs pai
     cached = matching_manifold(manifold_normal, run_of_pair(pairs.a, pairs.b, counts[COUNT_PAIRS], i),
                                cached_pairs.normal, run_of_cached(cached_pairs.start, cached_pairs.b, a, cached), i);
   uint color = cached == INDEX_NONE || keep == 0u ? COLOR_NONE : cached_pairs.color[cached];
-  if (manifold_count[i] == 0u || has_trigger(parameters, body_traits, a, b)) color = COLOR_INACTIVE;
+  if (manifold_count[i] == 0u || has_trigger(parameters, body_flags, a, b)) color = COLOR_INACTIVE;
   else if (color >= COLOR_LIMIT) color = COLOR_NONE;
   pair_cached[i] = cached;
   pair_color[i] = color;
   if (color == COLOR_NONE) ATOMIC_ADD(counts + COUNT_UNCOLORED, 1u);
   if (color >= COLOR_LIMIT) return;
-  if (motion_of(body_traits[a]) == (uint)MOTION_DYNAMIC) occupy_color(body_colors, a, color);
-  if (motion_of(body_traits[b]) == (uint)MOTION_DYNAMIC) occupy_color(body_colors, b, color);
+  if (body_type_of(body_flags[a]) == (uint)BODY_TYPE_DYNAMIC) occupy_color(body_colors, a, color);
+  if (body_type_of(body_flags[b]) == (uint)BODY_TYPE_DYNAMIC) occupy_color(body_colors, b, color);
 }
 
 #endif

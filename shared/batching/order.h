@@ -21,18 +21,19 @@ SHARED uint first_not_below(GLOBAL const uint *sort_key, uint length, uint key)
   return low;
 }
 
-/* Item c: the first constraint of colour c; the tail, counted as a colour, also writes where the constraints end. */
+/* Item c: the first constraint of colour c; that of the overflow constraints, counted as a colour, also writes where
+ * the constraints end. */
 SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
 {
   uint pairs = counts[COUNT_PAIRS];
   uint start = first_not_below(sort_key, pairs, color), end = first_not_below(sort_key, pairs, color + 1u);
   counts[COLOR_START + color] = start;
   if (end > start) ATOMIC_MAX(counts + COUNT_COLORS, color + 1u);
-  if (color == COLOR_TAIL) {
-    counts[COLOR_START + COLOR_TAIL + 1u] = end;
+  if (color == COLOR_OVERFLOW) {
+    counts[COLOR_START + COLOR_OVERFLOW + 1u] = end;
     counts[COUNT_CONSTRAINTS] = end;
-    counts[COUNT_INCIDENCES] = 2u * end;
-    counts[COUNT_TAIL_INCIDENCES] = 2u * (end - start);
+    counts[COUNT_BODY_CONSTRAINTS] = 2u * end;
+    counts[COUNT_OVERFLOW_BODY_CONSTRAINTS] = 2u * (end - start);
   }
 }
 

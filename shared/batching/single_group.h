@@ -18,22 +18,22 @@
 /* The lowest index has the highest bid. */
 SHARED uint bid_in_order(uint pair) { return ~pair; }
 
-SHARED void bid_for_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void bid_for_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                          GLOBAL const uint *pair_color, GLOBAL uint *body_bid, uint round, uint pair)
 {
   if (pair_color[pair] != COLOR_NONE) return;
   uint a = pair_a[pair], b = pair_b[pair], bid = bid_in_order(pair);
-  if (is_moving(body_traits, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
-  if (is_moving(body_traits, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
+  if (is_moving(body_flags, a)) ATOMIC_MAX(body_bid + 2u * a + (round & 1u), bid);
+  if (is_moving(body_flags, b)) ATOMIC_MAX(body_bid + 2u * b + (round & 1u), bid);
 }
 
-SHARED void take_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void take_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                       GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid,
                       uint round, uint pair)
 {
   if (pair_color[pair] != COLOR_NONE) return;
   uint a = pair_a[pair], b = pair_b[pair];
-  uint moving_a = is_moving(body_traits, a), moving_b = is_moving(body_traits, b);
+  uint moving_a = is_moving(body_flags, a), moving_b = is_moving(body_flags, b);
   if (!wins_round(body_bid, a, moving_a, b, moving_b, bid_in_order(pair), round)) return;
   uint color = free_color(body_colors, a, moving_a, b, moving_b);
   pair_color[pair] = color;
@@ -46,7 +46,7 @@ SHARED void take_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOB
 /* `rounds`: how many the host asks for. Fewer than the longest chain leave contacts without a colour, which shows in
  * the status; more cost two barriers each. (A loop that ends when all is done would end in PoCL 3.1 for some items
  * alone.) */
-SHARED void color_in_group_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_traits,
+SHARED void color_in_group_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                                  GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
                                  GLOBAL uint *body_bid, uint rounds, LOCAL uint *local_memory, uint group)
 {
@@ -54,10 +54,10 @@ SHARED void color_in_group_group(GLOBAL const uint *pair_a, GLOBAL const uint *p
   (void)local_memory;
   if (group != 0u) return;
   for (uint round = 0u; round < rounds; ++round) {
-    FOR_EACH_ITEM(k, pairs) bid_for_turn(pair_a, pair_b, body_traits, pair_color, body_bid, round, k);
+    FOR_EACH_ITEM(k, pairs) bid_for_turn(pair_a, pair_b, body_flags, pair_color, body_bid, round, k);
     const uint waiting = counts[COUNT_UNCOLORED] > 0u ? pairs : 0u;
     FOR_EACH_ITEM(k, waiting)
-    take_turn(pair_a, pair_b, body_traits, counts, pair_color, body_colors, body_bid, round, k);
+    take_turn(pair_a, pair_b, body_flags, counts, pair_color, body_colors, body_bid, round, k);
   }
 }
 

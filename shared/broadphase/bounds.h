@@ -14,30 +14,31 @@
 #include "shared/records.h"
 
 /* Half extents of the axis-aligned box around a rotated shape; Arvo, Graphics Gems, 1990. */
-SHARED vec3 half_extents(natural shape, vec3 size, mat3 rotation)
+SHARED vec3 half_extents(uint_lanes shape, vec3 size, mat3 rotation)
 {
-  vec3 box = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size),
-                       inner(absolute(rotation.z), size));
+  vec3 box =
+      make_vec3(dot3(absolute(rotation.x), size), dot3(absolute(rotation.y), size), dot3(absolute(rotation.z), size));
   vec3 sphere = make_vec3(size.x, size.x, size.x);
-  vec3 everything = make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS);
-  return choose3(shape == (natural)SHAPE_HALF_SPACE, everything, choose3(shape == (natural)SHAPE_SPHERE, sphere, box));
+  vec3 everything = make_vec3(UNBOUNDED, UNBOUNDED, UNBOUNDED);
+  return choose3(shape == (uint_lanes)SHAPE_HALF_SPACE, everything,
+                 choose3(shape == (uint_lanes)SHAPE_SPHERE, sphere, box));
 }
 
 /* Of a shape that has a pose: as far on both sides of the body's centre as the box around the shape reaches on one. */
-SHARED vec3 posed_half_extents(GLOBAL const row *body_shape_pose, natural body, mat3 rotation)
+SHARED vec3 posed_half_extents(GLOBAL const float4 *body_shape_pose, uint_lanes body, mat3 rotation)
 {
-  vec3 center = rotate(rotation, xyz(load_row(body_shape_pose, body * 4u + 2u))),
-       size = xyz(load_row(body_shape_pose, body * 4u + 3u));
-  vec3 extent = make_vec3(inner(absolute(rotation.x), size), inner(absolute(rotation.y), size),
-                          inner(absolute(rotation.z), size));
+  vec3 center = rotate(rotation, xyz(load_float4(body_shape_pose, body * 4u + 2u))),
+       size = xyz(load_float4(body_shape_pose, body * 4u + 3u));
+  vec3 extent =
+      make_vec3(dot3(absolute(rotation.x), size), dot3(absolute(rotation.y), size), dot3(absolute(rotation.z), size));
   return add(absolute(center), extent);
 }
 
 /* Of a body as it stands. */
-SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const row *body_shape_pose, natural body, vec3 size, mat3 rotation)
+SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const float4 *body_shape_pose, uint_lanes body, vec3 size, mat3 rotation)
 {
-  natural shape = shape_of(load_natural(body_traits, body));
+  uint_lanes shape = shape_of(load_uint(body_flags, body));
   vec3 extent = half_extents(shape, size, rotation);
   if (!HAS_FEATURE(parameters, CONVEX)) return extent;
   return choose3(is_general_shape(shape), posed_half_extents(body_shape_pose, body, rotation), extent);
@@ -58,59 +59,61 @@ SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
 
 /* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius.
  * Parameters are not assigned to: rusticl passes both as one where the caller gives one vector twice. */
-SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const row *body_mass, GLOBAL row *bounds, natural i, vec3 center, motion m,
-                                 vec3 below, vec3 above, real radius)
+SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const float4 *body_mass, GLOBAL float4 *bounds, uint_lanes i, vec3 center,
+                                 spatial_velocity m, vec3 below, vec3 above, real radius)
 {
   real step = parameters->step, turn = length_of(m.angular) * step, margin = parameters->bounds_margin;
   vec3 spare = make_vec3(margin, margin, margin), rounding = rounding_of_bounds(center);
   vec3 reach_below = add(add(turned_extents(below, radius, turn), spare), rounding);
   vec3 reach_above = add(add(turned_extents(above, radius, turn), spare), rounding);
 
-  real fall = choose(m.inverse_mass > R(0.0), load_row(body_mass, i * 2u).w * step * step, (real)R(0.0));
+  real fall = choose(m.inverse_mass > R(0.0), load_float4(body_mass, i * 2u).w * step * step, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
-  vec3 drift = scale(m.linear, step), fallen = add_scaled(drift, gravity, fall);
-  vec3 low = make_vec3(minimum(R(0.0), minimum(drift.x, fallen.x)), minimum(R(0.0), minimum(drift.y, fallen.y)),
-                       minimum(R(0.0), minimum(drift.z, fallen.z)));
-  vec3 high = make_vec3(maximum(R(0.0), maximum(drift.x, fallen.x)), maximum(R(0.0), maximum(drift.y, fallen.y)),
-                        maximum(R(0.0), maximum(drift.z, fallen.z)));
+  vec3 displacement = scale(m.linear, step), fallen = add_scaled(displacement, gravity, fall);
+  vec3 low =
+      make_vec3(minimum(R(0.0), minimum(displacement.x, fallen.x)), minimum(R(0.0), minimum(displacement.y, fallen.y)),
+                minimum(R(0.0), minimum(displacement.z, fallen.z)));
+  vec3 high =
+      make_vec3(maximum(R(0.0), maximum(displacement.x, fallen.x)), maximum(R(0.0), maximum(displacement.y, fallen.y)),
+                maximum(R(0.0), maximum(displacement.z, fallen.z)));
   if (HAS_FEATURE(parameters, CONTINUOUS)) {
     /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
-    real way = maximum(length_of(drift), length_of(fallen)) + turn * radius;
-    vec3 anywhere = make_vec3(way, way, way);
-    mask continuous = is_continuous(load_natural(body_traits, i));
+    real distance = maximum(length_of(displacement), length_of(fallen)) + turn * radius;
+    vec3 anywhere = make_vec3(distance, distance, distance);
+    mask continuous = is_continuous(load_uint(body_flags, i));
     low = choose3(continuous, negate(anywhere), low);
     high = choose3(continuous, anywhere, high);
   }
-  store_row(bounds, i * 2u, extend(add(subtract(center, reach_below), low), R(0.0)));
-  store_row(bounds, i * 2u + 1u, extend(add(add(center, reach_above), high), R(0.0)));
+  store_float4(bounds, i * 2u, extend(add(subtract(center, reach_below), low), R(0.0)));
+  store_float4(bounds, i * 2u + 1u, extend(add(add(center, reach_above), high), R(0.0)));
 }
 
-SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                GLOBAL const row *body_shape, GLOBAL const row *body_shape_pose,
-                                GLOBAL const row *body_mass, GLOBAL const row *body_position,
-                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds,
-                                item_index i)
+SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                GLOBAL const float4 *body_shape, GLOBAL const float4 *body_shape_pose,
+                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_position,
+                                GLOBAL const float4 *body_orientation, GLOBAL const float4 *body_velocity,
+                                GLOBAL float4 *bounds, item_index i)
 {
-  vec4 size = load_row(body_shape, i);
-  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
-  vec3 extent = half_extents_of_body(parameters, body_traits, body_shape_pose, i, xyz(size), rotation);
-  store_bounds_of_step(parameters, body_traits, body_mass, bounds, i, load_place(body_position, i).high,
-                       load_motion(body_velocity, i), extent, extent, size.w);
+  vec4 size = load_float4(body_shape, i);
+  mat3 rotation = rotation_of(quat_from(load_float4(body_orientation, i)));
+  vec3 extent = half_extents_of_body(parameters, body_flags, body_shape_pose, i, xyz(size), rotation);
+  store_bounds_of_step(parameters, body_flags, body_mass, bounds, i, load_position(body_position, i).high,
+                       load_velocity(body_velocity, i), extent, extent, size.w);
 }
 
 /* The same without any motion or margin: what queries ask. */
-SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                      GLOBAL const row *body_shape, GLOBAL const row *body_shape_pose,
-                                      GLOBAL const row *body_position, GLOBAL const row *body_orientation,
-                                      GLOBAL row *bounds, item_index i)
+SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                      GLOBAL const float4 *body_shape, GLOBAL const float4 *body_shape_pose,
+                                      GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,
+                                      GLOBAL float4 *bounds, item_index i)
 {
-  vec3 center = load_place(body_position, i).high, size = xyz(load_row(body_shape, i));
-  mat3 rotation = rotation_of(quat_from(load_row(body_orientation, i)));
-  vec3 extent = add(half_extents_of_body(parameters, body_traits, body_shape_pose, i, size, rotation),
-                    rounding_of_bounds(center));
-  store_row(bounds, i * 2u, extend(subtract(center, extent), R(0.0)));
-  store_row(bounds, i * 2u + 1u, extend(add(center, extent), R(0.0)));
+  vec3 center = load_position(body_position, i).high, size = xyz(load_float4(body_shape, i));
+  mat3 rotation = rotation_of(quat_from(load_float4(body_orientation, i)));
+  vec3 extent =
+      add(half_extents_of_body(parameters, body_flags, body_shape_pose, i, size, rotation), rounding_of_bounds(center));
+  store_float4(bounds, i * 2u, extend(subtract(center, extent), R(0.0)));
+  store_float4(bounds, i * 2u + 1u, extend(add(center, extent), R(0.0)));
 }
 
 #endif

@@ -1,4 +1,4 @@
-/* box_pyramid.h - unions of the boxes of any stretch of a list, in as many loads as the stretch's length has bits.
+/* box_pyramid.h - unions of the boxes of any range of a list, in as many loads as the range's length has bits.
  *
  *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node
  *           2         3             leaves + i. Behind the list: empty boxes, which overlap nothing.
@@ -24,20 +24,20 @@ typedef struct {
 
 SHARED numbered_box empty_box(void)
 {
-  numbered_box empty = {{make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS), make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS)},
-                        BOUNDLESS};
+  numbered_box empty = {{make_vec3(UNBOUNDED, UNBOUNDED, UNBOUNDED), make_vec3(-UNBOUNDED, -UNBOUNDED, -UNBOUNDED)},
+                        UNBOUNDED};
   return empty;
 }
-SHARED numbered_box load_numbered_box(GLOBAL const row *boxes, uint i)
+SHARED numbered_box load_numbered_box(GLOBAL const float4 *boxes, uint i)
 {
-  vec4 lower = load_row(boxes, 2u * i);
-  numbered_box b = {{xyz(lower), xyz(load_row(boxes, 2u * i + 1u))}, lower.w};
+  vec4 lower = load_float4(boxes, 2u * i);
+  numbered_box b = {{xyz(lower), xyz(load_float4(boxes, 2u * i + 1u))}, lower.w};
   return b;
 }
-SHARED void store_numbered_box(GLOBAL row *boxes, uint i, numbered_box b)
+SHARED void store_numbered_box(GLOBAL float4 *boxes, uint i, numbered_box b)
 {
-  store_row(boxes, 2u * i, extend(b.box.lower, b.lowest));
-  store_row(boxes, 2u * i + 1u, extend(b.box.upper, R(0.0)));
+  store_float4(boxes, 2u * i, extend(b.box.lower, b.lowest));
+  store_float4(boxes, 2u * i + 1u, extend(b.box.upper, R(0.0)));
 }
 SHARED numbered_box join_boxes(numbered_box a, numbered_box b)
 {
@@ -46,7 +46,7 @@ SHARED numbered_box join_boxes(numbered_box a, numbered_box b)
   return joined;
 }
 
-SHARED void store_leaf(GLOBAL row *pyramid, uint node, box_bounds box, uint body)
+SHARED void store_leaf(GLOBAL float4 *pyramid, uint node, box_bounds box, uint body)
 {
   numbered_box leaf = empty_box();
   if (bounds_overlap(box, box)) leaf.box = box; /* NaN overlaps nothing, and would spoil the boxes above it */
@@ -55,8 +55,8 @@ SHARED void store_leaf(GLOBAL row *pyramid, uint node, box_bounds box, uint body
 }
 
 /* All leaves; tiles of them that have changed are told to those who build upon them. */
-SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
-                                GLOBAL row *pyramid, GLOBAL uint *tile_changed, uint i)
+SHARED void pyramid_leaves_item(GLOBAL const float4 *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
+                                GLOBAL float4 *pyramid, GLOBAL uint *tile_changed, uint i)
 {
   uint node = counts[COUNT_LEAVES] + i;
   if (i % TILE == 0u) tile_changed[i / TILE] = 1u;
@@ -66,7 +66,7 @@ SHARED void pyramid_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *leaf
 
 /* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if
  * they changed. */
-SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL row *pyramid,
+SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL float4 *pyramid,
                                  uint height, LOCAL uint *local_memory, uint group)
 {
   (void)local_memory;
@@ -86,7 +86,7 @@ SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *t
 }
 
 /* Of places first .. last. */
-SHARED numbered_box box_of_stretch(GLOBAL const row *pyramid, uint leaves, uint first, uint last)
+SHARED numbered_box box_of_range(GLOBAL const float4 *pyramid, uint leaves, uint first, uint last)
 {
   numbered_box all = empty_box();
   uint left = leaves + first, right = leaves + last + 1u;

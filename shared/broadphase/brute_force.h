@@ -5,26 +5,25 @@
 
 #include "shared/broadphase/overlap.h"
 
-SHARED void brute_force_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                   GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL uint *pair_start,
+SHARED void brute_force_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                   GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL uint *pair_start,
                                    uint a)
 {
   box_bounds own = load_bounds(bounds, a);
   uint found = 0;
   for (uint b = 0; b < a; ++b)
-    if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))
-      ++found;
+    if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_flags, body_filter, a, b)) ++found;
   pair_start[a] = found;
 }
 
-SHARED void brute_force_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                   GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+SHARED void brute_force_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                   GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
                                    GLOBAL const uint *pair_start, GLOBAL const uint *counts, write_pairs pairs, uint a)
 {
   box_bounds own = load_bounds(bounds, a);
   uint used = 0;
   for (uint b = 0; b < a; ++b)
-    if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_traits, body_filter, a, b))
+    if (bounds_overlap(own, load_bounds(bounds, b)) && pair_allowed(parameters, body_flags, body_filter, a, b))
       used = append_pair(pairs.a, pairs.b, pair_start[a], used, counts[CAPACITY_PAIRS], a, b);
 }
 

@@ -21,19 +21,19 @@ SHARED uint curve_cell(real offset, real scale)
 }
 
 /* The frame is that of the small bodies; large ones beside it stand on its border. */
-SHARED uint curve_key(GLOBAL const row *grid, box_bounds box)
+SHARED uint curve_key(GLOBAL const float4 *grid, box_bounds box)
 {
-  vec4 frame = load_row(grid, 1u);
+  vec4 frame = load_float4(grid, 1u);
   vec3 offset = subtract(scale(add(box.lower, box.upper), R(0.5)), xyz(frame));
   return spread_bits(curve_cell(offset.x, frame.w)) << 2 | spread_bits(curve_cell(offset.y, frame.w)) << 1 |
          spread_bits(curve_cell(offset.z, frame.w));
 }
 
 /* Body i of finite size. */
-SHARED void curve_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+SHARED void curve_keys_item(GLOBAL const float4 *bounds, GLOBAL const float4 *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
-  uint body = counts[COUNT_BOUNDLESS] + i;
+  uint body = counts[COUNT_UNBOUNDED] + i;
   sort_key[i] = curve_key(grid, load_bounds(bounds, body));
   sort_value[i] = body;
 }

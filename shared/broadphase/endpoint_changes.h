@@ -24,8 +24,8 @@
 
 typedef struct {
   GLOBAL const Parameters *parameters;
-  GLOBAL const uint *traits, *filter, *order, *place, *kept_order, *kept_place;
-  GLOBAL const row *bounds, *kept_bounds;
+  GLOBAL const uint *flags, *filter, *order, *place, *kept_order, *kept_place;
+  GLOBAL const float4 *bounds, *kept_bounds;
   uint bodies;
 } end_tables;
 
@@ -56,7 +56,7 @@ SHARED moved_end load_end(const end_tables *tables, uint axis, uint end)
   return m;
 }
 
-SHARED int is_on_way(moved_end m, uint place)
+SHARED int is_on_path(moved_end m, uint place)
 {
   return m.was < m.is ? m.was <= place && place <= m.is : m.is <= place && place <= m.was;
 }
@@ -68,7 +68,7 @@ SHARED int tells_couple(uint bodies, moved_end m, moved_end other)
   int is_lower = m.end < bodies;
   if (is_lower == (other.end < bodies) || body_of_end(m.end, bodies) == body_of_end(other.end, bodies)) return 0;
   if ((m.was < other.was) == (m.is < other.is)) return 0;
-  return is_lower || !(is_on_way(other, m.was) || is_on_way(other, m.is));
+  return is_lower || !(is_on_path(other, m.was) || is_on_path(other, m.is));
 }
 
 SHARED int overlap_along(box_bounds p, box_bounds q, uint axis)
@@ -86,7 +86,7 @@ SHARED int pair_changed(const end_tables *tables, uint axis, uint one, uint othe
   if (bounds_overlap(p, q) == bounds_overlap(kept_p, kept_q)) return 0;
   for (uint before = 0; before < axis; ++before)
     if (overlap_along(p, q, before) != overlap_along(kept_p, kept_q, before)) return 0;
-  return pair_allowed(tables->parameters, tables->traits, tables->filter, one, other);
+  return pair_allowed(tables->parameters, tables->flags, tables->filter, one, other);
 }
 
 SHARED void meet_end(const end_tables *tables, uint axis, moved_end m, moved_end other, key_list *list)
@@ -103,7 +103,7 @@ SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, key_list 
     meet_end(tables, axis, m, load_end(tables, axis, tables->kept_order[plane + at]), list);
   for (uint at = first; at <= last; ++at) {
     moved_end other = load_end(tables, axis, tables->order[plane + at]);
-    if (!is_on_way(m, other.was)) meet_end(tables, axis, m, other, list);
+    if (!is_on_path(m, other.was)) meet_end(tables, axis, m, other, list);
   }
 }
 
@@ -115,7 +115,7 @@ SHARED void sweep_from_start(const end_tables *tables, uint body, key_list *list
   for (uint at = tables->place[body] + 1u; at < end; ++at) {
     uint found = tables->order[at];
     if (found >= tables->bodies || !bounds_overlap(own, load_bounds(tables->bounds, found))) continue;
-    if (pair_allowed(tables->parameters, tables->traits, tables->filter, body, found)) add_key(list, body, found);
+    if (pair_allowed(tables->parameters, tables->flags, tables->filter, body, found)) add_key(list, body, found);
   }
 }
 
@@ -131,12 +131,12 @@ SHARED void find_changes(const end_tables *tables, uint is_kept, uint end, key_l
   }
 }
 
-SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, read_box_ends box_ends,
+SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                               GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, read_box_ends box_ends,
                                read_kept_box_ends kept_box_ends, GLOBAL const uint *counts, GLOBAL uint *share_start,
                                uint i)
 {
-  end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
+  end_tables tables = {parameters,           body_flags,          body_filter,         box_ends.order,
                        box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
                        kept_box_ends.bounds, counts[COUNT_BODIES]};
   key_list counter = {0, 0u, 0u};
@@ -144,13 +144,13 @@ SHARED void count_changes_item(GLOBAL const Parameters *parameters, GLOBAL const
   share_start[i] = counter.at;
 }
 
-SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds, read_box_ends box_ends,
+SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                               GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, read_box_ends box_ends,
                                read_kept_box_ends kept_box_ends, GLOBAL const uint *counts,
                                GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
   if (share_start[i] == share_start[i + 1u]) return; /* most ends: they need not walk again */
-  end_tables tables = {parameters,           body_traits,         body_filter,         box_ends.order,
+  end_tables tables = {parameters,           body_flags,          body_filter,         box_ends.order,
                        box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
                        kept_box_ends.bounds, counts[COUNT_BODIES]};
   key_list list = {pair_key, share_start[i], counts[CAPACITY_PAIRS]};

@@ -16,7 +16,7 @@
 #define TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
 
 #include "shared/argument_groups.h"
-#include "shared/broadphase/sweep.h"
+#include "shared/broadphase/sweep_and_prune.h"
 
 SHARED uint body_of_end(uint end, uint bodies) { return end < bodies ? end : end - bodies; }
 
@@ -28,7 +28,7 @@ SHARED uint end_key(interval along, int is_lower)
   return is_lower ? 0xffffffffu : 0u;
 }
 
-SHARED void axis_keys_item(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key,
+SHARED void axis_keys_item(GLOBAL const float4 *bounds, GLOBAL const uint *counts, GLOBAL uint *sort_key,
                            GLOBAL uint *sort_value, uint axis, uint i)
 {
   uint bodies = counts[COUNT_BODIES];
@@ -47,10 +47,10 @@ SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *c
 }
 
 /* For the next launch: the orders, and the bounds, of which there are as many rows as ends. */
-SHARED void keep_ends_item(GLOBAL const row *bounds, read_box_ends box_ends, GLOBAL const uint *counts,
+SHARED void keep_ends_item(GLOBAL const float4 *bounds, read_box_ends box_ends, GLOBAL const uint *counts,
                            write_kept_box_ends kept_box_ends, uint i)
 {
-  store_row(kept_box_ends.bounds, i, load_row(bounds, i));
+  store_float4(kept_box_ends.bounds, i, load_float4(bounds, i));
   for (uint axis = 0; axis < 3u; ++axis) {
     uint at = axis * counts[COUNT_HALVES] + i;
     kept_box_ends.order[at] = box_ends.order[at];

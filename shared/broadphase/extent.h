@@ -24,7 +24,7 @@ typedef struct {
 
 SHARED extent empty_extent(void)
 {
-  extent e = {{BOUNDLESS, BOUNDLESS, BOUNDLESS}, {-BOUNDLESS, -BOUNDLESS, -BOUNDLESS},
+  extent e = {{UNBOUNDED, UNBOUNDED, UNBOUNDED}, {-UNBOUNDED, -UNBOUNDED, -UNBOUNDED},
               {R(0.0), R(0.0), R(0.0)},          {R(0.0), R(0.0), R(0.0)},
               {R(0.0), R(0.0), R(0.0)},          R(0.0)};
   return e;
@@ -81,23 +81,24 @@ SHARED void join_tree(LOCAL real *extents)
                      join_extents(load_extent_local(extents, item), load_extent_local(extents, item + reach)));
 }
 
-SHARED void store_extent_tile(GLOBAL row *bounds_sums, uint tile, extent e)
+SHARED void store_extent_tile(GLOBAL float4 *bounds_sums, uint tile, extent e)
 {
-  store_row(bounds_sums, tile * EXTENT_ROWS, extend(e.lower, e.size));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 1u, extend(e.upper, e.products.x));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 2u, extend(e.sum, e.products.y));
-  store_row(bounds_sums, tile * EXTENT_ROWS + 3u, extend(e.squares, e.products.z));
+  store_float4(bounds_sums, tile * EXTENT_ROWS, extend(e.lower, e.size));
+  store_float4(bounds_sums, tile * EXTENT_ROWS + 1u, extend(e.upper, e.products.x));
+  store_float4(bounds_sums, tile * EXTENT_ROWS + 2u, extend(e.sum, e.products.y));
+  store_float4(bounds_sums, tile * EXTENT_ROWS + 3u, extend(e.squares, e.products.z));
 }
-SHARED extent load_extent_tile(GLOBAL const row *bounds_sums, uint tile)
+SHARED extent load_extent_tile(GLOBAL const float4 *bounds_sums, uint tile)
 {
-  vec4 lower = load_row(bounds_sums, tile * EXTENT_ROWS), upper = load_row(bounds_sums, tile * EXTENT_ROWS + 1u);
-  vec4 sum = load_row(bounds_sums, tile * EXTENT_ROWS + 2u), squares = load_row(bounds_sums, tile * EXTENT_ROWS + 3u);
+  vec4 lower = load_float4(bounds_sums, tile * EXTENT_ROWS), upper = load_float4(bounds_sums, tile * EXTENT_ROWS + 1u);
+  vec4 sum = load_float4(bounds_sums, tile * EXTENT_ROWS + 2u),
+       squares = load_float4(bounds_sums, tile * EXTENT_ROWS + 3u);
   extent e = {xyz(lower), xyz(upper), xyz(sum), xyz(squares), make_vec3(upper.w, sum.w, squares.w), lower.w};
   return e;
 }
 
 /* One group over TILE small bodies -> EXTENT_ROWS rows of bounds_sums. */
-SHARED void extent_tiles_group(GLOBAL const row *bounds, GLOBAL const uint *counts, GLOBAL row *bounds_sums,
+SHARED void extent_tiles_group(GLOBAL const float4 *bounds, GLOBAL const uint *counts, GLOBAL float4 *bounds_sums,
                                LOCAL uint *local_memory, uint group)
 {
   LOCAL real *extents = (LOCAL real *)local_memory;
@@ -125,7 +126,7 @@ SHARED uint cells_along(real length, real cell)
 }
 
 /* The grid of smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
-SHARED void lay_out_grid(extent whole, real size, GLOBAL row *grid, GLOBAL uint *counts)
+SHARED void write_grid_layout(extent whole, real size, GLOBAL float4 *grid, GLOBAL uint *counts)
 {
   vec3 length = subtract(whole.upper, whole.lower);
   real cell = maximum(size, R(1e-6));
@@ -137,7 +138,7 @@ SHARED void lay_out_grid(extent whole, real size, GLOBAL row *grid, GLOBAL uint 
     if ((real)nx * (real)ny * (real)nz <= (real)counts[CAPACITY_CELLS]) break;
     cell = cell * R(1.25);
   }
-  store_row(grid, 0u, extend(whole.lower, R(1.0) / cell));
+  store_float4(grid, 0u, extend(whole.lower, R(1.0) / cell));
   counts[COUNT_GRID_X] = nx;
   counts[COUNT_GRID_Y] = ny;
   counts[COUNT_GRID_Z] = nz;
@@ -146,11 +147,11 @@ SHARED void lay_out_grid(extent whole, real size, GLOBAL row *grid, GLOBAL uint 
 }
 
 /* The curve runs through a cube around the centres, CURVE_CELLS along a side. */
-SHARED void lay_out_curve(extent whole, GLOBAL row *grid)
+SHARED void write_curve_layout(extent whole, GLOBAL float4 *grid)
 {
   vec3 length = subtract(whole.upper, whole.lower);
   real side = maximum(maximum(length.x, length.y), maximum(length.z, R(1e-6)));
-  store_row(grid, 1u, extend(whole.lower, (real)CURVE_CELLS / side));
+  store_float4(grid, 1u, extend(whole.lower, (real)CURVE_CELLS / side));
 }
 
 typedef struct {
@@ -183,14 +184,15 @@ SHARED vec3 principal_direction(covariance c)
                           c.products.z * d.x + c.squares.y * d.y + c.products.x * d.z,
                           c.products.y * d.x + c.products.x * d.y + c.squares.z * d.z);
     real most = maximum(magnitude(next.x), maximum(magnitude(next.y), magnitude(next.z)));
-    if (!(most > R(0.0) && most < BOUNDLESS)) break;
+    if (!(most > R(0.0) && most < UNBOUNDED)) break;
     d = scale(next, R(1.0) / most);
   }
   return scale(d, R(1.0) / length_of(d));
 }
 
 /* One group over all tiles: the whole extent replaces the first tile's. */
-SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL row *bounds_sums, LOCAL uint *local_memory, uint group)
+SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL float4 *bounds_sums, LOCAL uint *local_memory,
+                               uint group)
 {
   (void)group;
   LOCAL real *extents = (LOCAL real *)local_memory;
@@ -212,21 +214,21 @@ SHARED covariance spread_of(extent whole, GLOBAL const uint *counts)
 }
 
 /* One item, for the sweep along it. */
-SHARED void find_principal_direction_item(GLOBAL const row *bounds_sums, GLOBAL const uint *counts, GLOBAL row *grid,
-                                          uint i)
+SHARED void find_principal_direction_item(GLOBAL const float4 *bounds_sums, GLOBAL const uint *counts,
+                                          GLOBAL float4 *grid, uint i)
 {
-  store_row(grid, 2u, extend(principal_direction(spread_of(load_extent_tile(bounds_sums, i), counts)), R(0.0)));
+  store_float4(grid, 2u, extend(principal_direction(spread_of(load_extent_tile(bounds_sums, i), counts)), R(0.0)));
 }
 
 /* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
-SHARED void lay_out_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds_sums, GLOBAL row *grid,
-                         GLOBAL uint *counts, uint hybrid, uint i)
+SHARED void compute_grid_layout_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds_sums,
+                                     GLOBAL float4 *grid, GLOBAL uint *counts, uint hybrid, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
   if (counts[COUNT_SMALL] == 0u)
     whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
-  lay_out_grid(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
-  lay_out_curve(whole, grid);
+  write_grid_layout(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
+  write_curve_layout(whole, grid);
   counts[COUNT_SWEEP_AXIS] = widest_axis(spread_of(whole, counts));
 }
 

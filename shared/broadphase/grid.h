@@ -2,7 +2,7 @@
  *
  * After the particle demo of the 2009 talk and GS-4150 slides 19-20, with no limit on a cell's
  * population. A cell is never smaller than the largest bounds, so overlapping bodies are in touching
- * cells. Cells are numbered along x first, so three neighbours are one stretch of the sorted list:
+ * cells. Cells are numbered along x first, so three neighbours are one range of the sorted list:
  *
  *      z  +---+---+---+
  *      ^  | 6   7   8 |     9 rows of 3 cells instead of 27 cells
@@ -14,7 +14,7 @@
 #define TANDEM_SHARED_BROADPHASE_GRID_H
 
 #include "shared/broadphase/extent.h"
-#include "shared/broadphase/finds.h"
+#include "shared/broadphase/neighbors.h"
 #include "shared/parallel/search.h"
 
 typedef struct {
@@ -29,9 +29,9 @@ SHARED int cell_along(real offset, real inverse_cell, uint cells)
   return cell < (int)cells ? cell : (int)cells - 1;
 }
 
-SHARED grid_cell cell_of(GLOBAL const row *grid, GLOBAL const uint *counts, box_bounds b)
+SHARED grid_cell cell_of(GLOBAL const float4 *grid, GLOBAL const uint *counts, box_bounds b)
 {
-  vec4 layout = load_row(grid, 0u);
+  vec4 layout = load_float4(grid, 0u);
   vec3 offset = subtract(scale(add(b.lower, b.upper), R(0.5)), xyz(layout));
   grid_cell c = {cell_along(offset.x, layout.w, counts[COUNT_GRID_X]),
                  cell_along(offset.y, layout.w, counts[COUNT_GRID_Y]),
@@ -45,7 +45,7 @@ SHARED uint cell_number(GLOBAL const uint *counts, int x, int y, int z)
 }
 
 /* The sort key of small body i of the scene is its cell. */
-SHARED void grid_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+SHARED void grid_keys_item(GLOBAL const float4 *bounds, GLOBAL const float4 *grid, GLOBAL const uint *counts,
                            GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
@@ -73,7 +73,7 @@ SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *cou
   }
 }
 
-/* A stretch of the sorted list: cells left .. right of the row (y, z). */
+/* A range of the sorted list: cells left .. right of the row (y, z). */
 typedef struct {
   uint at, end;
 } grid_row;
@@ -81,13 +81,12 @@ typedef struct {
 SHARED grid_row row_of_cells(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, int left, int y,
                              int z)
 {
-  grid_row stretch = {0u, 0u};
+  grid_row range = {0u, 0u};
   int nx = (int)counts[COUNT_GRID_X], first = c.x + left > 0 ? c.x + left : 0, last = c.x + 1 < nx ? c.x + 1 : nx - 1;
-  if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z] || first > last)
-    return stretch;
-  stretch.at = cell_start[cell_number(counts, first, y, z)];
-  stretch.end = cell_start[cell_number(counts, last, y, z) + 1u];
-  return stretch;
+  if (y < 0 || z < 0 || y >= (int)counts[COUNT_GRID_Y] || z >= (int)counts[COUNT_GRID_Z] || first > last) return range;
+  range.at = cell_start[cell_number(counts, first, y, z)];
+  range.end = cell_start[cell_number(counts, last, y, z) + 1u];
+  return range;
 }
 
 /* Finds the bodies before the searching one in a range of the sorted list. */
@@ -102,7 +101,7 @@ FORCE_INLINE uint find_in_cells(const pair_search *search, GLOBAL const uint *so
 }
 
 /* Finds the bodies before the searching one in its own cell and in the 26 around it. */
-FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const float4 *grid, GLOBAL const uint *sort_value,
                               GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   grid_cell c = cell_of(grid, counts, search->box);
@@ -114,7 +113,7 @@ FORCE_INLINE uint find_around(const pair_search *search, GLOBAL const row *grid,
 }
 
 /* Finds every body before the searching one; large ones come first. */
-FORCE_INLINE uint search_grid(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
+FORCE_INLINE uint search_grid(const pair_search *search, GLOBAL const float4 *grid, GLOBAL const uint *sort_value,
                               GLOBAL const uint *cell_start, GLOBAL const uint *counts, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
@@ -122,28 +121,28 @@ FORCE_INLINE uint search_grid(const pair_search *search, GLOBAL const row *grid,
   return search->body < large ? at : find_around(search, grid, sort_value, cell_start, counts, list, at);
 }
 
-SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                            GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+SHARED void grid_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                            GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
                             GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *counts,
-                            GLOBAL uint *pair_start, GLOBAL uint *finds, uint i)
+                            GLOBAL uint *pair_start, GLOBAL uint *neighbors, uint i)
 {
   uint a = searching_body(sort_value, counts[COUNT_LARGE], i);
-  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
-  find_list list = first_finds(finds, i);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, a);
+  find_list list = first_neighbors(neighbors, i);
   pair_start[a] = search_grid(&search, grid, sort_value, cell_start, counts, &list, 0u);
 }
 
-SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                            GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                            GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *finds,
+SHARED void grid_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                            GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
+                            GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *neighbors,
                             GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint i)
 {
   uint a = searching_body(sort_value, counts[COUNT_LARGE], i), first = pair_start[a], end = pair_start[a + 1u],
        capacity = counts[CAPACITY_PAIRS];
-  if (end - first <= FINDS_KEPT) {
-    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
+  if (end - first <= NEIGHBORS_KEPT) {
+    write_kept_pairs(neighbors, i, a, pairs, first, end, capacity);
   } else {
-    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+    pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, a);
     find_list list = finds_as_pairs(pairs, capacity);
     search_grid(&search, grid, sort_value, cell_start, counts, &list, first);
   }

@@ -38,9 +38,9 @@ FORCE_INLINE uint find_in_forward_row(const pair_search *search, GLOBAL const ui
 }
 
 /* The searching body is that of item i: a large body, or the one at place i - large of the sorted list. */
-FORCE_INLINE uint search_forward_cells(const pair_search *search, GLOBAL const row *grid, GLOBAL const uint *sort_value,
-                                       GLOBAL const uint *cell_start, GLOBAL const uint *counts, uint i,
-                                       const find_list *list, uint at)
+FORCE_INLINE uint search_forward_cells(const pair_search *search, GLOBAL const float4 *grid,
+                                       GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                                       GLOBAL const uint *counts, uint i, const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE];
   at = find_among_first(search, large, list, at);
@@ -51,29 +51,29 @@ FORCE_INLINE uint search_forward_cells(const pair_search *search, GLOBAL const r
   return at;
 }
 
-SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
+SHARED void symmetric_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
                                  GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
-                                 GLOBAL const uint *counts, GLOBAL uint *sweep_start, GLOBAL uint *finds, uint i)
+                                 GLOBAL const uint *counts, GLOBAL uint *key_start, GLOBAL uint *neighbors, uint i)
 {
   uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
-  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
-  find_list list = first_finds(finds, i);
-  sweep_start[i] = search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list, 0u);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, body);
+  find_list list = first_neighbors(neighbors, i);
+  key_start[i] = search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list, 0u);
 }
 
-SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                                 GLOBAL const uint *sort_value, GLOBAL const uint *cell_start, GLOBAL const uint *finds,
-                                 GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key,
-                                 uint i)
+SHARED void symmetric_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
+                                 GLOBAL const uint *sort_value, GLOBAL const uint *cell_start,
+                                 GLOBAL const uint *neighbors, GLOBAL const uint *counts, GLOBAL const uint *key_start,
+                                 GLOBAL ulong *pair_key, uint i)
 {
-  uint body = searching_body(sort_value, counts[COUNT_LARGE], i), first = sweep_start[i], end = sweep_start[i + 1u],
+  uint body = searching_body(sort_value, counts[COUNT_LARGE], i), first = key_start[i], end = key_start[i + 1u],
        capacity = counts[CAPACITY_PAIRS];
-  if (end - first <= FINDS_KEPT) {
-    write_kept_keys(finds, i, body, pair_key, first, end, capacity);
+  if (end - first <= NEIGHBORS_KEPT) {
+    write_kept_keys(neighbors, i, body, pair_key, first, end, capacity);
   } else {
-    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+    pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, body);
     find_list list = finds_as_keys(pair_key, capacity);
     search_forward_cells(&search, grid, sort_value, cell_start, counts, i, &list, first);
   }

@@ -2,8 +2,8 @@
  * on the device.
  *
  * After the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees, and
- * k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h); every node holds a stretch of the
- * list and splits it where the codes first differ, so that it also splits space. Each node finds its stretch by itself:
+ * k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h); every node holds a range of the
+ * list and splits it where the codes first differ, so that it also splits space. Each node finds its range by itself:
  *
  *     code   00001 00010 00100 00101 10011 11000
  *     place    0     1     2     3     4     5
@@ -11,7 +11,7 @@
  *            [------- 3 -------]      [--4---]
  *            [--1--]     [--2--]
  *
- * The stretch of inner node i starts or ends at place i, and goes on as far as codes share more with code i than the
+ * The range of inner node i starts or ends at place i, and goes on as far as codes share more with code i than the
  * neighbour on the other side does. Children of a node split between s and s + 1 are whatever ends at s and whatever
  * starts at s + 1: the leaf or inner node of that number.
  *
@@ -19,8 +19,8 @@
  * slot: its children, the slot after its subtree (the second child of whom it is the first child of), its parent.
  *
  * The order and the links are kept from step to step, and only the boxes made anew, until one body in sixteen has left
- * the box it was filed under. A node also knows the lowest number of a body below it: a body looks for those before it
- * alone, and passes over the rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are
+ * the box it was inserted with. A node also knows the lowest number of a body below it: a body looks for those before
+ * it alone, and passes over the rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are
  * tested against everything.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_H
@@ -42,27 +42,27 @@ SHARED uint root_slot(GLOBAL const uint *counts)
   return leaves == 0u ? INDEX_NONE : leaves == 1u ? leaf_slot(0u) : inner_slot(0u);
 }
 
-/* --- whether to file the bodies anew ------------------------------------------------------------------ */
+/* --- whether to insert the bodies anew ------------------------------------------------------------------ */
 
-#define STRAYS_PER_REBUILD 16u
+#define LEAVES_PER_ESCAPED 16u
 
-/* Leaf i, filed in some step before this. */
-SHARED void count_strays_item(GLOBAL const row *bounds, GLOBAL const uint *leaf_body, GLOBAL const row *filed_bounds,
-                              GLOBAL uint *counts, uint i)
+/* Leaf i, inserted in some step before this. */
+SHARED void count_escaped_item(GLOBAL const float4 *bounds, GLOBAL const uint *leaf_body,
+                               GLOBAL const float4 *inserted_bounds, GLOBAL uint *counts, uint i)
 {
   if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
-  if (!bounds_overlap(load_bounds(bounds, leaf_body[i]), load_bounds(filed_bounds, i)))
-    ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+  if (!bounds_overlap(load_bounds(bounds, leaf_body[i]), load_bounds(inserted_bounds, i)))
+    ATOMIC_ADD(&counts[COUNT_ESCAPED], 1u);
 }
 
 /* A tree over the first `leaves` of the sorted list: how large its pyramid is. */
 SHARED void set_leaves(GLOBAL uint *counts, uint leaves)
 {
-  uint room = 1u;
-  while (room < leaves) room = room * 2u;
+  uint capacity = 1u;
+  while (capacity < leaves) capacity = capacity * 2u;
   counts[COUNT_HIERARCHY] = leaves;
-  counts[COUNT_LEAVES] = room;
-  counts[COUNT_LEAF_TILES] = room > TILE ? room / TILE : 1u;
+  counts[COUNT_LEAVES] = capacity;
+  counts[COUNT_LEAF_TILES] = capacity > TILE ? capacity / TILE : 1u;
 }
 
 /* keep: whether the order of the last step will do, if there is one. */
@@ -70,23 +70,24 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
 {
   (void)i;
   uint leaves = counts[COUNT_BOUNDED];
-  uint stands =
-      keep != 0u && counts[COUNT_HIERARCHY_KEPT] != 0u && counts[COUNT_STRAYS] * STRAYS_PER_REBUILD <= leaves ? 1u : 0u;
-  counts[COUNT_STRAYS] = 0u;
-  counts[COUNT_FILED] = stands != 0u ? 0u : leaves;
+  uint stands = keep != 0u && counts[COUNT_HIERARCHY_KEPT] != 0u && counts[COUNT_ESCAPED] * LEAVES_PER_ESCAPED <= leaves
+                    ? 1u
+                    : 0u;
+  counts[COUNT_ESCAPED] = 0u;
+  counts[COUNT_INSERTED] = stands != 0u ? 0u : leaves;
   counts[COUNT_HIERARCHY_KEPT] = keep;
   set_leaves(counts, leaves);
-  counts[COUNT_FILED_LEAVES] = stands != 0u ? 0u : counts[COUNT_LEAVES];
+  counts[COUNT_INSERTED_LEAVES] = stands != 0u ? 0u : counts[COUNT_LEAVES];
 }
 
 /* boxes: those that the tree is of. */
-SHARED void file_leaves_item(GLOBAL const row *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body,
-                             GLOBAL row *filed_bounds, uint i)
+SHARED void insert_leaves_item(GLOBAL const float4 *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body,
+                               GLOBAL float4 *inserted_bounds, uint i)
 {
   uint body = sort_value[i];
   leaf_body[i] = body;
-  store_row(filed_bounds, 2u * i, load_row(boxes, 2u * body));
-  store_row(filed_bounds, 2u * i + 1u, load_row(boxes, 2u * body + 1u));
+  store_float4(inserted_bounds, 2u * i, load_float4(boxes, 2u * body));
+  store_float4(inserted_bounds, 2u * i + 1u, load_float4(boxes, 2u * body + 1u));
 }
 
 /* --- building ----------------------------------------------------------------------------------------- */
@@ -117,10 +118,10 @@ SHARED int reach_of_bits(const sorted_codes *codes, uint place, int direction, i
 
 typedef struct {
   uint first, last, split;
-} stretch;
+} leaf_range;
 
 /* Of inner node i. */
-SHARED stretch stretch_of_node(const sorted_codes *codes, uint i)
+SHARED leaf_range range_of_node(const sorted_codes *codes, uint i)
 {
   int direction = shared_bits(codes, i, (int)i + 1) > shared_bits(codes, i, (int)i - 1) ? 1 : -1;
   int least = shared_bits(codes, i, (int)i - direction) + 1, too_far = 2;
@@ -129,7 +130,7 @@ SHARED stretch stretch_of_node(const sorted_codes *codes, uint i)
   int end = (int)i + length * direction;
   int common = shared_bits(codes, i, end);
   int reach = reach_of_bits(codes, i, direction, common + 1, too_far);
-  stretch s;
+  leaf_range s;
   s.first = direction > 0 ? i : (uint)end;
   s.last = direction > 0 ? (uint)end : i;
   s.split = direction > 0 ? i + (uint)reach : i - (uint)reach - 1u;
@@ -147,7 +148,7 @@ SHARED uint slot_after(const sorted_codes *codes, uint last)
 
 /* Leaf i, and inner node i unless i is the last place. A parent is written by whoever has the child. */
 SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *hierarchy_link,
-                            GLOBAL uint *hierarchy_stretch, uint i)
+                            GLOBAL uint *hierarchy_range, uint i)
 {
   sorted_codes codes = {sort_key, counts[COUNT_HIERARCHY]};
   GLOBAL uint *leaf = hierarchy_link + LINKS * leaf_slot(i), *inner = leaf + LINKS;
@@ -155,28 +156,29 @@ SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *coun
   leaf[LINK_AFTER] = slot_after(&codes, i);
   if (i == 0u) hierarchy_link[LINKS * root_slot(counts) + LINK_PARENT] = INDEX_NONE;
   if (i + 1u == codes.length) return;
-  stretch s = stretch_of_node(&codes, i);
+  leaf_range s = range_of_node(&codes, i);
   uint first = s.split == s.first ? leaf_slot(s.split) : inner_slot(s.split);
   uint second = s.split + 1u == s.last ? leaf_slot(s.split + 1u) : inner_slot(s.split + 1u);
   inner[LINK_FIRST] = first;
   inner[LINK_SECOND] = second;
   inner[LINK_AFTER] = slot_after(&codes, s.last);
   hierarchy_link[LINKS * first + LINK_PARENT] = hierarchy_link[LINKS * second + LINK_PARENT] = inner_slot(i);
-  hierarchy_stretch[2u * i] = s.first;
-  hierarchy_stretch[2u * i + 1u] = s.last;
+  hierarchy_range[2u * i] = s.first;
+  hierarchy_range[2u * i + 1u] = s.last;
 }
 
 /* The boxes of leaf i and of inner node i, unless the one tile that the node lies in is as it was. */
-SHARED void node_boxes_item(GLOBAL const row *box_pyramid, GLOBAL const uint *hierarchy_stretch,
-                            GLOBAL const uint *tile_changed, GLOBAL const uint *counts, GLOBAL row *hierarchy, uint i)
+SHARED void node_boxes_item(GLOBAL const float4 *box_pyramid, GLOBAL const uint *hierarchy_range,
+                            GLOBAL const uint *tile_changed, GLOBAL const uint *counts, GLOBAL float4 *hierarchy,
+                            uint i)
 {
   uint leaves = counts[COUNT_LEAVES];
   if (tile_changed[i / TILE] != 0u)
     store_numbered_box(hierarchy, leaf_slot(i), load_numbered_box(box_pyramid, leaves + i));
   if (i + 1u >= counts[COUNT_HIERARCHY]) return;
-  uint first = hierarchy_stretch[2u * i], last = hierarchy_stretch[2u * i + 1u];
+  uint first = hierarchy_range[2u * i], last = hierarchy_range[2u * i + 1u];
   if (first / TILE == last / TILE && tile_changed[first / TILE] == 0u) return;
-  store_numbered_box(hierarchy, inner_slot(i), box_of_stretch(box_pyramid, leaves, first, last));
+  store_numbered_box(hierarchy, inner_slot(i), box_of_range(box_pyramid, leaves, first, last));
 }
 
 #endif

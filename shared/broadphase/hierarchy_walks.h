@@ -11,8 +11,8 @@
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 
-#include "shared/broadphase/finds.h"
 #include "shared/broadphase/hierarchy.h"
+#include "shared/broadphase/neighbors.h"
 
 /* The deepest tree: the bits of a code make CURVE_BITS levels, trees.cpp uses one bit more, and the places of equal
  * codes make up to 31 further levels. */
@@ -20,7 +20,7 @@
 
 /* The tree that a body searches. */
 typedef struct {
-  GLOBAL const row *nodes;
+  GLOBAL const float4 *nodes;
   GLOBAL const uint *links;
   real before; /* the search skips subtrees in which no body has a lower number */
 } searched_tree;
@@ -141,39 +141,39 @@ FORCE_INLINE uint find_by_history(const pair_search *search, const searched_tree
 FORCE_INLINE uint search_hierarchy(const pair_search *search, read_hierarchy_nodes hierarchy_nodes,
                                    GLOBAL const uint *counts, uint walk, const find_list *list, uint at)
 {
-  uint boundless = counts[COUNT_BOUNDLESS], root = root_slot(counts), a = search->body;
+  uint unbounded = counts[COUNT_UNBOUNDED], root = root_slot(counts), a = search->body;
   searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, before_body(a)};
-  at = find_among_first(search, boundless, list, at);
-  if (a < boundless) return at;
+  at = find_among_first(search, unbounded, list, at);
+  if (a < unbounded) return at;
   if (walk == (uint)WALK_BY_SKIPPING)
     return find_by_skipping(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
   if (walk == (uint)WALK_BY_STACK) return find_from_stack(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
   return find_by_history(search, &tree, hierarchy_nodes.leaf_body, root, a, list, at);
 }
 
-SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+SHARED void hierarchy_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
                                  read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
-                                 GLOBAL uint *pair_start, GLOBAL uint *finds, uint walk, uint i)
+                                 GLOBAL uint *pair_start, GLOBAL uint *neighbors, uint walk, uint i)
 {
-  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i);
-  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
-  find_list list = first_finds(finds, i);
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_UNBOUNDED], i);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, a);
+  find_list list = first_neighbors(neighbors, i);
   pair_start[a] = search_hierarchy(&search, hierarchy_nodes, counts, walk, &list, 0u);
 }
 
-SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                 GLOBAL const uint *body_filter, GLOBAL const row *bounds,
-                                 read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *finds,
+SHARED void hierarchy_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
+                                 read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *neighbors,
                                  GLOBAL const uint *counts, GLOBAL const uint *pair_start, write_pairs pairs, uint walk,
                                  uint i)
 {
-  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_BOUNDLESS], i), first = pair_start[a],
+  uint a = searching_body(hierarchy_nodes.leaf_body, counts[COUNT_UNBOUNDED], i), first = pair_start[a],
        end = pair_start[a + 1u], capacity = counts[CAPACITY_PAIRS];
-  if (end - first <= FINDS_KEPT) {
-    write_kept_pairs(finds, i, a, pairs, first, end, capacity);
+  if (end - first <= NEIGHBORS_KEPT) {
+    write_kept_pairs(neighbors, i, a, pairs, first, end, capacity);
   } else {
-    pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, a);
+    pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, a);
     find_list list = finds_as_pairs(pairs, capacity);
     search_hierarchy(&search, hierarchy_nodes, counts, walk, &list, first);
   }

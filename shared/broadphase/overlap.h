@@ -13,9 +13,9 @@ typedef struct {
   vec3 lower, upper;
 } box_bounds;
 
-SHARED box_bounds load_bounds(GLOBAL const row *bounds, uint body)
+SHARED box_bounds load_bounds(GLOBAL const float4 *bounds, uint body)
 {
-  box_bounds b = {xyz(load_row(bounds, 2u * body)), xyz(load_row(bounds, 2u * body + 1u))};
+  box_bounds b = {xyz(load_float4(bounds, 2u * body)), xyz(load_float4(bounds, 2u * body + 1u))};
   return b;
 }
 
@@ -27,18 +27,18 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
 
 /* A trigger meets whatever is none itself; one of the two must move, be it by its given velocities. Two half-spaces
  * have no test. */
-SHARED int trigger_meets(uint traits_a, uint traits_b)
+SHARED int trigger_meets(uint flags_a, uint flags_b)
 {
-  if (is_trigger(traits_a) == is_trigger(traits_b)) return 0;
-  if (shape_of(traits_a) == (uint)SHAPE_HALF_SPACE && shape_of(traits_b) == (uint)SHAPE_HALF_SPACE) return 0;
-  return motion_of(traits_a) != (uint)MOTION_FIXED || motion_of(traits_b) != (uint)MOTION_FIXED;
+  if (is_trigger(flags_a) == is_trigger(flags_b)) return 0;
+  if (shape_of(flags_a) == (uint)SHAPE_HALF_SPACE && shape_of(flags_b) == (uint)SHAPE_HALF_SPACE) return 0;
+  return body_type_of(flags_a) != (uint)BODY_TYPE_FIXED || body_type_of(flags_b) != (uint)BODY_TYPE_FIXED;
 }
 
 /* Solids: one of them must be pushed to move. */
-SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint traits_a, uint traits_b)
+SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint flags_a, uint flags_b)
 {
-  if (HAS_FEATURE(parameters, TRIGGER) && is_trigger(traits_a | traits_b)) return trigger_meets(traits_a, traits_b);
-  return motion_of(traits_a) == (uint)MOTION_DYNAMIC || motion_of(traits_b) == (uint)MOTION_DYNAMIC;
+  if (HAS_FEATURE(parameters, TRIGGER) && is_trigger(flags_a | flags_b)) return trigger_meets(flags_a, flags_b);
+  return body_type_of(flags_a) == (uint)BODY_TYPE_DYNAMIC || body_type_of(flags_b) == (uint)BODY_TYPE_DYNAMIC;
 }
 
 /* Each accepts the other's groups. Numbers of shapes: those of bodies, or of children behind them. */
@@ -50,16 +50,17 @@ SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint
 }
 
 /* They must be able to meet, neither be quarantined, and each must accept the other's groups. */
-SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
+SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                         GLOBAL const uint *body_filter, uint a, uint b)
 {
-  uint traits_a = body_traits[a], traits_b = body_traits[b];
-  if (!bodies_meet(parameters, traits_a, traits_b)) return 0;
-  if (motion_of(traits_a) == (uint)MOTION_QUARANTINED || motion_of(traits_b) == (uint)MOTION_QUARANTINED) return 0;
+  uint flags_a = body_flags[a], flags_b = body_flags[b];
+  if (!bodies_meet(parameters, flags_a, flags_b)) return 0;
+  if (body_type_of(flags_a) == (uint)BODY_TYPE_QUARANTINED || body_type_of(flags_b) == (uint)BODY_TYPE_QUARANTINED)
+    return 0;
   return filters_accept(parameters, body_filter, a, b);
 }
 
-/* Where a body's pairs go: its own stretch of the list, from pair_start[a], in the order found; sort_stretch closes
+/* Where a body's pairs go: its own range of the list, from pair_start[a], in the order found; sort_range closes
  * it. */
 SHARED uint append_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
 {
@@ -100,11 +101,11 @@ SHARED void heap_sort(GLOBAL uint *values, uint length)
   }
 }
 
-/* A stretch longer than this is sorted as a heap: one body in a crowd of thousands must not take the square of that. */
-#define SHORT_STRETCH 32u
-SHARED void sort_stretch(GLOBAL uint *values, uint length)
+/* A range longer than this is sorted as a heap: one body in a crowd of thousands must not take the square of that. */
+#define SHORT_RANGE 32u
+SHARED void sort_range(GLOBAL uint *values, uint length)
 {
-  if (length <= SHORT_STRETCH) insertion_sort(values, length);
+  if (length <= SHORT_RANGE) insertion_sort(values, length);
   else heap_sort(values, length);
 }
 

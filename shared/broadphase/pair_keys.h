@@ -1,13 +1,13 @@
 /* pair_keys.h - the pair list from keys (a, b) in any order: for broadphases whose bodies find pairs that another body
  * owns.
  *
- * Once sorted, the keys are the list; where a body's stretch starts is found by the bodies themselves.
+ * Once sorted, the keys are the list; where a body's range starts is found by the bodies themselves.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
 #define TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
 
 #include "shared/counts.h"
-#include "shared/broadphase/finds.h"
+#include "shared/broadphase/neighbors.h"
 #include "shared/parallel/search.h"
 
 /* The first place among so many sorted keys whose pair belongs to `body` or to one after it. */

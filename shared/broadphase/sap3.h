@@ -11,7 +11,7 @@
  *     pairs        (5,1)       (6,4) (7,2)               kept in turn
  *
  * There the changes are appended by atomics and the list is patched in place; here both lists are sorted, so each body
- * merges its two stretches, and the result is the brute-force list. What is kept describes the bounds of the last
+ * merges its two ranges, and the result is the brute-force list. What is kept describes the bounds of the last
  * launch, whatever became of that step: the next launch finds the difference to it, hence needs no commit.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SAP3_H
@@ -19,7 +19,7 @@
 
 #include "shared/broadphase/endpoint_changes.h"
 
-/* A body's stretches of the kept pairs and of the changes, from where they are merged on. */
+/* A body's ranges of the kept pairs and of the changes, from where they are merged on. */
 typedef struct {
   GLOBAL const uint *kept_b;
   GLOBAL const ulong *changes;

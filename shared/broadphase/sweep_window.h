@@ -6,19 +6,19 @@
  *
  * A group loads the boxes of a window once for all its bodies; four work-items share each body, so that one with a long
  * interval is tested by four; a body whose interval ended sits a window out (local early-out). Where the talk appends
- * to a private buffer and then to the list, here the finds of each share are counted, scanned and written.
+ * to a private buffer and then to the list, here the neighbors of each share are counted, scanned and written.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
 
 #include "shared/broadphase/pair_keys.h"
-#include "shared/broadphase/sweep.h"
+#include "shared/broadphase/sweep_and_prune.h"
 #include "shared/broadphase/sweep_limits.h"
 
 #define SWEEP_LOCAL_WORDS (SWEEP_BLOCK * SWEEP_SHARES + 6u * SWEEP_WINDOW)
 
 /* Where the interval of the body at place i ends: the first place that starts behind it. */
-SHARED void sweep_ends_item(GLOBAL const row *grid, GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key,
+SHARED void sweep_ends_item(GLOBAL const float4 *grid, GLOBAL const float4 *sweep_bounds, GLOBAL const uint *sort_key,
                             GLOBAL const uint *counts, GLOBAL uint *sweep_end, uint principal, uint i)
 {
   uint end = sweep_key(sweep_interval(load_bounds(sweep_bounds, i), grid, counts, principal).end);
@@ -37,8 +37,8 @@ SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *c
 /* What a group sweeps with; writes: where the keys go, 0 to count only. */
 typedef struct {
   GLOBAL const Parameters *parameters;
-  GLOBAL const uint *traits, *filters;
-  GLOBAL const row *bounds, *sweep_bounds;
+  GLOBAL const uint *flags, *filters;
+  GLOBAL const float4 *bounds, *sweep_bounds;
   GLOBAL const uint *sort_value, *sweep_end, *counts;
   GLOBAL ulong *pair_key;
   LOCAL uint *tally;  /* of each share: pairs found so far, or where its next pair goes */
@@ -47,7 +47,7 @@ typedef struct {
 
 SHARED void found_pair(const window_sweep *sweep, uint share, uint first, uint second)
 {
-  if (!pair_allowed(sweep->parameters, sweep->traits, sweep->filters, first, second)) return;
+  if (!pair_allowed(sweep->parameters, sweep->flags, sweep->filters, first, second)) return;
   uint at = sweep->tally[share];
   if (sweep->pair_key) {
     if (at >= sweep->counts[CAPACITY_PAIRS]) return; /* counted already: the step will run again with room for it */
@@ -117,13 +117,13 @@ SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uin
   }
 }
 
-SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                               GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
                                read_sweep_intervals sweep_intervals, GLOBAL const uint *counts,
                                GLOBAL uint *share_start, LOCAL uint *local_memory, uint group)
 {
   window_sweep sweep = {parameters,
-                        body_traits,
+                        body_flags,
                         body_filter,
                         bounds,
                         sweep_intervals.bounds,
@@ -139,14 +139,14 @@ SHARED void window_count_group(GLOBAL const Parameters *parameters, GLOBAL const
   FOR_EACH_ITEM(share, shares) share_start[first * SWEEP_SHARES + share] = sweep.tally[share];
 }
 
-SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                               GLOBAL const uint *body_filter, GLOBAL const row *bounds,
+SHARED void window_write_group(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                               GLOBAL const uint *body_filter, GLOBAL const float4 *bounds,
                                read_sweep_intervals sweep_intervals, GLOBAL const uint *counts,
                                GLOBAL const uint *share_start, GLOBAL ulong *pair_key, LOCAL uint *local_memory,
                                uint group)
 {
   window_sweep sweep = {parameters,
-                        body_traits,
+                        body_flags,
                         body_filter,
                         bounds,
                         sweep_intervals.bounds,

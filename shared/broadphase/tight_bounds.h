@@ -18,29 +18,29 @@
 /* How far the shape reaches along a unit direction from the centre of its body. */
 SHARED real reach_along(const convex *shape, vec3 direction)
 {
-  return inner(support_of(shape, direction), direction) + core_radius(shape);
+  return dot3(support_of(shape, direction), direction) + core_radius(shape);
 }
 
 SHARED void tighten_bounds_item(GLOBAL const Parameters *parameters, read_shapes shapes, GLOBAL const uint *hull_header,
-                                GLOBAL const row *hull_vertex, GLOBAL const row *hull_strip,
-                                GLOBAL const row *body_mass, GLOBAL const row *body_position,
-                                GLOBAL const row *body_orientation, GLOBAL const row *body_velocity, GLOBAL row *bounds,
-                                uint i)
+                                GLOBAL const float4 *hull_vertex, GLOBAL const float4 *hull_chunk,
+                                GLOBAL const float4 *body_mass, GLOBAL const float4 *body_position,
+                                GLOBAL const float4 *body_orientation, GLOBAL const float4 *body_velocity,
+                                GLOBAL float4 *bounds, uint i)
 {
-  uint kind = is_general_shape(shape_of(shapes.traits[i])) ? shapes.convex[2u * i] : (uint)SHAPE_COMPOUND;
+  uint kind = is_general_shape(shape_of(shapes.flags[i])) ? shapes.convex[2u * i] : (uint)SHAPE_COMPOUND;
   if (kind == (uint)SHAPE_MESH || kind == (uint)SHAPE_COMPOUND) return;
-  hull_tables tables = {hull_header, hull_vertex, 0, 0, 0, 0, hull_strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
+  hull_tables tables = {hull_header, hull_vertex, 0, 0, 0, 0, hull_chunk, 0, 0, 0, SUPPORT_BRUTE_FORCE};
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), x = make_vec3(R(1.0), R(0.0), R(0.0)),
        y = make_vec3(R(0.0), R(1.0), R(0.0)), z = make_vec3(R(0.0), R(0.0), R(1.0));
   convex shape =
-      shape_of_body(shapes.traits, shapes.size, shapes.convex, shapes.pose, body_orientation, tables, none, i);
-  real radius = load_row(shapes.size, i).w, rounding = R(1e-6) * radius;
+      shape_of_body(shapes.flags, shapes.size, shapes.convex, shapes.pose, body_orientation, tables, none, i);
+  real radius = load_float4(shapes.size, i).w, rounding = R(1e-6) * radius;
   vec3 spare = make_vec3(rounding, rounding, rounding);
   vec3 above = add(make_vec3(reach_along(&shape, x), reach_along(&shape, y), reach_along(&shape, z)), spare);
   vec3 below = add(
       make_vec3(reach_along(&shape, negate(x)), reach_along(&shape, negate(y)), reach_along(&shape, negate(z))), spare);
-  store_bounds_of_step(parameters, shapes.traits, body_mass, bounds, i, load_place(body_position, i).high,
-                       load_motion(body_velocity, i), below, above, radius);
+  store_bounds_of_step(parameters, shapes.flags, body_mass, bounds, i, load_position(body_position, i).high,
+                       load_velocity(body_velocity, i), below, above, radius);
 }
 
 #endif

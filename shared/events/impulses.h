@@ -18,19 +18,20 @@
 SHARED vec4 sum_of_rows(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 
 /* At the start of each substep. */
-SHARED void sum_impulses_item(GLOBAL const row *constraint_normal_impulse, GLOBAL row *constraint_impulse, uint substep,
-                              item_index i)
+SHARED void sum_impulses_item(GLOBAL const float4 *constraint_normal_impulse, GLOBAL float4 *constraint_impulse,
+                              uint substep, item_index i)
 {
   vec4 sum = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  if (substep > 0u) sum = sum_of_rows(load_row(constraint_impulse, i), load_row(constraint_normal_impulse, i));
-  store_row(constraint_impulse, i, sum);
+  if (substep > 0u) sum = sum_of_rows(load_float4(constraint_impulse, i), load_float4(constraint_normal_impulse, i));
+  store_float4(constraint_impulse, i, sum);
 }
 
-SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_impulse,
-                               GLOBAL const row *constraint_normal_impulse, GLOBAL row *pair_impulse, item_index i)
+SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_impulse,
+                               GLOBAL const float4 *constraint_normal_impulse, GLOBAL float4 *pair_impulse,
+                               item_index i)
 {
-  store_row(pair_impulse, load_natural(constraint_pair, i),
-            sum_of_rows(load_row(constraint_impulse, i), load_row(constraint_normal_impulse, i)));
+  store_float4(pair_impulse, load_uint(constraint_pair, i),
+               sum_of_rows(load_float4(constraint_impulse, i), load_float4(constraint_normal_impulse, i)));
 }
 
 /* Touching: some point overlaps where the step starts, or carried an impulse in it. The first alone would miss what
@@ -39,24 +40,25 @@ SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const 
 SHARED mask point_touches(vec4 point, real impulse) { return (point.w <= R(0.0)) | (impulse > R(0.0)); }
 
 /* Of a pair without a constraint pair_impulse holds what some step before left there. */
-SHARED vec4 impulse_of_pair(GLOBAL const uint *pair_color, GLOBAL const row *pair_impulse, natural pair)
+SHARED vec4 impulse_of_pair(GLOBAL const uint *pair_color, GLOBAL const float4 *pair_impulse, uint_lanes pair)
 {
-  mask solved = load_natural(pair_color, pair) != (natural)COLOR_INACTIVE;
-  return choose4(solved, load_row(pair_impulse, pair), make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  mask solved = load_uint(pair_color, pair) != (uint_lanes)COLOR_INACTIVE;
+  return choose4(solved, load_float4(pair_impulse, pair), make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
 }
 
-SHARED void find_touching_item(GLOBAL const uint *pair_color, GLOBAL const row *pair_impulse,
-                               GLOBAL const row *manifold_points, GLOBAL const uint *manifold_count,
+SHARED void find_touching_item(GLOBAL const uint *pair_color, GLOBAL const float4 *pair_impulse,
+                               GLOBAL const float4 *manifold_points, GLOBAL const uint *manifold_count,
                                GLOBAL const uint *counts, GLOBAL uint *pair_touching, item_index i)
 {
-  natural points = load_natural(manifold_count, i), touching = 0u;
+  uint_lanes points = load_uint(manifold_count, i), touching = 0u;
   vec4 impulse = impulse_of_pair(pair_color, pair_impulse, i);
   for (uint k = 0; k < 4u; ++k) {
-    mask touches = (points > (natural)k) & point_touches(load_row(manifold_points, counts[CAPACITY_PAIRS] * k + i),
-                                                         component(impulse, (natural)k));
-    touching = choose(touches, (natural)1u, touching);
+    mask touches =
+        (points > (uint_lanes)k) &
+        point_touches(load_float4(manifold_points, counts[CAPACITY_PAIRS] * k + i), component(impulse, (uint_lanes)k));
+    touching = choose(touches, (uint_lanes)1u, touching);
   }
-  store_natural(pair_touching, i, touching);
+  store_uint(pair_touching, i, touching);
 }
 
 #endif

@@ -1,7 +1,7 @@
 /* list.h - the events of a step: which pairs began to touch, touch still, or ceased to.
  *
  * Both lists of pairs, this step's and that of the last committed one, are sorted by (a, b) and owned by a. So each
- * body walks its two stretches side by side, as a merge does, and every pair of bodies turns up once, also where it
+ * body walks its two ranges side by side, as a merge does, and every pair of bodies turns up once, also where it
  * stands in one list alone:
  *
  *   body a   now      2 .  5 5 7      touching   1 .  0 1 1
@@ -18,7 +18,7 @@
 #include "shared/events/event_codes.h"
 #include "shared/events/impulses.h"
 
-/* What is left of the two stretches of a body. */
+/* What is left of the two ranges of a body. */
 typedef struct {
   uint now, now_end, before, before_end;
 } pair_walk;
@@ -75,10 +75,10 @@ typedef struct {
 SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifolds, uint stride, uint pair,
                          vec4 impulses)
 {
-  real impulse = R(0.0), depth = BOUNDLESS;
-  vec4 normal = load_row(manifolds.normal, pair);
+  real impulse = R(0.0), depth = UNBOUNDED;
+  vec4 normal = load_float4(manifolds.normal, pair);
   for (uint k = 0; k < manifolds.count[pair]; ++k) {
-    vec4 point = load_row(manifolds.points, stride * k + pair);
+    vec4 point = load_float4(manifolds.points, stride * k + pair);
     real carried = component(impulses, k);
     if (!point_touches(point, carried)) continue;
     vec3 where = add_scaled(xyz(point), velocity, moment_of(normal.w));
@@ -107,26 +107,27 @@ SHARED vec3 middle_of_contact(const contact_sum *sum)
   return sum->points > 0u ? scale(sum->overlapped, R(1.0) / to_real(sum->points)) : make_vec3(R(0.0), R(0.0), R(0.0));
 }
 
-SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint at, uint a, pair_change change,
-                        const contact_sum *sum, place where)
+SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL float4 *event_contact, uint at, uint a, pair_change change,
+                        const contact_sum *sum, double_float3 where)
 {
   real separation = sum->points > 0u ? sum->deepest : R(0.0);
   event_bodies[4u * at] = change.kind;
   event_bodies[4u * at + 1u] = a;
   event_bodies[4u * at + 2u] = change.b;
   event_bodies[4u * at + 3u] = sum->points;
-  store_row(event_contact, 3u * at, extend(where.high, sum->impulse));
-  store_row(event_contact, 3u * at + 1u, extend(where.low, separation));
-  store_row(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
+  store_float4(event_contact, 3u * at, extend(where.high, sum->impulse));
+  store_float4(event_contact, 3u * at + 1u, extend(where.low, separation));
+  store_float4(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
 }
 
 /* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet
  * when this runs. */
 SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const uint *pair_color,
-                              GLOBAL const row *pair_impulse, read_manifolds manifolds,
-                              read_cached_touching_pairs cached_touching_pairs, GLOBAL const row *body_position,
-                              GLOBAL const row *body_velocity, GLOBAL const uint *event_start,
-                              GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL row *event_contact, uint a)
+                              GLOBAL const float4 *pair_impulse, read_manifolds manifolds,
+                              read_cached_touching_pairs cached_touching_pairs, GLOBAL const float4 *body_position,
+                              GLOBAL const float4 *body_velocity, GLOBAL const uint *event_start,
+                              GLOBAL const uint *counts, GLOBAL uint *event_bodies, GLOBAL float4 *event_contact,
+                              uint a)
 {
   pair_walk walk = walk_of(touching_pairs.start, cached_touching_pairs.start, a);
   uint at = event_start[a];
@@ -134,13 +135,13 @@ SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const u
   while (walk_goes_on(&walk)) {
     pair_change change = next_change(&walk, touching_pairs, cached_touching_pairs);
     if (change.kind == (uint)EVENT_NONE) continue;
-    contact_sum sum = {none, none, none, R(0.0), R(0.0), BOUNDLESS, 0u};
-    place where = {none, none};
+    contact_sum sum = {none, none, none, R(0.0), R(0.0), UNBOUNDED, 0u};
+    double_float3 where = {none, none};
     if (change.kind != (uint)EVENT_END) {
       for (uint pair = change.first; pair < change.end; ++pair)
-        add_manifold(&sum, load_motion(body_velocity, a).linear, manifolds, counts[CAPACITY_PAIRS], pair,
+        add_manifold(&sum, load_velocity(body_velocity, a).linear, manifolds, counts[CAPACITY_PAIRS], pair,
                      impulse_of_pair(pair_color, pair_impulse, pair));
-      where = moved_place(load_place(body_position, a), middle_of_contact(&sum));
+      where = moved_position(load_position(body_position, a), middle_of_contact(&sum));
     }
     store_event(event_bodies, event_contact, at++, a, change, &sum, where);
   }

@@ -4,10 +4,10 @@
 
 #include "shared/records.h"
 
-SHARED void cache_rolling_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_rolling,
-                               GLOBAL row *cached_rolling_impulse, item_index i)
+SHARED void cache_rolling_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_rolling,
+                               GLOBAL float4 *cached_rolling_impulse, item_index i)
 {
-  store_row(cached_rolling_impulse, load_natural(constraint_pair, i), load_row(constraint_rolling, i));
+  store_float4(cached_rolling_impulse, load_uint(constraint_pair, i), load_float4(constraint_rolling, i));
 }
 
 #endif

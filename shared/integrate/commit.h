@@ -1,10 +1,9 @@
 /* commit.h - makes a finished step the state, or leaves the state as it was.
  *
- * One item gathers what went wrong into the status. Only if it is 0 do the commit kernels have a range to
- * run over, so a step that overflowed or broke has changed nothing and can be run again: it happens whole or not
- * at all.
- * Where the device itself fails in their midst, the host goes back to the previous side of the state, which
- * they only read (STATE and CACHE in buffers.def).
+ * One item gathers what went wrong into the status. The commit kernels have a range to run over only if the status is
+ * 0, so a step that overflowed or failed has changed nothing and can be run again. If the device itself fails during
+ * the commit, the host goes back to the previous side of the state, which the commit kernels only read (STATE and CACHE
+ * in buffers.def).
  */
 #ifndef TANDEM_SHARED_INTEGRATE_COMMIT_H
 #define TANDEM_SHARED_INTEGRATE_COMMIT_H
@@ -31,14 +30,14 @@ SHARED void begin_step_item(GLOBAL uint *counts, uint i)
   counts[COUNT_FIRST_MISBATCHED] = INDEX_NONE;
 }
 
-SHARED void check_bodies_item(GLOBAL const row *body_position, GLOBAL const row *solver_velocity,
-                              GLOBAL const row *solver_delta, GLOBAL const row *solver_orientation, GLOBAL uint *counts,
-                              item_index i)
+SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
+                              GLOBAL const float4 *solver_delta_pose, GLOBAL const float4 *solver_orientation,
+                              GLOBAL uint *counts, item_index i)
 {
-  motion m = load_motion(solver_velocity, i);
+  spatial_velocity m = load_velocity(solver_velocity, i);
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular), counts, i, NONFINITE_IN_SOLVE);
-  vec3 position = moved_place(load_place(body_position, i), xyz(load_row(solver_delta, i * 2u))).high;
-  note_nonfinite(is_finite(position) & quaternion_is_finite(load_row(solver_orientation, i)), counts, i,
+  vec3 position = moved_position(load_position(body_position, i), xyz(load_float4(solver_delta_pose, i * 2u))).high;
+  note_nonfinite(is_finite(position) & quaternion_is_finite(load_float4(solver_orientation, i)), counts, i,
                  NONFINITE_IN_INTEGRATE);
 }
 
@@ -59,17 +58,17 @@ SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
   counts[COUNT_COMMIT_CONSTRAINTS] = whole * counts[COUNT_CONSTRAINTS];
 }
 
-SHARED void commit_bodies_item(GLOBAL const row *solver_velocity, GLOBAL const row *solver_delta,
-                               GLOBAL const row *solver_orientation, GLOBAL const row *previous_body_position,
-                               GLOBAL const row *body_mass, GLOBAL row *body_position, GLOBAL row *body_orientation,
-                               GLOBAL row *body_velocity, item_index i)
+SHARED void commit_bodies_item(GLOBAL const float4 *solver_velocity, GLOBAL const float4 *solver_delta_pose,
+                               GLOBAL const float4 *solver_orientation, GLOBAL const float4 *previous_body_position,
+                               GLOBAL const float4 *body_mass, GLOBAL float4 *body_position,
+                               GLOBAL float4 *body_orientation, GLOBAL float4 *body_velocity, item_index i)
 {
-  store_place(body_position, i,
-              moved_place(load_place(previous_body_position, i), xyz(load_row(solver_delta, i * 2u))));
-  store_row(body_orientation, i, load_row(solver_orientation, i));
-  motion m = load_motion(solver_velocity, i);
-  store_row(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
-  store_row(body_velocity, i * 2u + 1u, extend(m.angular, load_row(body_mass, i * 2u).w));
+  store_position(body_position, i,
+                 moved_position(load_position(previous_body_position, i), xyz(load_float4(solver_delta_pose, i * 2u))));
+  store_float4(body_orientation, i, load_float4(solver_orientation, i));
+  spatial_velocity m = load_velocity(solver_velocity, i);
+  store_float4(body_velocity, i * 2u, extend(m.linear, m.inverse_mass));
+  store_float4(body_velocity, i * 2u + 1u, extend(m.angular, load_float4(body_mass, i * 2u).w));
 }
 
 SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached_start, uint i)
@@ -77,43 +76,44 @@ SHARED void cache_starts_item(GLOBAL const uint *pair_start, GLOBAL uint *cached
   cached_start[i] = pair_start[i];
 }
 
-SHARED void cache_normals_item(GLOBAL const row *manifold_normal, GLOBAL row *cached_normal, item_index i)
+SHARED void cache_normals_item(GLOBAL const float4 *manifold_normal, GLOBAL float4 *cached_normal, item_index i)
 {
-  store_row(cached_normal, i, load_row(manifold_normal, i));
+  store_float4(cached_normal, i, load_float4(manifold_normal, i));
 }
 
 SHARED void cache_pairs_item(GLOBAL const uint *pair_b, GLOBAL const uint *pair_color,
                              GLOBAL const uint *manifold_feature, GLOBAL uint *cached_b, GLOBAL uint *cached_color,
-                             GLOBAL uint *cached_feature, GLOBAL row *cached_normal_impulse,
-                             GLOBAL row *cached_friction_impulse, item_index i)
+                             GLOBAL uint *cached_feature, GLOBAL float4 *cached_normal_impulse,
+                             GLOBAL float4 *cached_friction_impulse, item_index i)
 {
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  store_natural(cached_b, i, load_natural(pair_b, i));
-  store_natural(cached_color, i, load_natural(pair_color, i));
-  store_natural(cached_feature, i, load_natural(manifold_feature, i));
-  store_row(cached_normal_impulse, i, zero);
-  store_row(cached_friction_impulse, i, zero);
+  store_uint(cached_b, i, load_uint(pair_b, i));
+  store_uint(cached_color, i, load_uint(pair_color, i));
+  store_uint(cached_feature, i, load_uint(manifold_feature, i));
+  store_float4(cached_normal_impulse, i, zero);
+  store_float4(cached_friction_impulse, i, zero);
 }
 
-/* What only pairs with a constraint will fill: the others must not keep what an older step left. */
-SHARED void clear_cached_item(GLOBAL row *rows, uint per_item, item_index i)
+/* Clears the rows that only pairs with a constraint will fill, because the others must not keep what an older step
+ * left. */
+SHARED void clear_cached_item(GLOBAL float4 *rows, uint per_item, item_index i)
 {
-  for (uint k = 0u; k < per_item; ++k) store_row(rows, i * per_item + k, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  for (uint k = 0u; k < per_item; ++k) store_float4(rows, i * per_item + k, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
 }
 
 /* Slots, not points, are what the next step looks for, but impulses stay with their points: slots tell them apart.
  * Friction is kept as a vector of the world, since its tangents turn with the normal. */
-SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_normal,
-                                GLOBAL const row *constraint_normal_impulse,
-                                GLOBAL const row *constraint_friction_impulse, GLOBAL row *cached_normal_impulse,
-                                GLOBAL row *cached_friction_impulse, item_index i)
+SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_normal,
+                                GLOBAL const float4 *constraint_normal_impulse,
+                                GLOBAL const float4 *constraint_friction_impulse, GLOBAL float4 *cached_normal_impulse,
+                                GLOBAL float4 *cached_friction_impulse, item_index i)
 {
-  natural pair = load_natural(constraint_pair, i);
-  vec4 friction = load_row(constraint_friction_impulse, i);
-  tangents t = tangents_of(xyz(load_row(constraint_normal, i)));
-  store_row(cached_normal_impulse, pair, load_row(constraint_normal_impulse, i));
-  store_row(cached_friction_impulse, pair,
-            extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
+  uint_lanes pair = load_uint(constraint_pair, i);
+  vec4 friction = load_float4(constraint_friction_impulse, i);
+  tangents t = tangents_of(xyz(load_float4(constraint_normal, i)));
+  store_float4(cached_normal_impulse, pair, load_float4(constraint_normal_impulse, i));
+  store_float4(cached_friction_impulse, pair,
+               extend(add(scale(t.first, friction.x), scale(t.second, friction.y)), friction.z));
 }
 
 #endif

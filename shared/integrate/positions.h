@@ -1,9 +1,9 @@
 /* positions.h - moves and turns bodies over one substep.
  *
- * Translation is accumulated apart from the position, which may be far from the origin. A body whose constraints are
- * out of reach within the step, and which none pushes for all that, moves on the exact parabola; others on the
- * symplectic Euler step that the solver assumes: at rest one would rise by half of what gravity makes it fall in a
- * substep.
+ * Translation is accumulated apart from the position, which may be far from the origin. A body moves on the exact
+ * parabola if all its constraints are out of reach within the step and none of them pushes it. Other bodies move by the
+ * symplectic Euler step that the solver assumes, because on the parabola a body at rest would rise by half of what
+ * gravity makes it fall in a substep.
  *
  * Rotation keeps the angular momentum L, not the angular velocity, constant. With the middle one m of the inverse
  * moments d the energy of spin is a sum of parts, each of which alone is an exact rotation:
@@ -79,44 +79,45 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
   return s;
 }
 
-/* unpushed: velocity times gravity as the forces alone make it (integrate_velocities). */
-SHARED mask is_left_alone(GLOBAL const Parameters *parameters, motion m, real unpushed)
+/* free_power: velocity times gravity as the forces alone make it (integrate_velocities). */
+SHARED mask is_left_alone(GLOBAL const Parameters *parameters, spatial_velocity m, real free_power)
 {
   vec3 gravity = gravity_of(parameters);
-  real borne = magnitude(inner(gravity, m.linear) - unpushed);
+  real borne = magnitude(dot3(gravity, m.linear) - free_power);
   return borne <= WEIGHTLESS * parameters->substep * length_squared(gravity);
 }
 
-SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_unpushed,
-                                     GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_inertia,
-                                     GLOBAL row *solver_orientation, item_index i)
+SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
+                                     GLOBAL const uint *body_falls, GLOBAL const memory_real *solver_free_power,
+                                     GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
+                                     GLOBAL float4 *solver_inertia, GLOBAL float4 *solver_orientation, item_index i)
 {
-  motion m = load_motion(solver_velocity, i);
+  spatial_velocity m = load_velocity(solver_velocity, i);
   real h = parameters->substep;
-  vec4 mass = load_row(body_mass, i * 2u);
-  mask falls = (load_natural(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
-               is_left_alone(parameters, m, load_real(solver_unpushed, i));
+  vec4 mass = load_float4(body_mass, i * 2u);
+  mask falls = (load_uint(body_falls, i) != 0u) & (m.inverse_mass > R(0.0)) &
+               is_left_alone(parameters, m, load_real(solver_free_power, i));
   real ahead = choose(falls, R(-0.5) * h * h * mass.w, (real)R(0.0));
   vec3 gravity = gravity_of(parameters);
 
-  vec3 translation = xyz(load_row(solver_delta, i * 2u)), rotation = xyz(load_row(solver_delta, i * 2u + 1u));
+  vec3 translation = xyz(load_float4(solver_delta_pose, i * 2u)),
+       rotation = xyz(load_float4(solver_delta_pose, i * 2u + 1u));
   translation = add_scaled(add_scaled(translation, m.linear, h), gravity, ahead);
-  store_row(solver_delta, i * 2u, extend(translation, R(0.0)));
-  store_row(solver_delta, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
+  store_float4(solver_delta_pose, i * 2u, extend(translation, R(0.0)));
+  store_float4(solver_delta_pose, i * 2u + 1u, extend(add_scaled(rotation, m.angular, h), R(0.0)));
 
-  quat q = quat_from(load_row(solver_orientation, i));
+  quat q = quat_from(load_float4(solver_orientation, i));
   quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
     /* Per body, so that a body's bits do not depend on what else is in the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
     spin s = turn_freely(q, m.angular, xyz(mass), h);
-    next = quat_from(choose4(uneven, quat_to_row(s.orientation), quat_to_row(next)));
+    next = quat_from(choose4(uneven, quat_to_vec4(s.orientation), quat_to_vec4(next)));
     m.angular = s.angular;
-    store_motion_if(uneven, solver_velocity, i, m);
+    store_velocity_if(uneven, solver_velocity, i, m);
     store_inertia_if(uneven, solver_inertia, i, rotate_diagonal(rotation_of(next), xyz(mass)));
   }
-  store_row(solver_orientation, i, quat_to_row(next));
+  store_float4(solver_orientation, i, quat_to_vec4(next));
 }
 
 #endif

@@ -10,39 +10,40 @@
 #include "shared/records.h"
 
 /* Notes the first body, in pipeline order and then by index, that is not finite. */
-SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, natural body, uint stage)
+SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, uint_lanes body, uint stage)
 {
   mask bad = !finite;
-  if (any_of(bad)) atomic_min_if(bad, counts, COUNT_NONFINITE, body | (natural)(stage << 28u));
+  if (any_of(bad)) atomic_min_if(bad, counts, COUNT_NONFINITE, body | (uint_lanes)(stage << 28u));
 }
 
 SHARED mask quaternion_is_finite(vec4 q) { return is_finite(xyz(q)) & is_finite(make_vec3(q.w, q.w, q.w)); }
 
-SHARED void prepare_bodies_item(GLOBAL const row *body_mass, read_bodies bodies, GLOBAL uint *counts,
-                                GLOBAL row *solver_velocity, GLOBAL row *solver_delta, GLOBAL row *solver_push,
-                                GLOBAL row *solver_inertia, GLOBAL row *solver_orientation, GLOBAL uint *body_colors,
-                                GLOBAL uint *body_bid, GLOBAL uint *body_falls, item_index i)
+SHARED void prepare_bodies_item(GLOBAL const float4 *body_mass, read_bodies bodies, GLOBAL uint *counts,
+                                GLOBAL float4 *solver_velocity, GLOBAL float4 *solver_delta_pose,
+                                GLOBAL float4 *warm_start_impulse, GLOBAL float4 *solver_inertia,
+                                GLOBAL float4 *solver_orientation, GLOBAL uint *body_colors, GLOBAL uint *body_bid,
+                                GLOBAL uint *body_falls, item_index i)
 {
-  motion m = load_motion(bodies.velocity, i);
-  vec4 orientation = load_row(bodies.orientation, i);
-  place position = load_place(bodies.position, i);
+  spatial_velocity m = load_velocity(bodies.velocity, i);
+  vec4 orientation = load_float4(bodies.orientation, i);
+  double_float3 position = load_position(bodies.position, i);
   vec4 zero = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   note_nonfinite(is_finite(m.linear) & is_finite(m.angular) & is_finite(position.high) & is_finite(position.low) &
                      quaternion_is_finite(orientation),
                  counts, i, NONFINITE_AT_START);
-  store_motion(solver_velocity, i, m);
-  store_row(solver_delta, i * 2u, zero);
-  store_row(solver_delta, i * 2u + 1u, zero);
-  store_row(solver_push, i * 2u, zero);
-  store_row(solver_push, i * 2u + 1u, zero);
+  store_velocity(solver_velocity, i, m);
+  store_float4(solver_delta_pose, i * 2u, zero);
+  store_float4(solver_delta_pose, i * 2u + 1u, zero);
+  store_float4(warm_start_impulse, i * 2u, zero);
+  store_float4(warm_start_impulse, i * 2u + 1u, zero);
   store_inertia(solver_inertia, i,
-                rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_row(body_mass, i * 2u))));
-  store_row(solver_orientation, i, orientation);
-  store_natural(body_colors, i * 2u, 0u);
-  store_natural(body_colors, i * 2u + 1u, 0u);
-  store_natural(body_bid, i * 2u, 0u);
-  store_natural(body_bid, i * 2u + 1u, 0u);
-  store_natural(body_falls, i, 1u);
+                rotate_diagonal(rotation_of(quat_from(orientation)), xyz(load_float4(body_mass, i * 2u))));
+  store_float4(solver_orientation, i, orientation);
+  store_uint(body_colors, i * 2u, 0u);
+  store_uint(body_colors, i * 2u + 1u, 0u);
+  store_uint(body_bid, i * 2u, 0u);
+  store_uint(body_bid, i * 2u + 1u, 0u);
+  store_uint(body_falls, i, 1u);
 }
 
 #endif

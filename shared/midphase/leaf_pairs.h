@@ -53,19 +53,19 @@ typedef struct {
 
 SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 offset)
 {
-  quat turned = quat_from(load_row(scene->bodies.orientation, body)),
-       own = quat_from(load_row(scene->shapes.pose, body * 4u + 1u));
+  quat turned = quat_from(load_float4(scene->bodies.orientation, body)),
+       own = quat_from(load_float4(scene->shapes.pose, body * 4u + 1u));
   tree_body result;
   result.body = body;
   result.tree_number = scene->body_trees[body * 2u];
   result.first_child = scene->body_trees[body * 2u + 1u];
   result.rotation = rotation_of(quat_multiply(turned, own));
-  result.center = add(offset, rotate(rotation_of(turned), xyz(load_row(scene->shapes.pose, body * 4u))));
+  result.center = add(offset, rotate(rotation_of(turned), xyz(load_float4(scene->shapes.pose, body * 4u))));
   return result;
 }
 
 /* A body with continuous collision may be turned anywhere within the step: bounds_of a body in broadphase/bounds.h. */
-SHARED real way_anywhere(const midphase_scene *scene, motion m)
+SHARED real distance_anywhere(const midphase_scene *scene, spatial_velocity m)
 {
   real step = scene->parameters->step;
   return step * (length_of(m.linear) + step * length_of(gravity_of(scene->parameters)));
@@ -75,19 +75,20 @@ SHARED real way_anywhere(const midphase_scene *scene, motion m)
  * manifold.h. */
 SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
 {
-  real radius_a = load_row(scene->shapes.size, a).w, radius_b = load_row(scene->shapes.size, b).w;
-  motion motion_a = load_motion(scene->bodies.velocity, a), motion_b = load_motion(scene->bodies.velocity, b);
-  real turn = length_of(motion_a.angular) * radius_a + length_of(motion_b.angular) * radius_b;
+  real radius_a = load_float4(scene->shapes.size, a).w, radius_b = load_float4(scene->shapes.size, b).w;
+  spatial_velocity velocity_a = load_velocity(scene->bodies.velocity, a),
+                   velocity_b = load_velocity(scene->bodies.velocity, b);
+  real turn = length_of(velocity_a.angular) * radius_a + length_of(velocity_b.angular) * radius_b;
   real margin = scene->parameters->speculative_distance + scene->parameters->step * turn +
                 R(1e-6) * (length_of(offset) + radius_a + radius_b);
-  if (!HAS_FEATURE(scene->parameters, CONTINUOUS) || !is_continuous(scene->shapes.traits[a] | scene->shapes.traits[b]))
+  if (!HAS_FEATURE(scene->parameters, CONTINUOUS) || !is_continuous(scene->shapes.flags[a] | scene->shapes.flags[b]))
     return margin;
-  return margin + way_anywhere(scene, motion_a) + way_anywhere(scene, motion_b);
+  return margin + distance_anywhere(scene, velocity_a) + distance_anywhere(scene, velocity_b);
 }
 SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
 {
   return scale(
-      subtract(load_motion(scene->bodies.velocity, of).linear, load_motion(scene->bodies.velocity, from).linear),
+      subtract(load_velocity(scene->bodies.velocity, of).linear, load_velocity(scene->bodies.velocity, from).linear),
       scene->parameters->step);
 }
 
@@ -105,15 +106,15 @@ SHARED mask probe_hits(const tree_probe *probe, box_bounds box)
   vec3 n = probe->normal;
   vec3 lowest = make_vec3(n.x > R(0.0) ? box.lower.x : box.upper.x, n.y > R(0.0) ? box.lower.y : box.upper.y,
                           n.z > R(0.0) ? box.lower.z : box.upper.z);
-  return inner(n, lowest) <= probe->height;
+  return dot3(n, lowest) <= probe->height;
 }
 
 /* A box of half extents along the columns of `rotation`, as a box along the axes that rotation leads to, swept by a
  * motion. */
 SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion, real margin)
 {
-  vec3 reach = make_vec3(inner(absolute(rotation.x), extent) + margin, inner(absolute(rotation.y), extent) + margin,
-                         inner(absolute(rotation.z), extent) + margin);
+  vec3 reach = make_vec3(dot3(absolute(rotation.x), extent) + margin, dot3(absolute(rotation.y), extent) + margin,
+                         dot3(absolute(rotation.z), extent) + margin);
   vec3 low = make_vec3(minimum(motion.x, R(0.0)), minimum(motion.y, R(0.0)), minimum(motion.z, R(0.0)));
   vec3 high = make_vec3(maximum(motion.x, R(0.0)), maximum(motion.y, R(0.0)), maximum(motion.z, R(0.0)));
   box_bounds box = {add(subtract(center, reach), low), add(add(center, reach), high)};
@@ -125,17 +126,17 @@ SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion
 SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single,
                                    real margin)
 {
-  mat3 turned = rotation_of(quat_from(load_row(scene->bodies.orientation, single)));
+  mat3 turned = rotation_of(quat_from(load_float4(scene->bodies.orientation, single)));
   vec3 motion = relative_motion(scene, owner->body, single);
   tree_probe probe;
-  probe.below_plane = shape_of(scene->shapes.traits[single]) == (uint)SHAPE_HALF_SPACE;
+  probe.below_plane = shape_of(scene->shapes.flags[single]) == (uint)SHAPE_HALF_SPACE;
   probe.normal = rotate_back(owner->rotation, axis_y(turned));
-  probe.height = inner(axis_y(turned), subtract(to_single, owner->center)) + margin +
-                 maximum(inner(axis_y(turned), motion), R(0.0));
-  vec3 middle = add(to_single, rotate(turned, xyz(load_row(scene->shapes.pose, single * 4u + 2u))));
+  probe.height =
+      dot3(axis_y(turned), subtract(to_single, owner->center)) + margin + maximum(dot3(axis_y(turned), motion), R(0.0));
+  vec3 middle = add(to_single, rotate(turned, xyz(load_float4(scene->shapes.pose, single * 4u + 2u))));
   probe.box = swept_box(
       relative_rotation(owner->rotation, turned), rotate_back(owner->rotation, subtract(middle, owner->center)),
-      xyz(load_row(scene->shapes.pose, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
+      xyz(load_float4(scene->shapes.pose, single * 4u + 3u)), rotate_back(owner->rotation, motion), margin);
   return probe;
 }
 

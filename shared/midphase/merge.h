@@ -32,34 +32,34 @@ SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, ui
 /* Two normals with the moments of their impacts. approach: velocity of a against b. */
 SHARED mask press_alike(GLOBAL const Parameters *parameters, vec4 first, vec4 second, vec3 approach)
 {
-  real nearer = magnitude(inner(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
-  return inner(xyz(first), xyz(second)) >= SAME_DIRECTION &&
+  real nearer = magnitude(dot3(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
+  return dot3(xyz(first), xyz(second)) >= SAME_DIRECTION &&
          nearer <= maximum(SAME_APPROACH * parameters->slop, R(1e-5)) &&
          magnitude(first.w - second.w) <= SAME_MOMENT * parameters->step && keeps_arms(first.w) == keeps_arms(second.w);
 }
 
-SHARED mask same_material(GLOBAL const uint *traits, GLOBAL const uint *pair_leaf, uint i, uint j)
+SHARED mask same_material(GLOBAL const uint *flags, GLOBAL const uint *pair_leaf, uint i, uint j)
 {
-  return material_of(traits[pair_leaf[i * 4u]]) == material_of(traits[pair_leaf[j * 4u]]) &&
-         material_of(traits[pair_leaf[i * 4u + 2u]]) == material_of(traits[pair_leaf[j * 4u + 2u]]);
+  return material_of(flags[pair_leaf[i * 4u]]) == material_of(flags[pair_leaf[j * 4u]]) &&
+         material_of(flags[pair_leaf[i * 4u + 2u]]) == material_of(flags[pair_leaf[j * 4u + 2u]]);
 }
 
 /* The first leaf of a pair of bodies goes through all of them. */
-SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *traits,
-                                 GLOBAL const row *velocities, read_manifolds manifolds, GLOBAL const uint *counts,
+SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
+                                 GLOBAL const float4 *velocities, read_manifolds manifolds, GLOBAL const uint *counts,
                                  GLOBAL uint *group, uint i)
 {
   if (i > 0u && same_bodies(pairs.a, pairs.b, i, i - 1u)) return;
-  vec3 approach = subtract(load_motion(velocities, pairs.a[i]).linear, load_motion(velocities, pairs.b[i]).linear);
+  vec3 approach = subtract(load_velocity(velocities, pairs.a[i]).linear, load_velocity(velocities, pairs.b[i]).linear);
   uint end = counts[COUNT_PAIRS];
   for (uint j = i; j < end && same_bodies(pairs.a, pairs.b, i, j); ++j) {
     group[j] = j;
     if (manifolds.count[j] == 0u) continue;
-    vec4 normal = load_row(manifolds.normal, j);
+    vec4 normal = load_float4(manifolds.normal, j);
     for (uint k = i; k < j; ++k) {
       if (group[k] != k || manifolds.count[k] == 0u) continue;
-      if (!press_alike(parameters, load_row(manifolds.normal, k), normal, approach) ||
-          !same_material(traits, pairs.leaf, j, k))
+      if (!press_alike(parameters, load_float4(manifolds.normal, k), normal, approach) ||
+          !same_material(flags, pairs.leaf, j, k))
         continue;
       group[j] = k;
       break;
@@ -70,7 +70,7 @@ SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_
 /* The manifolds of a group, as they stand in the buffers. */
 typedef struct {
   GLOBAL const uint *group, *counts_of_points;
-  GLOBAL const row *points;
+  GLOBAL const float4 *points;
   uint stride, first, end; /* leaves first .. end - 1 may belong to the group of `first` */
 } manifold_group;
 
@@ -82,8 +82,8 @@ SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axe
   for (uint j = group->first; j < group->end; ++j) {
     if (group->group[j] != group->first) continue;
     for (uint k = 0u; k < group->counts_of_points[j]; ++k) {
-      vec4 point = load_row(group->points, group->stride * k + j);
-      clip_point candidate = {inner(axes.first, xyz(point)), inner(axes.second, xyz(point)), point.w, 1};
+      vec4 point = load_float4(group->points, group->stride * k + j);
+      clip_point candidate = {dot3(axes.first, xyz(point)), dot3(axes.second, xyz(point)), point.w, 1};
       if (!wanted) reduce_step(r, candidate);
       else if (candidate.u == wanted->u && candidate.v == wanted->v && candidate.separation == wanted->separation)
         return xyz(point);
@@ -114,7 +114,7 @@ SHARED manifold joined_manifold(const manifold_group *group, vec4 first, real si
   return m;
 }
 
-SHARED void merge_manifolds_item(read_pairs pairs, GLOBAL const row *shapes, GLOBAL const uint *group,
+SHARED void merge_manifolds_item(read_pairs pairs, GLOBAL const float4 *shapes, GLOBAL const uint *group,
                                  GLOBAL const uint *counts, write_manifolds manifolds, uint i)
 {
   if (group[i] != i || manifolds.count[i] == 0u) return;
@@ -123,9 +123,9 @@ SHARED void merge_manifolds_item(read_pairs pairs, GLOBAL const row *shapes, GLO
     members = members + (group[end] == i ? 1u : 0u);
   if (members == 0u) return;
   manifold_group all = {group, manifolds.count, manifolds.points, stride, i, end};
-  real radius_a = load_row(shapes, pairs.a[i]).w, radius_b = load_row(shapes, pairs.b[i]).w;
+  real radius_a = load_float4(shapes, pairs.a[i]).w, radius_b = load_float4(shapes, pairs.b[i]).w;
   real size = radius_a > R(0.0) && (radius_a < radius_b || radius_b <= R(0.0)) ? radius_a : radius_b;
-  manifold m = joined_manifold(&all, load_row(manifolds.normal, i), size);
+  manifold m = joined_manifold(&all, load_float4(manifolds.normal, i), size);
   manifold nothing = single_contact(m.normal, xyz(m.point[0]), R(0.0), 0);
   for (uint j = i + 1u; j < end; ++j)
     if (group[j] == i) store_manifold_if(1, nothing, stride, manifolds, j);

@@ -167,7 +167,7 @@ SHARED box_bounds reach_of_tree(LOCAL const uint *memory, uint k)
     reach.upper = make_vec3(maximum(reach.upper.x, box.upper.x), maximum(reach.upper.y, box.upper.y),
                             maximum(reach.upper.z, box.upper.z));
   }
-  box_bounds all = {make_vec3(-BOUNDLESS, -BOUNDLESS, -BOUNDLESS), make_vec3(BOUNDLESS, BOUNDLESS, BOUNDLESS)};
+  box_bounds all = {make_vec3(-UNBOUNDED, -UNBOUNDED, -UNBOUNDED), make_vec3(UNBOUNDED, UNBOUNDED, UNBOUNDED)};
   return endless ? all : reach;
 }
 

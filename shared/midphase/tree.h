@@ -25,9 +25,9 @@
 
 /* Of all the scene's trees, one behind the other. */
 typedef struct {
-  GLOBAL const uint *headers; /* TREE_HEADER a tree */
-  GLOBAL const row *frames;   /* 2 a tree: origin and step of its 16-bit coordinates */
-  GLOBAL const uint *nodes;   /* 4 a node */
+  GLOBAL const uint *headers;  /* TREE_HEADER a tree */
+  GLOBAL const float4 *frames; /* 2 a tree: origin and step of its 16-bit coordinates */
+  GLOBAL const uint *nodes;    /* 4 a node */
   GLOBAL const uint
       *leaves; /* 2 a leaf: the child it belongs to (INDEX_NONE: the body's own shape), its triangle or INDEX_NONE */
 } tree_tables;
@@ -46,8 +46,8 @@ typedef struct {
 SHARED tree load_tree(tree_tables tables, uint number)
 {
   GLOBAL const uint *header = tables.headers + number * TREE_HEADER;
-  tree t = {header[0], header[1], header[2], xyz(load_row(tables.frames, number * 2u)),
-            xyz(load_row(tables.frames, number * 2u + 1u))};
+  tree t = {header[0], header[1], header[2], xyz(load_float4(tables.frames, number * 2u)),
+            xyz(load_float4(tables.frames, number * 2u + 1u))};
   return t;
 }
 

@@ -42,15 +42,15 @@ typedef struct {
   real extent, extent_u, extent_v;
 } box_frame;
 
-SHARED real pick(natural k, real first, real second, real third)
+SHARED real pick(uint_lanes k, real first, real second, real third)
 {
   return choose(k == 0u, first, choose(k == 1u, second, third));
 }
-SHARED vec3 pick3(natural k, vec3 first, vec3 second, vec3 third)
+SHARED vec3 pick3(uint_lanes k, vec3 first, vec3 second, vec3 third)
 {
   return choose3(k == 0u, first, choose3(k == 1u, second, third));
 }
-SHARED box_frame frame_of(oriented_box box, natural k)
+SHARED box_frame frame_of(oriented_box box, uint_lanes k)
 {
   box_frame frame;
   frame.axis = pick3(k, box.x, box.y, box.z);
@@ -64,13 +64,13 @@ SHARED box_frame frame_of(oriented_box box, natural k)
 
 /* The face axis most parallel to a direction. Near ties go to the lower index, so that rounding noise
  * cannot move the choice of a box that stands on an edge. */
-SHARED natural most_parallel_axis(oriented_box box, vec3 direction)
+SHARED uint_lanes most_parallel_axis(oriented_box box, vec3 direction)
 {
-  real x = magnitude(inner(box.x, direction)), y = magnitude(inner(box.y, direction));
-  real z = magnitude(inner(box.z, direction)), lead = R(1e-3);
+  real x = magnitude(dot3(box.x, direction)), y = magnitude(dot3(box.y, direction));
+  real z = magnitude(dot3(box.z, direction)), lead = R(1e-3);
   mask y_leads = y > x + lead;
-  natural k = choose(y_leads, (natural)1u, (natural)0u);
-  return choose(z > choose(y_leads, y, x) + lead, (natural)2u, k);
+  uint_lanes k = choose(y_leads, (uint_lanes)1u, (uint_lanes)0u);
+  return choose(z > choose(y_leads, y, x) + lead, (uint_lanes)2u, k);
 }
 
 #endif

@@ -37,14 +37,14 @@
 
 typedef struct {
   real separation;
-  natural code;
-  natural edges;   /* code of the best axis of two edges */
-  mask edges_lead; /* the separation is theirs, though the code may be that of a face (NEARLY_ALONG) */
+  uint_lanes code;
+  uint_lanes edges; /* code of the best axis of two edges */
+  mask edges_lead;  /* the separation is theirs, though the code may be that of a face (NEARLY_ALONG) */
 } separating_axis;
 
 typedef struct {
   real separation;
-  natural code;
+  uint_lanes code;
 } best_axis;
 
 SHARED best_axis better_axis(best_axis best, real separation, uint code, real lead)
@@ -52,7 +52,7 @@ SHARED best_axis better_axis(best_axis best, real separation, uint code, real le
   mask better = separation > best.separation + lead;
   best_axis result = best;
   result.separation = choose(better, separation, best.separation);
-  result.code = choose(better, (natural)code, best.code);
+  result.code = choose(better, (uint_lanes)code, best.code);
   return result;
 }
 
@@ -80,10 +80,7 @@ SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 exte
                      code + 6u, noise);
 }
 
-SHARED vec3 in_axes_of(oriented_box box, vec3 v)
-{
-  return make_vec3(inner(box.x, v), inner(box.y, v), inner(box.z, v));
-}
+SHARED vec3 in_axes_of(oriented_box box, vec3 v) { return make_vec3(dot3(box.x, v), dot3(box.y, v), dot3(box.z, v)); }
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 
 /* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
@@ -108,25 +105,25 @@ SHARED mask only_edges_meet(vec3 gap, real rounded, real lead)
 }
 
 /* Edge k of a and edge j of b, from the code of their axis. */
-SHARED natural edge_of_a(natural code)
+SHARED uint_lanes edge_of_a(uint_lanes code)
 {
-  return choose(code >= 12u, (natural)2u, choose(code >= 9u, (natural)1u, (natural)0u));
+  return choose(code >= 12u, (uint_lanes)2u, choose(code >= 9u, (uint_lanes)1u, (uint_lanes)0u));
 }
-SHARED natural edge_of_b(natural code) { return code - 6u - edge_of_a(code) * 3u; }
+SHARED uint_lanes edge_of_b(uint_lanes code) { return code - 6u - edge_of_a(code) * 3u; }
 
 /* The product of axis k with a vector, both in the axes of a box. */
-SHARED vec3 across_axis(natural k, vec3 v)
+SHARED vec3 across_axis(uint_lanes k, vec3 v)
 {
   real zero = R(0.0);
   return pick3(k, make_vec3(zero, -v.z, v.y), make_vec3(v.z, zero, -v.x), make_vec3(-v.y, v.x, zero));
 }
 
 /* Whether the axis of two edges is inclined to that of a face. x, y, z: the axes of b, in those of a. */
-SHARED mask is_inclined(natural edges, natural face, vec3 x, vec3 y, vec3 z, real cosine)
+SHARED mask is_inclined(uint_lanes edges, uint_lanes face, vec3 x, vec3 y, vec3 z, real cosine)
 {
   vec3 across = across_axis(edge_of_a(edges), pick3(edge_of_b(edges), x, y, z));
-  natural of_b = face - 3u;
-  real along = choose(face < 3u, pick(face, across.x, across.y, across.z), inner(across, pick3(of_b, x, y, z)));
+  uint_lanes of_b = face - 3u;
+  real along = choose(face < 3u, pick(face, across.x, across.y, across.z), dot3(across, pick3(of_b, x, y, z)));
   return along * along < cosine * cosine * length_squared(across);
 }
 
@@ -139,10 +136,10 @@ SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 o
   vec3 to_b = in_axes_of(a, offset);
   vec3 x = in_axes_of(a, b.x), y = in_axes_of(a, b.y), z = in_axes_of(a, b.z);
   vec3 size_x = absolute(x), size_y = absolute(y), size_z = absolute(z);
-  vec3 along_b = make_vec3(inner(to_b, x), inner(to_b, y), inner(to_b, z));
+  vec3 along_b = make_vec3(dot3(to_b, x), dot3(to_b, y), dot3(to_b, z));
 
   vec3 reach_of_b = add_scaled(add_scaled(scale(size_x, b.extent.x), size_y, b.extent.y), size_z, b.extent.z);
-  vec3 reach_of_a = make_vec3(inner(a.extent, size_x), inner(a.extent, size_y), inner(a.extent, size_z));
+  vec3 reach_of_a = make_vec3(dot3(a.extent, size_x), dot3(a.extent, size_y), dot3(a.extent, size_z));
   vec3 gap_a = subtract(subtract(absolute(to_b), a.extent), reach_of_b);
   vec3 gap_b = subtract(subtract(absolute(along_b), b.extent), reach_of_a);
 

@@ -16,57 +16,58 @@
 /* Two boxes relative to a, and the axis between them. */
 typedef struct {
   oriented_box a, b;
-  vec3 offset;  /* centre of b seen from the centre of a */
-  vec3 normal;  /* unit, from a to b */
-  real gap;     /* along it */
-  natural code; /* of the axis: box_axes.h */
-  natural
+  vec3 offset;     /* centre of b seen from the centre of a */
+  vec3 normal;     /* unit, from a to b */
+  real gap;        /* along it */
+  uint_lanes code; /* of the axis: box_axes.h */
+  uint_lanes
       edges; /* code of the edges that will do where the axis is a face's (edges_lead) and no point lies on the face */
   mask edges_lead;
 } box_pair;
 
-SHARED natural bit_if(mask m, uint bit) { return choose(m, (natural)1u, (natural)0u) << bit; }
+SHARED uint_lanes bit_if(mask m, uint bit) { return choose(m, (uint_lanes)1u, (uint_lanes)0u) << bit; }
 
-SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, natural code)
+SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, uint_lanes code)
 {
   mask on_edges = code >= 6u;
-  natural k = choose(on_edges, edge_of_a(code), code), j = choose(on_edges, edge_of_b(code), code - 3u);
+  uint_lanes k = choose(on_edges, edge_of_a(code), code), j = choose(on_edges, edge_of_b(code), code - 3u);
   vec3 axis_a = pick3(k, a.x, a.y, a.z), axis_b = pick3(j, b.x, b.y, b.z);
-  vec3 across = outer(axis_a, axis_b);
+  vec3 across = cross3(axis_a, axis_b);
   vec3 axis = choose3(on_edges, across, choose3(code < 3u, axis_a, axis_b));
   real length = choose(on_edges, length_of(across), (real)R(1.0));
-  return scale(axis, sign_of(inner(axis, offset)) / length);
+  return scale(axis, sign_of(dot3(axis, offset)) / length);
 }
 
 /* From the middle of a box to the middle of that of its edges along frame.axis that lies farthest in a direction. */
 SHARED vec3 support_edge(box_frame frame, vec3 direction)
 {
-  vec3 u = scale(frame.u, frame.extent_u * sign_of(inner(frame.u, direction)));
-  return add_scaled(u, frame.v, frame.extent_v * sign_of(inner(frame.v, direction)));
+  vec3 u = scale(frame.u, frame.extent_u * sign_of(dot3(frame.u, direction)));
+  return add_scaled(u, frame.v, frame.extent_v * sign_of(dot3(frame.v, direction)));
 }
-SHARED natural support_bits(box_frame frame, vec3 direction)
+SHARED uint_lanes support_bits(box_frame frame, vec3 direction)
 {
-  return bit_if(inner(frame.u, direction) < R(0.0), 0u) | bit_if(inner(frame.v, direction) < R(0.0), 1u);
+  return bit_if(dot3(frame.u, direction) < R(0.0), 0u) | bit_if(dot3(frame.v, direction) < R(0.0), 1u);
 }
 
 SHARED manifold edge_contact(box_pair pair)
 {
-  natural k = edge_of_a(pair.code), j = edge_of_b(pair.code);
+  uint_lanes k = edge_of_a(pair.code), j = edge_of_b(pair.code);
   box_frame a = frame_of(pair.a, k), b = frame_of(pair.b, j);
   vec3 inward = negate(pair.normal);
   vec3 middle_a = support_edge(a, pair.normal), middle_b = add(pair.offset, support_edge(b, inward));
-  vec3 between = subtract(middle_b, middle_a), across = outer(a.axis, b.axis);
+  vec3 between = subtract(middle_b, middle_a), across = cross3(a.axis, b.axis);
 
   /* Closest points middle_a + s axis_a and middle_b + t axis_b. */
-  real cosine = inner(a.axis, b.axis), along_a = inner(between, a.axis), along_b = inner(between, b.axis);
+  real cosine = dot3(a.axis, b.axis), along_a = dot3(between, a.axis), along_b = dot3(between, b.axis);
   real inverse = R(1.0) / maximum(length_squared(across), R(1e-8));
   real s = clamped((along_a - cosine * along_b) * inverse, -a.extent, a.extent);
   real t = clamped((cosine * along_a - along_b) * inverse, -b.extent, b.extent);
   vec3 on_a = add_scaled(middle_a, a.axis, s), on_b = add_scaled(middle_b, b.axis, t);
 
-  real separation = inner(between, pair.normal);
+  real separation = dot3(between, pair.normal);
   manifold m = single_contact(pair.normal, scale(add(on_a, on_b), R(0.5)), separation, separation == separation);
-  m.code = (natural)1u | (k << 1u) | (j << 3u) | (support_bits(a, pair.normal) << 5u) | (support_bits(b, inward) << 7u);
+  m.code =
+      (uint_lanes)1u | (k << 1u) | (j << 3u) | (support_bits(a, pair.normal) << 5u) | (support_bits(b, inward) << 7u);
   return m;
 }
 
@@ -74,13 +75,13 @@ SHARED manifold edge_contact(box_pair pair)
  * the centre of the reference box. */
 SHARED vec3 in_face(box_frame reference, vec3 outward, vec3 v)
 {
-  return make_vec3(inner(reference.u, v), inner(reference.v, v), inner(outward, v));
+  return make_vec3(dot3(reference.u, v), dot3(reference.v, v), dot3(outward, v));
 }
 
 /* The face of one box that the contact lies on, and that of the other which faces it most. */
 typedef struct {
   mask a_is_reference;
-  natural reference_axis, incident_axis;
+  uint_lanes reference_axis, incident_axis;
   box_frame reference, incident;
   vec3 outward; /* normal of the reference face */
   real facing;  /* side of the incident box that its face is on */
@@ -96,7 +97,7 @@ SHARED face_pair facing_faces(box_pair pair)
   f.outward = choose3(f.a_is_reference, pair.normal, negate(pair.normal));
   f.incident_axis = most_parallel_axis(incident_box, f.outward);
   f.incident = frame_of(incident_box, f.incident_axis);
-  f.facing = -sign_of(inner(f.incident.axis, f.outward));
+  f.facing = -sign_of(dot3(f.incident.axis, f.outward));
   return f;
 }
 
@@ -149,10 +150,10 @@ SHARED clip_face incident_face(face_pair f, face_plane plane)
   return face;
 }
 
-SHARED natural code_of_faces(face_pair f)
+SHARED uint_lanes code_of_faces(face_pair f)
 {
   return bit_if(!f.a_is_reference, 1u) | (f.reference_axis << 2u) |
-         bit_if(inner(f.reference.axis, f.outward) < R(0.0), 4u) | (f.incident_axis << 5u) |
+         bit_if(dot3(f.reference.axis, f.outward) < R(0.0), 4u) | (f.incident_axis << 5u) |
          bit_if(f.facing < R(0.0), 7u);
 }
 
@@ -203,7 +204,7 @@ SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair, real r
 
 /* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis
  * must lead by. */
-SHARED vec3 parting_offset(vec3 offset, real slop, real least, natural a, natural b)
+SHARED vec3 parting_offset(vec3 offset, real slop, real least, uint_lanes a, uint_lanes b)
 {
   real little = least * R(0.001);
   mask in_one_place = length_squared(offset) < little * little;
@@ -258,32 +259,32 @@ SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
 /* Along a unit normal from a to b. */
 SHARED real gap_of_boxes_along(box_pair pair, vec3 normal)
 {
-  return inner(pair.offset, normal) - inner(absolute(in_axes_of(pair.a, normal)), pair.a.extent) -
-         inner(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
+  return dot3(pair.offset, normal) - dot3(absolute(in_axes_of(pair.a, normal)), pair.a.extent) -
+         dot3(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
 }
 
 /* Two boxes as the step starts, whose best axis is not known yet. */
 typedef struct {
   box_pair boxes;
   pair_motion moves;
-  journey way;
+  toi_input input;
   real least, rounded; /* the smallest half extent; how much of the edges counts as rounded off */
 } moving_boxes;
 
-SHARED moving_boxes load_boxes(GLOBAL const row *shapes, read_bodies bodies, GLOBAL const Parameters *parameters,
-                               natural a, natural b)
+SHARED moving_boxes load_boxes(GLOBAL const float4 *shapes, read_bodies bodies, GLOBAL const Parameters *parameters,
+                               uint_lanes a, uint_lanes b)
 {
-  vec4 shape_a = load_row(shapes, a), shape_b = load_row(shapes, b);
+  vec4 shape_a = load_float4(shapes, a), shape_b = load_float4(shapes, b);
   moving_boxes pair;
   pair.moves = load_pair_motion(bodies.velocity, parameters, a, b, shape_a.w, shape_b.w);
-  pair.boxes.a = oriented_box_of(load_row(bodies.orientation, a), xyz(shape_a));
-  pair.boxes.b = oriented_box_of(load_row(bodies.orientation, b), xyz(shape_b));
+  pair.boxes.a = oriented_box_of(load_float4(bodies.orientation, a), xyz(shape_a));
+  pair.boxes.b = oriented_box_of(load_float4(bodies.orientation, b), xyz(shape_b));
   pair.boxes.offset = pair.boxes.normal = offset_between(bodies.position, a, b);
   pair.boxes.gap = R(0.0);
   pair.boxes.code = pair.boxes.edges = 0u;
   pair.boxes.edges_lead = pair.boxes.gap > R(0.0);
   pair.least = minimum(least_of(pair.boxes.a.extent), least_of(pair.boxes.b.extent));
-  pair.way = journey_of_step(parameters, pair.moves, pair.least, shape_a.w + shape_b.w);
+  pair.input = toi_input_of_step(parameters, pair.moves, pair.least, shape_a.w + shape_b.w);
   pair.rounded = ROUNDED_EDGE * minimum(parameters->slop, parameters->slop_share * pair.least);
   return pair;
 }
@@ -292,25 +293,25 @@ SHARED moving_boxes load_boxes(GLOBAL const row *shapes, read_bodies bodies, GLO
  * ones may meet within the step. Sharp edges: rounded ones may not meet at the start and will. */
 SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m, moving_boxes pair, vec3 normal)
 {
-  mask beside = pair.way.far & !has_points(m);
+  mask beside = pair.input.far & !has_points(m);
   if (!any_of(beside)) return beside;
   real gap = gap_of_boxes_along(pair.boxes, normal);
-  return beside & (gap > pair.way.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
+  return beside & (gap > pair.input.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
 }
 
 /* Of what overlaps nothing is asked further, nor of what is apart and does not come far: nearly all pairs of a heap. */
-SHARED mask may_be_followed(manifold m, journey way)
+SHARED mask may_be_followed(manifold m, toi_input input)
 {
-  return (least_separation(m) > R(0.0)) & (has_points(m) | way.far);
+  return (least_separation(m) > R(0.0)) & (has_points(m) | input.far);
 }
 
-SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                  read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, item_index i)
 {
-  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_BOX_BOX, i);
+  handled item = handled_pair(parameters, pairs, flags, PAIR_KIND_BOX_BOX, i);
   if (!any_of(item.mine)) return;
-  natural a = item.a, b = item.b;
+  uint_lanes a = item.a, b = item.b;
   mask mine = item.mine;
 
   moving_boxes pair = load_boxes(shapes, bodies, parameters, a, b);
@@ -319,11 +320,11 @@ SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *tra
   manifold m = boxes_contact(parameters, mine, boxes, pair.moves);
   store_manifold_if(mine, m, counts[CAPACITY_PAIRS], manifolds, item.pair);
 
-  mask unsure = mine & may_be_followed(m, pair.way);
+  mask unsure = mine & may_be_followed(m, pair.input);
   if (!any_of(unsure)) return;
   /* Loaded once more, so that a device need not keep them in registers all the while. */
   pair = load_boxes(shapes, bodies, parameters, a, b);
-  mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.way, pair.least).asked |
+  mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.input, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);
   mark_to_follow_if(unsure & ahead, m, manifolds.count, item.pair);
 }

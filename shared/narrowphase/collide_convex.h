@@ -32,15 +32,16 @@ SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const 
 
 /* What body_shape, body_convex and body_shape_pose say of a part. offset: the body's centre in the frame of the
  * pair. */
-SHARED convex load_convex(GLOBAL const row *shapes, GLOBAL const uint *convexes, GLOBAL const row *poses,
-                          GLOBAL const row *orientations, hull_tables tables, vec3 offset, body_part part)
+SHARED convex load_convex(GLOBAL const float4 *shapes, GLOBAL const uint *convexes, GLOBAL const float4 *poses,
+                          GLOBAL const float4 *orientations, hull_tables tables, vec3 offset, body_part part)
 {
-  quat turned = quat_from(load_row(orientations, part.body)), own = quat_from(load_row(poses, part.shape * 4u + 1u));
-  vec3 center = add(offset, rotate(rotation_of(turned), xyz(load_row(poses, part.shape * 4u))));
+  quat turned = quat_from(load_float4(orientations, part.body)),
+       own = quat_from(load_float4(poses, part.shape * 4u + 1u));
+  vec3 center = add(offset, rotate(rotation_of(turned), xyz(load_float4(poses, part.shape * 4u))));
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   mat3 rotation = rotation_of(quat_multiply(turned, own));
   if (part.triangle != INDEX_NONE) return triangle_of(tables, part.triangle, rotation, center);
-  return convex_of(convexes[part.shape * 2u], xyz(load_row(shapes, part.shape)), rotation, center, none,
+  return convex_of(convexes[part.shape * 2u], xyz(load_float4(shapes, part.shape)), rotation, center, none,
                    convexes[part.shape * 2u + 1u], tables);
 }
 
@@ -76,8 +77,8 @@ SHARED mask load_convex_query(convex_query *query, read_listed_part_pairs pairs,
                               read_surfaces surfaces, read_bodies bodies, GLOBAL const Parameters *parameters,
                               uint method, uint pair)
 {
-  uint a = pairs.a[pair], b = pairs.b[pair], shape_a = shape_of(shapes.traits[a]), shape_b = shape_of(shapes.traits[b]);
-  real around_a = load_row(shapes.size, a).w, around_b = load_row(shapes.size, b).w;
+  uint a = pairs.a[pair], b = pairs.b[pair], shape_a = shape_of(shapes.flags[a]), shape_b = shape_of(shapes.flags[b]);
+  real around_a = load_float4(shapes.size, a).w, around_b = load_float4(shapes.size, b).w;
   query->moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(shape_a == SHAPE_SPHERE, R(0.0), around_a),
                                   choose(shape_b == SHAPE_SPHERE, R(0.0), around_b));
   query->reach = widest_reach(parameters, query->moves);
@@ -111,10 +112,10 @@ SHARED real least_of_query(const convex_query *query)
   return minimum(least_size(&query->first), least_size(&query->second));
 }
 
-SHARED journey journey_of_query(GLOBAL const Parameters *parameters, const convex_query *query)
+SHARED toi_input toi_input_of_query(GLOBAL const Parameters *parameters, const convex_query *query)
 {
   real size = bounding_radius_of(&query->first) + bounding_radius_of(&query->second);
-  return journey_of_step(parameters, query->moves, least_of_query(query), size);
+  return toi_input_of_step(parameters, query->moves, least_of_query(query), size);
 }
 
 /* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is
@@ -125,14 +126,14 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
   const convex *triangle = of_a ? &query->first : &query->second;
   vec3 normal = from_shape_axes(triangle, normal_of_triangle(triangle));
   real closing = closing_speed(query->moves, of_a ? normal : negate(normal));
-  return closing * parameters->step > journey_of_query(parameters, query).touching;
+  return closing * parameters->step > toi_input_of_query(parameters, query).touching;
 }
 
 /* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
   if (has_points(m))
-    return speculation_of(parameters, m, query->offset, query->moves, journey_of_query(parameters, query),
+    return speculation_of(parameters, m, query->offset, query->moves, toi_input_of_query(parameters, query),
                           least_of_query(query))
         .asked;
   return m.impact_time >= BESIDE && may_meet_triangle(parameters, query);
@@ -147,10 +148,10 @@ SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query 
 
 /* The pair of item i. False if it is another kernel's. */
 SHARED mask is_convex_pair(uint *pair, GLOBAL const Parameters *parameters, read_listed_part_pairs pairs,
-                           GLOBAL const uint *traits, uint kind, uint i)
+                           GLOBAL const uint *flags, uint kind, uint i)
 {
   *pair = pair_of_item(parameters, pairs.of_kind, i);
-  return is_of_kind(parameters, traits, pairs.a[*pair], pairs.b[*pair], kind);
+  return is_of_kind(parameters, flags, pairs.a[*pair], pairs.b[*pair], kind);
 }
 
 SHARED void collide_convex_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
@@ -160,7 +161,7 @@ SHARED void collide_convex_item(read_listed_part_pairs pairs, read_shapes shapes
   /* Without it nothing is left for a compiler of devices to do. */
   if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
   uint stride = counts[CAPACITY_PAIRS], pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   if (load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))
     store_start(parameters, &query, contact_of_query(parameters, &query, method & 255u), stride, manifolds, pair);
@@ -173,26 +174,26 @@ SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_sh
 {
   uint pair;
   if (!HAS_FEATURE(parameters, CONVEX_HALF_SPACE)) return;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_HALF_SPACE, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_HALF_SPACE, i)) return;
   uint a = pairs.a[pair], b = pairs.b[pair];
-  int body_first = shape_of(shapes.traits[b]) == SHAPE_HALF_SPACE;
+  int body_first = shape_of(shapes.flags[b]) == SHAPE_HALF_SPACE;
   uint body = body_first ? a : b, plane = body_first ? b : a;
   hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
   convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, bodies.orientation, tables,
                              make_vec3(R(0.0), R(0.0), R(0.0)),
                              part_of_pair(parameters, pairs.leaf, body, pair, body_first ? 0u : 1u));
-  vec3 up = axis_y(rotation_of(quat_from(load_row(bodies.orientation, plane)))),
+  vec3 up = axis_y(rotation_of(quat_from(load_float4(bodies.orientation, plane)))),
        to_plane = offset_between(bodies.position, body, plane);
-  real radius = load_row(shapes.size, body).w, height = inner(up, to_plane), least = least_size(&shape);
+  real radius = load_float4(shapes.size, body).w, height = dot3(up, to_plane), least = least_size(&shape);
   pair_motion moves = load_pair_motion(bodies.velocity, parameters, body, plane, radius, R(0.0));
   real reach = reach_of_pair(parameters, moves, negate(up));
   manifold m = convex_on_half_space(&shape, up, height, reach);
 
   /* A plane has no end that a body could pass; only what turns may swing by it. */
-  journey way = journey_of_step(parameters, moves, least, bounding_radius_of(&shape));
-  speculation s = speculation_of(parameters, m, to_plane, moves, way, least);
+  toi_input input = toi_input_of_step(parameters, moves, least, bounding_radius_of(&shape));
+  speculation s = speculation_of(parameters, m, to_plane, moves, input, least);
   if (s.asked && fastest_turning(moves) > R(0.0)) {
-    encounter met = meet_plane(parameters, &shape, up, &height, moves.a, radius, moves.b, way, s);
+    encounter met = meet_plane(parameters, &shape, up, &height, moves.a, radius, moves.b, input, s);
     if (met.at_impact) m = convex_on_half_space(&shape, up, height, reach);
     to_plane = offset_after(to_plane, moves, met.at_impact ? met.time : R(0.0));
     m = as_seen_from_start(parameters, m, met, to_plane, moves);

@@ -56,7 +56,7 @@ SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
 /* The speed at which turning brings some part of a shape forward along a unit direction, at most. */
 SHARED real swing_along(const moving_convex *m, vec3 direction)
 {
-  return length_of(outer(m->angular, direction)) * m->radius;
+  return length_of(cross3(m->angular, direction)) * m->radius;
 }
 SHARED real fastest_swing(const moving_convex *m) { return length_of(m->angular) * m->radius; }
 
@@ -75,22 +75,22 @@ SHARED impact no_impact(void)
 
 /* What is free by the chord along a normal that turns with one of the two. outward: the normal from it to the other. */
 SHARED real free_beside(const moving_convex *viewer, const moving_convex *other, vec3 seen_from, vec3 outward, real gap,
-                        advancement at, journey way)
+                        advancement at, toi_input input)
 {
   vec3 offset = subtract(other->pivot, viewer->pivot);
-  real speed = length_of(subtract(other->linear, viewer->linear)), distance = length_of(offset) + speed * way.horizon;
+  real speed = length_of(subtract(other->linear, viewer->linear)), distance = length_of(offset) + speed * input.horizon;
   real acceleration =
       acceleration_seen(length_of(viewer->angular), distance, speed, length_of(other->angular), other->radius);
-  real span = span_of(at, gap, acceleration, way);
+  real span = span_of(at, gap, acceleration, input);
   convex viewer_then = shape_at(viewer, seen_from, at.time + span),
          other_then = shape_at(other, seen_from, at.time + span);
   vec3 outward_then = rotate(turn_within(viewer->angular, span), outward);
   real gap_then =
       gap_along(&viewer_then, &other_then, outward_then) - core_radius(&viewer_then) - core_radius(&other_then);
-  return free_by_chord(gap, gap_then, span, acceleration, way);
+  return free_by_chord(gap, gap_then, span, acceleration, input);
 }
 
-SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journey way)
+SHARED impact first_impact(const moving_convex *a, const moving_convex *b, toi_input input)
 {
   impact met = no_impact();
   vec3 approach = subtract(a->linear, b->linear);
@@ -100,18 +100,18 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
     real radii = core_radius(&shape_a) + core_radius(&shape_b);
     vec3 guess = round == 0u ? subtract(pair.a.center, pair.b.center)
                              : rotate_back(pair.axes, pair.swapped ? met.normal : negate(met.normal));
-    gap_wanted wanted = {way.fastest * (way.horizon - met.at.time) + radii, way.roughly, radii};
+    gap_wanted wanted = {input.fastest * (input.horizon - met.at.time) + radii, input.roughly, radii};
     gjk_result near = closest_points_from(&pair.a, &pair.b, wanted, guess);
     vec3 along = rotate(pair.axes, near.contact.normal);
     met.normal = pair.swapped ? negate(along) : along;
     met.gap = (near.overlapping ? R(0.0) : near.contact.gap) - radii;
-    real closing = inner(met.normal, approach) + swing_along(a, met.normal) + swing_along(b, met.normal);
+    real closing = dot3(met.normal, approach) + swing_along(a, met.normal) + swing_along(b, met.normal);
     real chord = R(0.0);
-    if (met.gap > way.touching && met.gap < closing * (way.horizon - met.at.time)) {
-      real seen_by_a = free_beside(a, b, a->linear, met.normal, met.gap, met.at, way);
-      chord = maximum(seen_by_a, free_beside(b, a, a->linear, negate(met.normal), met.gap, met.at, way));
+    if (met.gap > input.touching && met.gap < closing * (input.horizon - met.at.time)) {
+      real seen_by_a = free_beside(a, b, a->linear, met.normal, met.gap, met.at, input);
+      chord = maximum(seen_by_a, free_beside(b, a, a->linear, negate(met.normal), met.gap, met.at, input));
     }
-    met.at = advanced(met.at, round, met.gap, closing, chord, way);
+    met.at = advanced(met.at, round, met.gap, closing, chord, input);
   }
   return met;
 }
@@ -121,22 +121,22 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, journ
 SHARED real gap_above_plane(const moving_convex *body, vec3 up, real height, real rising, real time)
 {
   convex shape = shape_at(body, body->linear, time);
-  return inner(up, support_of(&shape, negate(up))) - core_radius(&shape) - (height + rising * time);
+  return dot3(up, support_of(&shape, negate(up))) - core_radius(&shape) - (height + rising * time);
 }
 
 /* velocity: of the plane. */
-SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real height, vec3 velocity, journey way)
+SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real height, vec3 velocity, toi_input input)
 {
   impact met = no_impact();
-  real rising = inner(up, subtract(velocity, body->linear));
+  real rising = dot3(up, subtract(velocity, body->linear));
   real acceleration = acceleration_seen(R(0.0), R(0.0), R(0.0), length_of(body->angular), body->radius);
   met.normal = negate(up);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS && met.at.active; ++round) {
     met.gap = gap_above_plane(body, up, height, rising, met.at.time);
-    real span = span_of(met.at, met.gap, acceleration, way),
+    real span = span_of(met.at, met.gap, acceleration, input),
          gap_then = gap_above_plane(body, up, height, rising, met.at.time + span);
     met.at = advanced(met.at, round, met.gap, rising + swing_along(body, up),
-                      free_by_chord(met.gap, gap_then, span, acceleration, way), way);
+                      free_by_chord(met.gap, gap_then, span, acceleration, input), input);
   }
   return met;
 }
@@ -144,12 +144,12 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
 /* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts
  * are to be those of that moment. */
 SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset,
-                      pair_motion moves, journey way, speculation s)
+                      pair_motion moves, toi_input input, speculation s)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex a = moving_convex_of(first, none, moves.a.linear, moves.a.angular, moves.radius_a);
   moving_convex b = moving_convex_of(second, offset, moves.b.linear, moves.b.angular, moves.radius_b);
-  encounter met = encounter_of(parameters, s, s.reached ? first_impact(&a, &b, way).at : start_advancement(0), way);
+  encounter met = encounter_of(parameters, s, s.reached ? first_impact(&a, &b, input).at : start_advancement(0), input);
   if (met.at_impact) {
     *first = shape_at(&a, a.linear, met.time);
     *second = shape_at(&b, a.linear, met.time);
@@ -158,17 +158,17 @@ SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex
 }
 
 /* The same for a body seen from its own centre above a plane; `height` becomes that of the plane then. */
-SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height, motion body,
-                            real radius, motion plane, journey way, speculation s)
+SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height,
+                            spatial_velocity body, real radius, spatial_velocity plane, toi_input input, speculation s)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   moving_convex moving = moving_convex_of(shape, none, body.linear, body.angular, radius);
   encounter met = encounter_of(
       parameters, s,
-      s.reached ? first_impact_on_plane(&moving, up, *height, plane.linear, way).at : start_advancement(0), way);
+      s.reached ? first_impact_on_plane(&moving, up, *height, plane.linear, input).at : start_advancement(0), input);
   if (met.at_impact) {
     *shape = shape_at(&moving, moving.linear, met.time);
-    *height = *height - inner(up, subtract(body.linear, plane.linear)) * met.time;
+    *height = *height - dot3(up, subtract(body.linear, plane.linear)) * met.time;
   }
   return met;
 }

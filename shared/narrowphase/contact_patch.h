@@ -24,7 +24,7 @@ typedef struct {
   contact_axes axes;
   clip_point point[4];
   real height[4];
-  natural code;
+  uint_lanes code;
 } contact_patch;
 
 /* Two supporting features about to be clipped. */
@@ -63,7 +63,7 @@ SHARED mask misses_deepest(const reduction *r, real gap)
 {
   return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead;
 }
-SHARED natural code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
+SHARED uint_lanes code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
 
 /* Where the two supporting features overlap. False if there is no contact of that kind. */
 SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, real reach)

@@ -20,7 +20,7 @@
 /* size: sphere radius - -; box half extents; capsule and cylinder (bottom radius, half height, top radius) along Y;
  * hull half extents of a box around it that is centred at the origin of its axes. */
 typedef struct {
-  natural kind;
+  uint_lanes kind;
   vec3 size;
   mat3 rotation; /* from the shape's axes to those it is seen in */
   vec3 center;   /* origin of the shape's axes */
@@ -38,7 +38,7 @@ SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(TREES) && shape-
 
 /* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other
  * than 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
-SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, natural hull,
+SHARED convex convex_of(uint_lanes kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, uint_lanes hull,
                         hull_tables tables)
 {
   convex shape;
@@ -58,7 +58,7 @@ SHARED convex convex_of(natural kind, vec3 size, mat3 rotation, vec3 offset, vec
 
 SHARED vec3 mesh_vertex(hull_tables tables, uint triangle, uint corner)
 {
-  return xyz(load_row(tables.mesh_vertices, tables.mesh_triangles[triangle * 6u + corner]));
+  return xyz(load_float4(tables.mesh_vertices, tables.mesh_triangles[triangle * 6u + corner]));
 }
 
 /* A triangle of a mesh whose axes have their origin at `offset`. */
@@ -131,18 +131,18 @@ SHARED vec3 support_of_capsule_core(vec3 size, vec3 direction)
   vec3 end = make_vec3(R(0.0), choose(top, size.y, -size.y), R(0.0));
   return add_scaled(end, direction, choose(top, size.z, size.x) - least);
 }
-SHARED natural support_vertex(const convex *shape, vec3 direction)
+SHARED uint_lanes support_vertex(const convex *shape, vec3 direction)
 {
   return hull_support(&shape->tables, &shape->hull, direction, shape->size);
 }
-SHARED vec3 hull_vertex(const convex *shape, natural k)
+SHARED vec3 hull_vertex(const convex *shape, uint_lanes k)
 {
-  return xyz(load_row(shape->tables.vertices, shape->hull.first_vertex + k));
+  return xyz(load_float4(shape->tables.vertices, shape->hull.first_vertex + k));
 }
 
 SHARED vec3 support_of_triangle(const convex *shape, vec3 direction)
 {
-  real second = inner(shape->second, direction), third = inner(shape->third, direction);
+  real second = dot3(shape->second, direction), third = dot3(shape->third, direction);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   if (second > R(0.0) && second >= third) return shape->second;
   return third > R(0.0) ? shape->third : none;
@@ -197,7 +197,7 @@ SHARED vec3 support_of_difference(const convex *a, const convex *b, vec3 directi
  * than their distance, none a smaller overlap than their depth, so a normal that is a little wrong costs little. */
 SHARED real gap_along(const convex *a, const convex *b, vec3 normal)
 {
-  return -inner(support_of_difference(a, b, normal), normal);
+  return -dot3(support_of_difference(a, b, normal), normal);
 }
 
 /* What any of the tests below finds between two cores. */

@@ -48,8 +48,8 @@ SHARED core_contact prefer_faces(core_contact contact, const convex *a, const co
 {
   vec3 face_a = flat_normal_toward(a, contact.normal), face_b = negate(flat_normal_toward(b, negate(contact.normal)));
   real least = contact.gap - lead, gap_a = R(-1e30), gap_b = R(-1e30);
-  if (inner(face_a, contact.normal) > R(0.5)) gap_a = gap_along(a, b, face_a);
-  if (inner(face_b, contact.normal) > R(0.5)) gap_b = gap_along(a, b, face_b);
+  if (dot3(face_a, contact.normal) > R(0.5)) gap_a = gap_along(a, b, face_a);
+  if (dot3(face_b, contact.normal) > R(0.5)) gap_b = gap_along(a, b, face_b);
   mask of_b = gap_b > gap_a + lead;
   real gap = of_b ? gap_b : gap_a;
   if (gap < least) return contact;
@@ -61,7 +61,7 @@ SHARED core_contact prefer_faces(core_contact contact, const convex *a, const co
 /* Depth and normal of two cores that overlap. hint: as sampled_penetration; tolerance: how much deeper than the least
  * depth the answer may be. Round shapes outlast the room of the polytope, and fixed directions miss the least depth:
  * distance queries then give what is lacking. */
-SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 hint, real tolerance, natural method)
+SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 hint, real tolerance, uint_lanes method)
 {
   core_contact found = {up, R(-1e30)};
   mask rough = 1;
@@ -85,7 +85,7 @@ typedef struct {
 
 /* by_axes: the contact is the best axis of two polytopes; their closest points are only wanted where it parts them.
  * limit: cores farther apart than this make no contact. */
-SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, natural method, mask by_axes,
+SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, uint_lanes method, mask by_axes,
                                     core_contact axis)
 {
   const convex *a = &pair->a, *b = &pair->b;
@@ -113,7 +113,7 @@ SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
 
 /* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made.
  * slop: penetration left in place. */
-SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, natural method)
+SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, uint_lanes method)
 {
   convex_pair pair = pair_of(first, second);
   const convex *a = &pair.a, *b = &pair.b;

@@ -15,9 +15,9 @@
 SHARED clip_point corner_above_plane(vec3 corner, tangents axes, vec3 up, real height, real reach)
 {
   clip_point point;
-  point.u = inner(axes.first, corner);
-  point.v = inner(axes.second, corner);
-  point.separation = inner(up, corner) - height;
+  point.u = dot3(axes.first, corner);
+  point.v = dot3(axes.second, corner);
+  point.separation = dot3(up, corner) - height;
   point.valid = point.separation < reach;
   return point;
 }

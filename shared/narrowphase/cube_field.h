@@ -32,8 +32,8 @@
 SHARED vec3 middle_of_field(const convex *shape)
 {
   if (!is_hull(shape)) return make_vec3(R(0.0), R(0.0), R(0.0));
-  uint rows = (strips_of(shape->hull.vertices) * 3u + strips_of(shape->hull.faces) * 4u) * ROWS_OF_STRIP;
-  return xyz(load_row(shape->tables.strips, shape->hull.first_strip + rows));
+  uint rows = (chunks_of(shape->hull.vertices) * 3u + chunks_of(shape->hull.faces) * 4u) * FLOAT4S_OF_CHUNK;
+  return xyz(load_float4(shape->tables.chunks, shape->hull.first_chunk + rows));
 }
 
 /* --- the surface as points ---------------------------------------------------------------------------- */
@@ -67,7 +67,7 @@ typedef struct {
 SHARED field_height higher_face(field_height best, const convex *shape, vec3 own, uint face)
 {
   vec4 plane = plane_of_face(shape, face);
-  field_height found = {inner(xyz(plane), own) - plane.w, face};
+  field_height found = {dot3(xyz(plane), own) - plane.w, face};
   return found.height > best.height ? found : best;
 }
 
@@ -125,7 +125,7 @@ SHARED void look_at_point(field_search *s, vec3 at, vec3 normal, field_height fo
     s->patch->code = sense > R(0.0) ? code_of_features(0xfffu, found.face) : code_of_features(found.face, 0xfffu);
     return;
   }
-  if (inner(normal, s->contact.normal) < FIELD_SAME_FACE) return;
+  if (dot3(normal, s->contact.normal) < FIELD_SAME_FACE) return;
   vec3 placed = in_contact_axes(&s->patch->axes, at);
   clip_point point = {placed.x, placed.y, found.height, 1};
   if (s->purpose == FIELD_REDUCE) reduce_step(&s->points, point);

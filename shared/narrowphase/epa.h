@@ -50,7 +50,7 @@ SHARED vec3 triangle_normal(vec3 p, vec3 q, vec3 r, real noise)
   vec3 pq = subtract(q, p), qr = subtract(r, q), rp = subtract(p, r);
   real pq2 = length_squared(pq), qr2 = length_squared(qr), rp2 = length_squared(rp);
   real longest = maximum(pq2, maximum(qr2, rp2));
-  vec3 normal = pq2 == longest ? outer(qr, rp) : qr2 == longest ? outer(rp, pq) : outer(pq, qr);
+  vec3 normal = pq2 == longest ? cross3(qr, rp) : qr2 == longest ? cross3(rp, pq) : cross3(pq, qr);
   real area = length_of(normal), side = square_root(longest);
   if (area <= side * (noise + R(16.0) * ROUNDING * side)) return make_vec3(R(0.0), R(0.0), R(0.0));
   return scale(normal, R(1.0) / area);
@@ -61,7 +61,7 @@ SHARED void add_face(polytope *hull, uint p, uint q, uint r, real noise)
   int f = hull->faces;
   vec3 normal = triangle_normal(hull->w[p], hull->w[q], hull->w[r], noise);
   hull->normal[f] = normal;
-  hull->distance[f] = length_squared(normal) > R(0.0) ? inner(normal, hull->w[p]) : EPA_FAR;
+  hull->distance[f] = length_squared(normal) > R(0.0) ? dot3(normal, hull->w[p]) : EPA_FAR;
   hull->corners[f] = p | q << 8u | r << 16u;
   hull->faces = f + 1;
 }
@@ -102,7 +102,7 @@ SHARED mask expand(polytope *hull, int nearest, vec3 point, real noise)
   int kept = hull->faces - 1;
   swap_faces(hull, nearest, kept);
   for (int f = 0; f < kept;) {
-    if (inner(hull->normal[f], point) > hull->distance[f] + noise) swap_faces(hull, f, --kept);
+    if (dot3(hull->normal[f], point) > hull->distance[f] + noise) swap_faces(hull, f, --kept);
     else ++f;
   }
   uint tip = add_vertex(hull, point);
@@ -163,8 +163,8 @@ SHARED difference_span span_of_difference(const convex *a, const convex *b, vec3
 SHARED vec3 farther_support(const convex *a, const convex *b, vec3 direction, vec3 from)
 {
   difference_span span = span_of_difference(a, b, direction);
-  return inner(subtract(from, span.behind), direction) > inner(subtract(span.ahead, from), direction) ? span.behind
-                                                                                                      : span.ahead;
+  return dot3(subtract(from, span.behind), direction) > dot3(subtract(span.ahead, from), direction) ? span.behind
+                                                                                                    : span.ahead;
 }
 
 SHARED vec3 unit_or(vec3 v, vec3 otherwise)
@@ -195,12 +195,12 @@ SHARED int spread_points(vec3 *point, const convex *a, const convex *b, real fla
   for (int k = 0; k < 2 && !wide; ++k) {
     vec3 direction = k == 0 ? across.first : across.second;
     point[2] = farther_support(a, b, direction, point[0]);
-    wide = magnitude(inner(subtract(point[2], point[0]), direction)) > flat;
+    wide = magnitude(dot3(subtract(point[2], point[0]), direction)) > flat;
   }
   if (!wide) return 2;
-  vec3 normal = unit_or(outer(line, subtract(point[2], point[0])), across.second);
+  vec3 normal = unit_or(cross3(line, subtract(point[2], point[0])), across.second);
   point[3] = farther_support(a, b, normal, point[0]);
-  return magnitude(inner(subtract(point[3], point[0]), normal)) <= flat ? 3 : 4;
+  return magnitude(dot3(subtract(point[3], point[0]), normal)) <= flat ? 3 : 4;
 }
 
 SHARED core_contact contact_along(const convex *a, const convex *b, vec3 normal)
@@ -215,12 +215,12 @@ SHARED core_contact flat_contact(const vec3 *point, int points, const convex *a,
   vec3 normal = up;
   if (points > 1) {
     vec3 line = unit_or(subtract(point[1], point[0]), up);
-    vec3 sideways = subtract(up, scale(line, inner(up, line)));
+    vec3 sideways = subtract(up, scale(line, dot3(up, line)));
     normal = length_squared(sideways) > R(1e-4) ? unit_or(sideways, up) : tangents_of(line).first;
-    if (points > 2) normal = unit_or(outer(line, subtract(point[2], point[0])), normal);
+    if (points > 2) normal = unit_or(cross3(line, subtract(point[2], point[0])), normal);
   }
   difference_span span = span_of_difference(a, b, normal);
-  core_contact forward = {normal, -inner(span.ahead, normal)}, backward = {negate(normal), inner(span.behind, normal)};
+  core_contact forward = {normal, -dot3(span.ahead, normal)}, backward = {negate(normal), dot3(span.behind, normal)};
   return backward.gap > forward.gap ? backward : forward;
 }
 
@@ -229,8 +229,8 @@ SHARED void start_polytope(polytope *hull, const vec3 *point, real noise)
   hull->vertices = 0;
   hull->faces = 0;
   for (int k = 0; k < 4; ++k) add_vertex(hull, point[k]);
-  vec3 normal = outer(subtract(point[1], point[0]), subtract(point[2], point[0]));
-  mask above = inner(normal, subtract(point[3], point[0])) > R(0.0);
+  vec3 normal = cross3(subtract(point[1], point[0]), subtract(point[2], point[0]));
+  mask above = dot3(normal, subtract(point[3], point[0])) > R(0.0);
   uint q = above ? 2u : 1u, r = above ? 1u : 2u;
   add_face(hull, 0u, q, r, noise);
   add_face(hull, 0u, r, 3u, noise);
@@ -253,7 +253,7 @@ SHARED void expand_to_depth(epa_result *result, polytope *hull, const convex *a,
     if (distance >= best - enough - R(16.0) * ROUNDING * magnitude(best)) break;
     vec3 normal = hull->normal[nearest];
     vec3 next = support_of_difference(a, b, normal);
-    real depth = inner(next, normal);
+    real depth = dot3(next, normal);
     if (depth < best) {
       result->contact.normal = normal;
       result->contact.gap = -depth;

@@ -19,11 +19,11 @@
 
 /* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would
  * meet. The axis turns with the box whose face it is square to. */
-SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, journey way)
+SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, toi_input input)
 {
   real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
   real speed = length_of(subtract(moves.a.linear, moves.b.linear)),
-       distance = length_of(start.offset) + speed * way.horizon;
+       distance = length_of(start.offset) + speed * input.horizon;
   real seen_by_a = acceleration_seen(turning_a, distance, speed, turning_b, moves.radius_b);
   real seen_by_b = acceleration_seen(turning_b, distance, speed, turning_a, moves.radius_a);
   advancement at = start_advancement(reached);
@@ -31,11 +31,11 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
     box_pair then = boxes_after(start, moves, at.time),
              now = along_best_axis(then, then.offset, slop, R(0.0), NEVER_ALONG);
     mask face_of_b = (now.code >= 3u) & (now.code < 6u);
-    real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, way);
+    real acceleration = choose(face_of_b, seen_by_b, seen_by_a), span = span_of(at, now.gap, acceleration, input);
     vec3 normal_then = rotate(turn_within(choose3(face_of_b, moves.b.angular, moves.a.angular), span), now.normal);
     real gap_then = gap_of_boxes_along(boxes_after(start, moves, at.time + span), normal_then);
-    real chord = free_by_chord(now.gap, gap_then, span, acceleration, way);
-    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), chord, way);
+    real chord = free_by_chord(now.gap, gap_then, span, acceleration, input);
+    at = advanced(at, round, now.gap, closing_speed(moves, now.normal), chord, input);
     if (!any_of(at.active)) break;
   }
   return at;
@@ -52,17 +52,17 @@ SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
   vec3 from_wall = owner.in_a ? negate(then.offset) : then.offset;
   oriented_box wall = owner.in_a ? then.b : then.a, box = owner.in_a ? then.a : then.b;
   box_frame face = frame_of(wall, most_parallel_axis(wall, outward));
-  real side = sign_of(inner(face.axis, outward)), height = side * inner(face.axis, from_wall) - face.extent;
-  if (magnitude(inner(face.u, from_wall)) >= face.extent_u || magnitude(inner(face.v, from_wall)) >= face.extent_v)
+  real side = sign_of(dot3(face.axis, outward)), height = side * dot3(face.axis, from_wall) - face.extent;
+  if (magnitude(dot3(face.u, from_wall)) >= face.extent_u || magnitude(dot3(face.v, from_wall)) >= face.extent_v)
     return m;
-  if (side * inner(face.axis, outward) < WITH_FACE) return m;
+  if (side * dot3(face.axis, outward) < WITH_FACE) return m;
   return with_middle_ball(m, middle, outward, height, CORE_SHARE * least_of(box.extent));
 }
 
 /* Boxes without a contact at the start are followed only because they may meet from beside. */
 SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, manifold start, const moving_boxes *pair)
 {
-  speculation s = speculation_of(parameters, start, pair->boxes.offset, pair->moves, pair->way, pair->least);
+  speculation s = speculation_of(parameters, start, pair->boxes.offset, pair->moves, pair->input, pair->least);
   mask from_beside = !has_points(start);
   s.asked = s.asked || from_beside;
   s.reached = s.reached || from_beside;
@@ -73,9 +73,9 @@ SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, man
  * (encounter_of): so does nearly all that comes to rest. */
 SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes *pair, manifold start)
 {
-  if (pair->way.far || !has_points(start)) return 0;
-  box_pair end = boxes_after(pair->boxes, pair->moves, pair->way.horizon);
-  return along_best_axis(end, end.offset, parameters->slop, R(0.0), NEVER_ALONG).gap <= pair->way.touching;
+  if (pair->input.far || !has_points(start)) return 0;
+  box_pair end = boxes_after(pair->boxes, pair->moves, pair->input.horizon);
+  return along_best_axis(end, end.offset, parameters->slop, R(0.0), NEVER_ALONG).gap <= pair->input.touching;
 }
 
 /* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little
@@ -87,15 +87,15 @@ SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const mov
   for (uint attempt = 0u; attempt < 2u; ++attempt) {
     *then = boxes_after(pair->boxes, pair->moves, met->at_impact ? met->time : R(0.0));
     *then = along_best_axis(*then, then->offset, parameters->slop, pair->rounded, NEARLY_ALONG);
-    mask meets = met->at_impact && then->gap <= (attempt == 0u ? FAR_APART : pair->way.touching);
+    mask meets = met->at_impact && then->gap <= (attempt == 0u ? FAR_APART : pair->input.touching);
     m = boxes_contact(parameters, meets, *then, pair->moves);
     if (attempt == 1u || !met->at_impact || met->missed || has_points(m)) break;
-    met->time = met->time + R(2.0) * pair->rounded / pair->way.fastest;
+    met->time = met->time + R(2.0) * pair->rounded / pair->input.fastest;
   }
   return m;
 }
 
-SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const row *shapes, read_bodies bodies,
+SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const float4 *shapes, read_bodies bodies,
                                  GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                  write_manifolds manifolds, uint i)
 {
@@ -108,7 +108,7 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const row *shap
   }
   speculation s = speculation_of_boxes(parameters, start, &pair);
   encounter met = encounter_of(
-      parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.way), pair.way);
+      parameters, s, impact_of_boxes(s.reached, pair.boxes, parameters->slop, pair.moves, pair.input), pair.input);
   box_pair then;
   manifold m = contact_at_impact(parameters, &pair, &met, &then);
   met.at_impact = met.at_impact && has_points(m);
@@ -118,7 +118,7 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const row *shap
 }
 
 /* local_memory: how many are marked; their numbers, in any order. */
-SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                write_manifolds manifolds, LOCAL uint *local_memory, uint group)
 {
@@ -130,7 +130,7 @@ SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *trait
   {
     const uint pair = pair_of_item(parameters, pairs.of_kind, first + k);
     if (manifolds.count[pair] >= TO_FOLLOW &&
-        is_of_kind(parameters, traits, pairs.a[pair], pairs.b[pair], PAIR_KIND_BOX_BOX))
+        is_of_kind(parameters, flags, pairs.a[pair], pairs.b[pair], PAIR_KIND_BOX_BOX))
       local_memory[1u + LOCAL_ADD(local_memory, 1u)] = pair;
   }
   FOR_EACH_ITEM(k, local_memory[0])

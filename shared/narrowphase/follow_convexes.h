@@ -13,9 +13,9 @@
 
 /* Shapes without a contact at the start are followed only because one of them is a triangle. */
 SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, const convex_query *query, manifold start,
-                                        journey way)
+                                        toi_input input)
 {
-  speculation s = speculation_of(parameters, start, query->offset, query->moves, way, least_of_query(query));
+  speculation s = speculation_of(parameters, start, query->offset, query->moves, input, least_of_query(query));
   if (!has_points(start)) s.asked = s.reached = 1;
   return s;
 }
@@ -27,7 +27,7 @@ SHARED mask is_before_face(const convex *shape, const support_face *face, vec3 p
   vec3 last = face_corner(shape, face, face->corners - 1u);
   for (uint k = 0u; k < face->corners; ++k) {
     vec3 corner = face_corner(shape, face, k);
-    if (inner(outer(subtract(corner, last), subtract(point, last)), face->normal) < R(0.0)) return 0;
+    if (dot3(cross3(subtract(corner, last), subtract(point, last)), face->normal) < R(0.0)) return 0;
     last = corner;
   }
   return 1;
@@ -44,18 +44,18 @@ SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec
        outward = owner.in_a ? negate(m.normal) : m.normal;
   real radius = CORE_SHARE * least_size(body) - length_of(subtract(body->center, middle));
   support_face face = support_face_of(wall, outward);
-  if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || inner(face.normal, outward) < WITH_FACE) return m;
-  real height = inner(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
+  if (!(radius > R(0.0)) || !is_before_face(wall, &face, middle) || dot3(face.normal, outward) < WITH_FACE) return m;
+  real height = dot3(face.normal, subtract(middle, face_corner(wall, &face, 0u)));
   return with_middle_ball(m, middle, outward, height, radius);
 }
 
 /* The manifold of the whole step. */
 SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_query *query, manifold start, uint method)
 {
-  journey way = journey_of_query(parameters, query);
-  speculation s = speculation_of_query(parameters, query, start, way);
-  way.far = way.far || !has_points(start);
-  encounter met = meet(parameters, &query->first, &query->second, query->offset, query->moves, way, s);
+  toi_input input = toi_input_of_query(parameters, query);
+  speculation s = speculation_of_query(parameters, query, start, input);
+  input.far = input.far || !has_points(start);
+  encounter met = meet(parameters, &query->first, &query->second, query->offset, query->moves, input, s);
   if (!met.at_impact && !met.missed) return start;
   manifold m = start;
   if (met.at_impact) m = contact_of_query(parameters, query, method);
@@ -75,7 +75,7 @@ SHARED void follow_convexes_item(read_listed_part_pairs pairs, read_shapes shape
 {
   if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
   uint stride = counts[CAPACITY_PAIRS], pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   if (manifolds.count[pair] < TO_FOLLOW ||
       !load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair))

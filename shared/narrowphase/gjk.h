@@ -62,13 +62,13 @@ SHARED nearest_point nearer_of(nearest_point p, nearest_point q) { return q.squa
 SHARED nearest_point nearest_of_edge(const simplex *s, int i, int j)
 {
   vec3 from = s->point[i].w, edge = subtract(s->point[j].w, from);
-  real along = length_squared(edge), t = -inner(from, edge);
+  real along = length_squared(edge), t = -dot3(from, edge);
   if (t <= R(0.0) || along <= R(0.0)) return nearest_of_vertex(s, i);
   if (t >= along) return nearest_of_vertex(s, j);
   t = t / along;
   vec3 v = add_scaled(from, edge, t);
   /* What rounding left along the edge is removed once more: v must be square to it. */
-  real rest = inner(v, edge) / along;
+  real rest = dot3(v, edge) / along;
   nearest_point near;
   near.v = add_scaled(v, edge, -rest);
   near.squared = length_squared(near.v);
@@ -82,15 +82,15 @@ SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
 {
   vec3 a = s->point[i].w, b = s->point[j].w, c = s->point[k].w;
   vec3 ab = subtract(b, a), ac = subtract(c, a), bc = subtract(c, b);
-  vec3 normal = outer(ab, ac);
+  vec3 normal = cross3(ab, ac);
   real squared = length_squared(normal), flat = R(16.0) * ROUNDING;
   mask degenerate = squared <= flat * flat * length_squared(ab) * length_squared(ac);
   /* Twice the areas between the origin and the three sides, times the length of the normal. */
-  real of_c = inner(normal, outer(a, ab)), of_b = inner(normal, outer(ac, a)), of_a = inner(normal, outer(b, bc));
+  real of_c = dot3(normal, cross3(a, ab)), of_b = dot3(normal, cross3(ac, a)), of_a = dot3(normal, cross3(b, bc));
   if (!degenerate && of_a > R(0.0) && of_b > R(0.0) && of_c > R(0.0)) {
     nearest_point near;
     real sum = of_a + of_b + of_c;
-    near.v = scale(normal, inner(normal, a) / squared);
+    near.v = scale(normal, dot3(normal, a) / squared);
     near.squared = length_squared(near.v);
     for (int n = 0; n < 4; ++n) near.weight[n] = R(0.0);
     near.weight[i] = of_a / sum;
@@ -111,8 +111,8 @@ SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
 SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size)
 {
   vec3 a = s->point[i].w;
-  vec3 normal = outer(subtract(s->point[j].w, a), subtract(s->point[k].w, a));
-  real inner_side = inner(normal, subtract(s->point[l].w, a)), side = -inner(normal, a);
+  vec3 normal = cross3(subtract(s->point[j].w, a), subtract(s->point[k].w, a));
+  real inner_side = dot3(normal, subtract(s->point[l].w, a)), side = -dot3(normal, a);
   real noise = R(8.0) * ROUNDING * size * length_of(normal);
   if (magnitude(inner_side) <= noise) return 1;
   return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
@@ -266,7 +266,7 @@ SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int 
   simplex *s = &result->last;
   vec3 direction = scale(walk->v, R(-1.0) / walk->distance);
   difference_point next = difference_point_along(a, b, direction);
-  real gap = -inner(next.w, direction);
+  real gap = -dot3(next.w, direction);
   if (gap > result->contact.gap) {
     result->contact.gap = gap;
     result->contact.normal = direction;

@@ -58,56 +58,56 @@ SHARED void add_probe(face_search *s, const convex *shape, vec3 point)
 SHARED uint probes_of(const face_search *s) { return s->probes < PROBES ? s->probes : PROBES; }
 
 typedef struct {
-  strip x, y, z, distance;
-} plane_strip;
+  float8 x, y, z, distance;
+} plane_chunk;
 
-SHARED void load_plane_strip(plane_strip *planes, const convex *shape, uint k)
+SHARED void load_plane_chunk(plane_chunk *planes, const convex *shape, uint k)
 {
   if (is_hull(shape)) {
-    uint at = shape->hull.first_strip + (strips_of(shape->hull.vertices) * 3u + k * 4u) * ROWS_OF_STRIP;
-    load_strip(&planes->x, shape->tables.strips, at);
-    load_strip(&planes->y, shape->tables.strips, at + ROWS_OF_STRIP);
-    load_strip(&planes->z, shape->tables.strips, at + 2u * ROWS_OF_STRIP);
-    load_strip(&planes->distance, shape->tables.strips, at + 3u * ROWS_OF_STRIP);
+    uint at = shape->hull.first_chunk + (chunks_of(shape->hull.vertices) * 3u + k * 4u) * FLOAT4S_OF_CHUNK;
+    load_float8(&planes->x, shape->tables.chunks, at);
+    load_float8(&planes->y, shape->tables.chunks, at + FLOAT4S_OF_CHUNK);
+    load_float8(&planes->z, shape->tables.chunks, at + 2u * FLOAT4S_OF_CHUNK);
+    load_float8(&planes->distance, shape->tables.chunks, at + 3u * FLOAT4S_OF_CHUNK);
     return;
   }
   vec3 size = shape->size;
   real one = R(1.0), none = R(0.0);
-  planes->x = STRIP_OF(one, -one, none, none, none, none, one, one);
-  planes->y = STRIP_OF(none, none, one, -one, none, none, none, none);
-  planes->z = STRIP_OF(none, none, none, none, one, -one, none, none);
-  planes->distance = STRIP_OF(size.x, size.x, size.y, size.y, size.z, size.z, size.x, size.x);
+  planes->x = CHUNK_OF(one, -one, none, none, none, none, one, one);
+  planes->y = CHUNK_OF(none, none, one, -one, none, none, none, none);
+  planes->z = CHUNK_OF(none, none, none, none, one, -one, none, none);
+  planes->distance = CHUNK_OF(size.x, size.x, size.y, size.y, size.z, size.z, size.x, size.x);
 }
 
 /* How far a point lies beyond each of eight faces. */
-SHARED void beyond_planes(strip *beyond, const plane_strip *planes, vec3 p)
+SHARED void beyond_planes(float8 *beyond, const plane_chunk *planes, vec3 p)
 {
   *beyond = planes->x * p.x + planes->y * p.y + planes->z * p.z - planes->distance;
 }
 
 /* Of eight faces: what no gap beyond each can exceed. */
-SHARED void bound_by_probes(strip *bound, const face_search *s, const convex *shape, uint k)
+SHARED void bound_by_probes(float8 *bound, const face_search *s, const convex *shape, uint k)
 {
-  plane_strip planes;
-  load_plane_strip(&planes, shape, k);
+  plane_chunk planes;
+  load_plane_chunk(&planes, shape, k);
   beyond_planes(bound, &planes, s->probe[0]);
   for (uint j = 1u; j < probes_of(s); ++j) {
-    strip beyond;
+    float8 beyond;
     beyond_planes(&beyond, &planes, s->probe[j]);
-    *bound = STRIP_CHOOSE(beyond < *bound, beyond, *bound);
+    *bound = CHUNK_CHOOSE(beyond < *bound, beyond, *bound);
   }
 }
 
 SHARED highest_entry farthest_bound(const face_search *s, const convex *shape)
 {
-  strip_leader best;
-  start_strip_leader(&best);
-  for (uint k = 0u; k < strips_of(faces_of(shape)); ++k) {
-    strip bound;
+  chunk_leader best;
+  start_chunk_leader(&best);
+  for (uint k = 0u; k < chunks_of(faces_of(shape)); ++k) {
+    float8 bound;
     bound_by_probes(&bound, s, shape, k);
-    challenge_by_strip(&best, &bound, k * STRIP);
+    challenge_by_chunk(&best, &bound, k * CHUNK);
   }
-  return highest_of_strip(&best);
+  return highest_of_chunk(&best);
 }
 
 /* The point of the other shape nearest to a face, or deepest behind it, becomes a probe. */
@@ -117,7 +117,7 @@ SHARED void look_at_face(face_search *s, const convex *shape, const convex *othe
   vec3 nearest = support_of(other, negate(from_shape_axes(shape, xyz(plane))));
   uint at = s->probes % PROBES;
   add_probe(s, shape, nearest);
-  real gap = inner(xyz(plane), s->probe[at]) - plane.w;
+  real gap = dot3(xyz(plane), s->probe[at]) - plane.w;
   if (gap <= s->gap) return;
   s->gap = gap;
   s->face = k;
@@ -166,8 +166,8 @@ SHARED mask edge_may_matter(const face_search *s, const convex *shape, uint left
 {
   vec4 plane_left = plane_of_face(shape, left), plane_right = plane_of_face(shape, right);
   for (uint j = 0u; j < probes_of(s); ++j)
-    if (inner(xyz(plane_left), s->probe[j]) - plane_left.w <= least &&
-        inner(xyz(plane_right), s->probe[j]) - plane_right.w <= least)
+    if (dot3(xyz(plane_left), s->probe[j]) - plane_left.w <= least &&
+        dot3(xyz(plane_right), s->probe[j]) - plane_right.w <= least)
       return 0;
   return 1;
 }
@@ -195,25 +195,25 @@ SHARED void list_edges_of_face(edge_list *list, const face_search *s, const conv
 SHARED void list_edges(edge_list *list, const face_search *s, const convex *shape, real least)
 {
   list->count = 0u;
-  for (uint k = 0u; k < strips_of(faces_of(shape)); ++k) {
-    plane_strip planes;
-    strip beyond;
+  for (uint k = 0u; k < chunks_of(faces_of(shape)); ++k) {
+    plane_chunk planes;
+    float8 beyond;
     real bounds[8];
-    load_plane_strip(&planes, shape, k);
+    load_plane_chunk(&planes, shape, k);
     beyond_planes(&beyond, &planes, s->probe[s->main]);
-    store_strip(bounds, &beyond);
-    for (uint n = 0u; n < STRIP; ++n)
-      if (bounds[n] > least && k * STRIP + n < faces_of(shape))
-        list_edges_of_face(list, s, shape, k * STRIP + n, least);
+    store_float8(bounds, &beyond);
+    for (uint n = 0u; n < CHUNK; ++n)
+      if (bounds[n] > least && k * CHUNK + n < faces_of(shape))
+        list_edges_of_face(list, s, shape, k * CHUNK + n, least);
   }
 }
 
 /* Do the arcs of the two edges cross on the Gauss map? */
 SHARED mask arcs_cross(const polytope_edge *a, const polytope_edge *b)
 {
-  real left_b = inner(b->left, a->along), right_b = inner(b->right, a->along);
+  real left_b = dot3(b->left, a->along), right_b = dot3(b->right, a->along);
   if (left_b * right_b >= R(0.0)) return 0;
-  real left_a = inner(a->left, b->along), right_a = inner(a->right, b->along);
+  real left_a = dot3(a->left, b->along), right_a = dot3(a->right, b->along);
   return left_a * right_a < R(0.0) && left_b * right_a < R(0.0);
 }
 
@@ -240,12 +240,12 @@ SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *li
       polytope_edge edge_a = edge_of(a, index_a); /* the larger shape is seen in its own axes */
       if (!arcs_cross(&edge_a, &edge_b)) continue;
       edge_a.start = add(edge_a.start, a->center);
-      vec3 axis = outer(edge_a.along, edge_b.along);
+      vec3 axis = cross3(edge_a.along, edge_b.along);
       real squared = length_squared(axis), size = length_squared(edge_a.along) * length_squared(edge_b.along);
       if (squared <= R(1e-8) * size) continue;
       axis =
-          scale(axis, (inner(axis, add(edge_a.left, edge_a.right)) < R(0.0) ? R(-1.0) : R(1.0)) / square_root(squared));
-      real gap = inner(axis, subtract(edge_b.start, edge_a.start)), score = gap - noise * square_root(size / squared);
+          scale(axis, (dot3(axis, add(edge_a.left, edge_a.right)) < R(0.0) ? R(-1.0) : R(1.0)) / square_root(squared));
+      real gap = dot3(axis, subtract(edge_b.start, edge_a.start)), score = gap - noise * square_root(size / squared);
       if (score <= highest) continue;
       highest = score;
       best.contact.gap = gap;
@@ -306,7 +306,7 @@ SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lea
 {
   hull_axis best = axis_between_centers(a, b);
   vec3 of_a = support_of(a, best.contact.normal), of_b = support_of(b, negate(best.contact.normal));
-  best.contact.gap = inner(subtract(of_b, of_a), best.contact.normal);
+  best.contact.gap = dot3(subtract(of_b, of_a), best.contact.normal);
   if (best.contact.gap > limit) return best;
 
   face_search faces_a, faces_b;

@@ -1,6 +1,6 @@
 /* hull_support.h - the tables of convex hulls, and three ways to the vertex of a hull farthest in a direction.
  *
- *   SUPPORT_BRUTE_FORCE    all of them, eight at once (strip.h): best up to some hundred vertices, and never branches
+ *   SUPPORT_BRUTE_FORCE    all of them, eight at once (float8.h): best up to some hundred vertices, and never branches
  *   SUPPORT_HILL_CLIMBING  from the vertex that a cube map names uphill; for large hulls. The same vertex, always
  *   SUPPORT_CUBE_MAP       the vertex that the map names: near the farthest, by how much docs/pipeline.md says
  *
@@ -18,45 +18,46 @@
 #include "shared/argument_groups.h"
 #include "shared/body_codes.h"
 #include "shared/features.h"
+#include "shared/float8.h"
 #include "shared/math.h"
-#include "shared/strip.h"
 
 /* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces,
- * first edge, edges, first corner, corners, first row of strips, first link, cells along a side of the cube map. */
+ * first edge, edges, first corner, corners, first row of chunks, first link, cells along a side of the cube map. */
 #define HULL_HEADER 11u
 typedef struct {
   GLOBAL const uint *headers;     /* HULL_HEADER a hull */
-  GLOBAL const row *vertices;     /* x y z: about the origin of the shape's axes */
-  GLOBAL const row *planes;       /* a face: outward unit normal, distance from the origin */
+  GLOBAL const float4 *vertices;  /* x y z: about the origin of the shape's axes */
+  GLOBAL const float4 *planes;    /* a face: outward unit normal, distance from the origin */
   GLOBAL const uint *face_starts; /* a face: its first corner; one more entry behind the last face of all */
   GLOBAL const uint *corners;     /* vertex of the hull, counter-clockwise seen from outside */
   GLOBAL const uint *edges;       /* 4 an edge: from, to, face to the left, face to the right, seen from outside */
-  GLOBAL const row *strips; /* a hull: strips of x y z of its vertices, then of x y z distance of its planes (strip.h);
+  GLOBAL const float4
+      *chunks;              /* a hull: chunks of x y z of its vertices, then of x y z distance of its planes (float8.h);
                                the middle of its vertices */
   GLOBAL const uint *links; /* a hull: its face_of_vertex starts, as many as vertices and one more; the faces of each
                                vertex, ascending; for each corner the edge to the next; the cube maps: of farthest
                                vertices, and of faces seen from the middle (cube_field.h) */
-  GLOBAL const row *mesh_vertices;   /* x y z: about the origin of the mesh's axes */
-  GLOBAL const uint *mesh_triangles; /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours
+  GLOBAL const float4 *mesh_vertices; /* x y z: about the origin of the mesh's axes */
+  GLOBAL const uint *mesh_triangles;  /* 6 a triangle: its vertices, counter-clockwise seen from outside; its neighbours
                                         across 0-1, 1-2, 2-0 */
-  uint support;                      /* SUPPORT_ */
+  uint support;                       /* SUPPORT_ */
 } hull_tables;
 
 /* support: SUPPORT_, how the vertex that lies farthest is found. */
 SHARED hull_tables tables_of(read_surfaces surfaces, uint support)
 {
   hull_tables tables = {surfaces.header,      surfaces.vertex,   surfaces.plane, surfaces.face_start,
-                        surfaces.corner,      surfaces.edge,     surfaces.strip, surfaces.link,
+                        surfaces.corner,      surfaces.edge,     surfaces.chunk, surfaces.link,
                         surfaces.mesh_vertex, surfaces.triangle, support};
   return tables;
 }
 
 typedef struct {
-  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_strip, first_link,
+  uint first_vertex, vertices, first_face, faces, first_edge, edges, first_corner, corners, first_chunk, first_link,
       map_side;
 } hull_ranges;
 
-SHARED uint strips_of(uint entries) { return (entries + STRIP - 1u) / STRIP; }
+SHARED uint chunks_of(uint entries) { return (entries + CHUNK - 1u) / CHUNK; }
 
 SHARED hull_ranges ranges_of_hull(const hull_tables *tables, uint hull)
 {
@@ -67,20 +68,20 @@ SHARED hull_ranges ranges_of_hull(const hull_tables *tables, uint hull)
 }
 
 /* Ties go to the lowest vertex. */
-SHARED natural highest_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
+SHARED uint_lanes highest_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
 {
-  strip_leader best;
-  start_strip_leader(&best);
-  for (uint k = 0u; k < strips_of(hull->vertices); ++k) {
-    uint at = hull->first_strip + k * 3u * ROWS_OF_STRIP;
-    strip x, y, z;
-    load_strip(&x, tables->strips, at);
-    load_strip(&y, tables->strips, at + ROWS_OF_STRIP);
-    load_strip(&z, tables->strips, at + 2u * ROWS_OF_STRIP);
-    strip height = x * direction.x + y * direction.y + z * direction.z;
-    challenge_by_strip(&best, &height, k * STRIP);
+  chunk_leader best;
+  start_chunk_leader(&best);
+  for (uint k = 0u; k < chunks_of(hull->vertices); ++k) {
+    uint at = hull->first_chunk + k * 3u * FLOAT4S_OF_CHUNK;
+    float8 x, y, z;
+    load_float8(&x, tables->chunks, at);
+    load_float8(&y, tables->chunks, at + FLOAT4S_OF_CHUNK);
+    load_float8(&z, tables->chunks, at + 2u * FLOAT4S_OF_CHUNK);
+    float8 height = x * direction.x + y * direction.y + z * direction.z;
+    challenge_by_chunk(&best, &height, k * CHUNK);
   }
-  return highest_of_strip(&best).at;
+  return highest_of_chunk(&best).at;
 }
 
 /* Which of `cells` along a side of the cube, for -1 <= x <= 1. */
@@ -110,7 +111,7 @@ SHARED uint cell_of_place(cube_place place, uint cells)
 {
   return (place.side * cells + cell_of_side(place.v, cells)) * cells + cell_of_side(place.u, cells);
 }
-SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
+SHARED uint_lanes vertex_of_cube_map(const hull_tables *tables, const hull_ranges *hull, vec3 direction)
 {
   return tables->links[hull->first_link + hull->vertices + 1u + 2u * hull->corners +
                        cell_of_place(place_on_cube(direction), hull->map_side)];
@@ -118,13 +119,13 @@ SHARED natural vertex_of_cube_map(const hull_tables *tables, const hull_ranges *
 
 SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull, uint k, vec3 direction)
 {
-  return inner(xyz(load_row(tables->vertices, hull->first_vertex + k)), direction);
+  return dot3(xyz(load_float4(tables->vertices, hull->first_vertex + k)), direction);
 }
 
 /* The highest of a vertex and those with which it shares a face; rival: another one is as high, for all that can be
  * told. */
-SHARED natural uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding,
-                      mask *rival)
+SHARED uint_lanes uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding,
+                         mask *rival)
 {
   GLOBAL const uint *links = tables->links + hull->first_link;
   uint best = from;
@@ -144,13 +145,13 @@ SHARED natural uphill(const hull_tables *tables, const hull_ranges *hull, uint f
   }
   return best;
 }
-SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
+SHARED uint_lanes climbed_vertex(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
   real rounding = R(16.0) * ROUNDING * length_of(size);
-  natural at = vertex_of_cube_map(tables, hull, direction);
+  uint_lanes at = vertex_of_cube_map(tables, hull, direction);
   for (uint step = 0u; step < hull->vertices; ++step) {
     mask rival;
-    natural next = uphill(tables, hull, at, direction, rounding, &rival);
+    uint_lanes next = uphill(tables, hull, at, direction, rounding, &rival);
     if (next == at && rival) break;
     if (next == at) return at;
     at = next;
@@ -159,7 +160,7 @@ SHARED natural climbed_vertex(const hull_tables *tables, const hull_ranges *hull
 }
 
 /* size: half extents of a box around the hull, centred at the origin of its axes. */
-SHARED natural hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
+SHARED uint_lanes hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
   if (MAY_OCCUR(HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING)
     return climbed_vertex(tables, hull, direction, size);

@@ -1,9 +1,9 @@
 /* list_pairs.h - the kernels that sort pairs by kind; pair_lists.h says what for.
  *
- * A tile is cut into strips of consecutive pairs, so that equal kinds keep their order without an atomic:
+ * A tile is cut into chunks of consecutive pairs, so that equal kinds keep their order without an atomic:
  *
- *            strip 0   strip 1   strip 2 ..
- *   kind 0     3         0         1         -> sums along the rows, then down: where the pairs of a strip go
+ *            chunk 0   chunk 1   chunk 2 ..
+ *   kind 0     3         0         1         -> sums along the rows, then down: where the pairs of a chunk go
  *   kind 1     5         8         7            within the tile
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_LIST_PAIRS_H
@@ -12,25 +12,25 @@
 #include "shared/narrowphase/pair_lists.h"
 #include "shared/parallel/length.h"
 
-#define LIST_STRIPS STRIPS(128u)
+#define LIST_STRIPS CHUNKS(128u)
 #define LIST_STRIP (TILE / LIST_STRIPS)
 /* Kinds, and behind them the pairs of none. */
 #define LISTS ((uint)PAIR_KIND_NONE + 1u)
 #define LIST_LOCAL_WORDS (((uint)PAIR_KIND_NONE + 1u) * 128u)
 
-SHARED uint kind_of_pair(read_pairs pairs, GLOBAL const uint *traits, uint pair)
+SHARED uint kind_of_pair(read_pairs pairs, GLOBAL const uint *flags, uint pair)
 {
-  return pair_kind(traits[pairs.a[pair]], traits[pairs.b[pair]]);
+  return pair_kind(flags[pairs.a[pair]], flags[pairs.b[pair]]);
 }
 
 /* kind_counts[kind * tiles + tile]: pairs of the tile that are of the kind. */
-SHARED void count_pair_kinds_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const uint *counts,
+SHARED void count_pair_kinds_group(read_pairs pairs, GLOBAL const uint *flags, GLOBAL const uint *counts,
                                    GLOBAL uint *kind_counts, LOCAL uint *local_memory, uint group)
 {
   const uint n = counts[COUNT_PAIRS], count = items_in_tile(n, TILE, group), tiles = units_of(n, TILE);
   if (count == 0u) return;
   FOR_EACH_ITEM(kind, LISTS) local_memory[kind] = 0u;
-  FOR_EACH_ITEM(k, count) LOCAL_ADD(local_memory + kind_of_pair(pairs, traits, group * TILE + k), 1u);
+  FOR_EACH_ITEM(k, count) LOCAL_ADD(local_memory + kind_of_pair(pairs, flags, group * TILE + k), 1u);
   FOR_EACH_ITEM(kind, LISTS) kind_counts[kind * tiles + group] = local_memory[kind];
 }
 
@@ -42,27 +42,27 @@ SHARED void start_pair_lists_item(GLOBAL const uint *kind_places, GLOBAL uint *c
   for (uint kind = 0u; kind < LISTS; ++kind) counts[KIND_START + kind] = n > 0u ? kind_places[kind * tiles] : 0u;
 }
 
-/* strips: how many pairs of each kind a strip has. A single strip, as on the CPU, needs no counts: it starts where the
+/* chunks: how many pairs of each kind a chunk has. A single chunk, as on the CPU, needs no counts: it starts where the
  * tile does. */
-SHARED void count_strips(read_pairs pairs, GLOBAL const uint *traits, uint first, uint count, LOCAL uint *strips)
+SHARED void count_strips(read_pairs pairs, GLOBAL const uint *flags, uint first, uint count, LOCAL uint *chunks)
 {
-  FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) strips[k] = 0u;
+  FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) chunks[k] = 0u;
   if (LIST_STRIPS == 1u) return;
   FOR_EACH_ITEM(s, LIST_STRIPS)
   {
     for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
-      ++strips[kind_of_pair(pairs, traits, first + k) * LIST_STRIPS + s];
+      ++chunks[kind_of_pair(pairs, flags, first + k) * LIST_STRIPS + s];
   }
 }
 
-SHARED void list_pairs_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL const uint *counts,
+SHARED void list_pairs_group(read_pairs pairs, GLOBAL const uint *flags, GLOBAL const uint *counts,
                              GLOBAL const uint *kind_places, GLOBAL uint *pair_of_kind, LOCAL uint *local_memory,
                              uint group)
 {
   const uint n = counts[COUNT_PAIRS], first = group * TILE, count = items_in_tile(n, TILE, group);
   const uint tiles = units_of(n, TILE);
   if (count == 0u) return;
-  count_strips(pairs, traits, first, count, local_memory);
+  count_strips(pairs, flags, first, count, local_memory);
   FOR_EACH_ITEM(kind, LISTS)
   {
     uint place = kind_places[kind * tiles + group];
@@ -75,7 +75,7 @@ SHARED void list_pairs_group(read_pairs pairs, GLOBAL const uint *traits, GLOBAL
   FOR_EACH_ITEM(s, LIST_STRIPS)
   {
     for (uint k = s * LIST_STRIP; k < (s + 1u) * LIST_STRIP && k < count; ++k)
-      pair_of_kind[local_memory[kind_of_pair(pairs, traits, first + k) * LIST_STRIPS + s]++] = first + k;
+      pair_of_kind[local_memory[kind_of_pair(pairs, flags, first + k) * LIST_STRIPS + s]++] = first + k;
   }
 }
 

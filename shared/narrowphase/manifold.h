@@ -23,7 +23,7 @@ typedef struct {
   vec3 normal;
   vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
   mask kept[4];
-  natural code;     /* of the feature pair, 24 bits */
+  uint_lanes code;  /* of the feature pair, 24 bits */
   real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start; packed_moment */
 } manifold;
 
@@ -60,14 +60,14 @@ SHARED manifold choose_manifold(mask m, manifold a, manifold b)
 /* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the
  * others towards it: were all pairs parted along one line, a thousand bodies would make a thousand layers, whose speeds
  * add up. Sideways, so that nothing is lifted. */
-SHARED vec3 place_of_its_own(natural body)
+SHARED vec3 place_of_its_own(uint_lanes body)
 {
-  natural hash = (body + 1u) * 0x9e3779b1u;
+  uint_lanes hash = (body + 1u) * 0x9e3779b1u;
   hash = (hash ^ (hash >> 15u)) * 0x85ebca77u;
   hash = hash ^ (hash >> 13u);
   return make_vec3(to_real(hash & 0xffffu), R(0.0), to_real(hash >> 16u));
 }
-SHARED vec3 parting_direction(natural a, natural b)
+SHARED vec3 parting_direction(uint_lanes a, uint_lanes b)
 {
   vec3 between = subtract(place_of_its_own(b), place_of_its_own(a));
   real length = length_of(between);
@@ -78,10 +78,11 @@ SHARED vec3 parting_direction(natural a, natural b)
 
 /* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing
  * round; 0 for a sphere. */
-SHARED real reach_of(GLOBAL const Parameters *parameters, motion a, real radius_a, motion b, real radius_b, vec3 normal)
+SHARED real reach_of(GLOBAL const Parameters *parameters, spatial_velocity a, real radius_a, spatial_velocity b,
+                     real radius_b, vec3 normal)
 {
   real closing =
-      inner(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a + length_of(b.angular) * radius_b;
+      dot3(subtract(a.linear, b.linear), normal) + length_of(a.angular) * radius_a + length_of(b.angular) * radius_b;
   return parameters->speculative_distance + parameters->step * maximum(closing, R(0.0));
 }
 
@@ -91,27 +92,27 @@ SHARED manifold kept_within(manifold m, real reach)
   return m;
 }
 
-SHARED natural points_of(manifold m)
+SHARED uint_lanes points_of(manifold m)
 {
-  natural count = 0u;
+  uint_lanes count = 0u;
   for (int slot = 0; slot < 4; ++slot) count = choose(m.kept[slot], count + 1u, count);
   return count;
 }
-SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_points, natural pair)
+SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_points, uint_lanes pair)
 {
-  store_natural_if(marked, counts_of_points, pair, points_of(m) | TO_FOLLOW);
+  store_uint_if(marked, counts_of_points, pair, points_of(m) | TO_FOLLOW);
 }
 
 /* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
-SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, natural pair)
+SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, uint_lanes pair)
 {
   vec4 packed[4];
-  natural count = 0u, slots = 0u;
+  uint_lanes count = 0u, slots = 0u;
   for (int k = 0; k < 4; ++k) packed[k] = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
   for (int slot = 0; slot < 4; ++slot) {
     for (int k = 0; k <= slot; ++k)
-      packed[k] = choose4(m.kept[slot] & (count == (natural)(uint)k), m.point[slot], packed[k]);
-    slots = choose(m.kept[slot], slots | ((natural)(uint)slot << (count * 2u)), slots);
+      packed[k] = choose4(m.kept[slot] & (count == (uint_lanes)(uint)k), m.point[slot], packed[k]);
+    slots = choose(m.kept[slot], slots | ((uint_lanes)(uint)slot << (count * 2u)), slots);
     count = choose(m.kept[slot], count + 1u, count);
   }
   mask touching = count > 0u;
@@ -119,24 +120,24 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifold
   store_listed_row_if(mine, manifolds.normal, pair,
                       extend(choose3(touching, m.normal, nothing), choose(touching, m.impact_time, (real)R(0.0))));
   for (int k = 0; k < 4; ++k) store_listed_row_if(mine, manifolds.points, stride * (uint)k + pair, packed[k]);
-  store_natural_if(mine, manifolds.count, pair, count);
-  store_natural_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (natural)0u));
+  store_uint_if(mine, manifolds.count, pair, count);
+  store_uint_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
 }
 
 /* What was stored. Points without a mask hold zeros. */
 SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index i)
 {
-  vec4 normal = load_row(manifolds.normal, i);
-  natural count = load_natural(manifolds.count, i) & (TO_FOLLOW - 1u), feature = load_natural(manifolds.feature, i);
+  vec4 normal = load_float4(manifolds.normal, i);
+  uint_lanes count = load_uint(manifolds.count, i) & (TO_FOLLOW - 1u), feature = load_uint(manifolds.feature, i);
   mask touching = count > 0u;
   manifold m = single_contact(xyz(normal), make_vec3(R(0.0), R(0.0), R(0.0)), R(0.0), touching & (!touching));
   m.impact_time = normal.w;
   m.code = feature >> 8u;
   for (int k = 0; k < 4; ++k) {
-    vec4 point = load_row(manifolds.points, stride * (uint)k + i);
-    natural slot_of_point = (feature >> ((natural)(uint)k * 2u)) & 3u;
+    vec4 point = load_float4(manifolds.points, stride * (uint)k + i);
+    uint_lanes slot_of_point = (feature >> ((uint_lanes)(uint)k * 2u)) & 3u;
     for (int slot = 0; slot < 4; ++slot) {
-      mask here = (count > (natural)(uint)k) & (slot_of_point == (natural)(uint)slot);
+      mask here = (count > (uint_lanes)(uint)k) & (slot_of_point == (uint_lanes)(uint)slot);
       m.point[slot] = choose4(here, point, m.point[slot]);
       m.kept[slot] = m.kept[slot] | here;
     }
@@ -147,7 +148,7 @@ SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index
 /* What the store above leaves of a manifold without points. */
 SHARED void store_no_manifold(uint stride, write_manifolds manifolds, uint i)
 {
-  row nothing;
+  float4 nothing;
   nothing.x = nothing.y = nothing.z = nothing.w = R(0.0);
   manifolds.normal[i] = nothing;
   for (uint k = 0u; k < 4u; ++k) manifolds.points[stride * k + i] = nothing;

@@ -48,7 +48,7 @@ SHARED uint farthest_place(manifold m)
 SHARED mask has_point_below(manifold m, vec3 foot, real radius)
 {
   for (uint slot = 0u; slot < 4u; ++slot) {
-    vec3 beside = outer(m.normal, subtract(xyz(m.point[slot]), foot));
+    vec3 beside = cross3(m.normal, subtract(xyz(m.point[slot]), foot));
     if (m.kept[slot] && length_squared(beside) < radius * radius) return 1;
   }
   return 0;

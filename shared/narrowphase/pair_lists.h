@@ -36,35 +36,36 @@ SHARED uint end_of_list(GLOBAL const Parameters *parameters, GLOBAL const uint *
 
 /* What an item of a pair kernel works on. mine: false where the pair is another kernel's. */
 typedef struct {
-  natural pair, a, b;
+  uint_lanes pair, a, b;
   mask mine;
 } handled;
 
-SHARED natural pair_of_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_of_kind, item_index i)
+SHARED uint_lanes pair_of_item(GLOBAL const Parameters *parameters, GLOBAL const uint *pair_of_kind, item_index i)
 {
-  return HAS_FEATURE(parameters, PAIR_KINDS) ? load_natural(pair_of_kind, i) : (natural)i;
+  return HAS_FEATURE(parameters, PAIR_KINDS) ? load_uint(pair_of_kind, i) : (uint_lanes)i;
 }
 
-SHARED mask is_of_kind(GLOBAL const Parameters *parameters, GLOBAL const uint *traits, natural a, natural b, uint kind)
+SHARED mask is_of_kind(GLOBAL const Parameters *parameters, GLOBAL const uint *flags, uint_lanes a, uint_lanes b,
+                       uint kind)
 {
   mask one = a == b;
   if (HAS_FEATURE(parameters, PAIR_KINDS)) return one | (!one);
-  return pair_kind(load_natural(traits, a), load_natural(traits, b)) == kind;
+  return pair_kind(load_uint(flags, a), load_uint(flags, b)) == kind;
 }
 
-SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pairs pairs, GLOBAL const uint *traits,
+SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pairs pairs, GLOBAL const uint *flags,
                             uint kind, item_index i)
 {
   handled h;
   h.pair = pair_of_item(parameters, pairs.of_kind, i);
   if (HAS_FEATURE(parameters, PAIR_KINDS)) {
-    h.a = load_natural(pairs.a, h.pair);
-    h.b = load_natural(pairs.b, h.pair);
+    h.a = load_uint(pairs.a, h.pair);
+    h.b = load_uint(pairs.b, h.pair);
   } else { /* in the order of memory, which lanes load at once */
-    h.a = load_natural(pairs.a, i);
-    h.b = load_natural(pairs.b, i);
+    h.a = load_uint(pairs.a, i);
+    h.b = load_uint(pairs.b, i);
   }
-  h.mine = is_of_kind(parameters, traits, h.a, h.b, kind);
+  h.mine = is_of_kind(parameters, flags, h.a, h.b, kind);
   return h;
 }
 

@@ -58,16 +58,16 @@ SHARED real squared_distance(clip_point a, clip_point b)
 SHARED void keep_deepest(clip_point *four, clip_point deepest, real lead)
 {
   real chosen = R(1e30), nearest = R(1e30);
-  natural slot = 0u;
+  uint_lanes slot = 0u;
   for (int k = 0; k < 4; ++k) {
     real distance = squared_distance(four[k], deepest);
     mask nearer = four[k].valid & (distance < nearest);
-    slot = choose(nearer, (natural)(uint)k, slot);
+    slot = choose(nearer, (uint_lanes)(uint)k, slot);
     nearest = choose(nearer, distance, nearest);
     chosen = choose(four[k].valid, minimum(chosen, four[k].separation), chosen);
   }
   mask missed = deepest.valid & (deepest.separation + lead < chosen);
-  for (int k = 0; k < 4; ++k) four[k] = choose_point(missed & (slot == (natural)(uint)k), deepest, four[k]);
+  for (int k = 0; k < 4; ++k) four[k] = choose_point(missed & (slot == (uint_lanes)(uint)k), deepest, four[k]);
 }
 
 /* Twice the area of the triangle a, b, c: positive if c lies to the left of the way from a to b. */

@@ -30,7 +30,7 @@ typedef struct {
 
 SHARED vec3 in_contact_axes(const contact_axes *axes, vec3 p)
 {
-  return make_vec3(inner(axes->u, p), inner(axes->v, p), inner(axes->normal, p));
+  return make_vec3(dot3(axes->u, p), dot3(axes->v, p), dot3(axes->normal, p));
 }
 
 /* A supporting feature in the axes of the contact: x and y its outline, z its height. The first corners are kept, those
@@ -121,7 +121,7 @@ SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, 
 }
 
 /* The ends of what is left of an edge of the moving feature. */
-SHARED void stream_stretch(reduction *r, const clipping *clip, vec3 entry, vec3 exit)
+SHARED void stream_segment(reduction *r, const clipping *clip, vec3 entry, vec3 exit)
 {
   for (int end = 0; end < 2; ++end) {
     vec3 at = end == 0 ? entry : exit;
@@ -142,7 +142,7 @@ SHARED void stream_moving_edge(reduction *r, const clipping *clip, vec3 p, vec3 
     from = to;
   }
   if (enter > leave) return;
-  stream_stretch(r, clip, add_scaled(p, edge, enter), leave >= R(1.0) ? q : add_scaled(p, edge, leave));
+  stream_segment(r, clip, add_scaled(p, edge, enter), leave >= R(1.0) ? q : add_scaled(p, edge, leave));
 }
 
 SHARED mask within_outline(const outline *o, vec3 p, real slack)
@@ -187,7 +187,7 @@ SHARED void stream_segments(reduction *r, const clipping *clip)
     leave = minimum(leave, maximum(first, second));
     if (enter > leave) return;
   }
-  stream_stretch(r, clip, add_scaled(p, edge, enter), add_scaled(p, edge, leave));
+  stream_segment(r, clip, add_scaled(p, edge, enter), add_scaled(p, edge, leave));
 }
 
 /* The whole stream, in the same order every time. Features of one point have none. */

@@ -24,7 +24,7 @@ SHARED uint edges_of(const convex *shape) { return is_hull(shape) ? shape->hull.
 /* Outward unit normal and distance from the origin. */
 SHARED vec4 plane_of_face(const convex *shape, uint k)
 {
-  if (is_hull(shape)) return load_row(shape->tables.planes, shape->hull.first_face + k);
+  if (is_hull(shape)) return load_float4(shape->tables.planes, shape->hull.first_face + k);
   vec3 normal = from_axis(k >> 1u, (k & 1u) == 1u ? R(-1.0) : R(1.0), R(0.0), R(0.0));
   return extend(normal, coordinate(shape->size, k >> 1u));
 }
@@ -76,8 +76,8 @@ SHARED polytope_edge edge_of(const convex *shape, uint k)
   polytope_edge edge;
   edge.start = hull_vertex(shape, entry[0]);
   edge.along = subtract(hull_vertex(shape, entry[1]), edge.start);
-  edge.left = xyz(load_row(shape->tables.planes, shape->hull.first_face + entry[2]));
-  edge.right = xyz(load_row(shape->tables.planes, shape->hull.first_face + entry[3]));
+  edge.left = xyz(load_float4(shape->tables.planes, shape->hull.first_face + entry[2]));
+  edge.right = xyz(load_float4(shape->tables.planes, shape->hull.first_face + entry[3]));
   return edge;
 }
 

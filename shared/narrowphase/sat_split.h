@@ -22,17 +22,17 @@ SHARED void find_separating_axis_item(read_listed_part_pairs pairs, read_shapes 
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   uint pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   mask near = load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair);
   axes.state[pair] = near ? SPLIT_WHOLE : SPLIT_APART;
-  store_row(axes.axis, pair, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+  store_float4(axes.axis, pair, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   if (!near || !is_polytope(&query.first) || !is_polytope(&query.second)) return;
   convex_pair both = pair_of(&query.first, &query.second);
   core_contact contact =
       separating_hull_axis(&both.a, &both.b, lead_of_faces(&both.a, &both.b, parameters->slop), query.reach).contact;
   axes.state[pair] = contact.gap >= query.reach ? SPLIT_APART : SPLIT_CLIP;
-  store_row(axes.axis, pair, extend(contact.normal, contact.gap));
+  store_float4(axes.axis, pair, extend(contact.normal, contact.gap));
 }
 
 /* faces: of a and b of the pair; INDEX_NONE: none that faces the other. */
@@ -42,13 +42,13 @@ SHARED void find_clipping_faces_item(read_listed_part_pairs pairs, read_shapes s
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   uint pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   faces[pair * 2u] = faces[pair * 2u + 1u] = INDEX_NONE;
   if (axes.state[pair] != SPLIT_CLIP) return;
   convex_query query;
   if (!load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) return;
   convex_pair both = pair_of(&query.first, &query.second);
-  vec3 normal = xyz(load_row(axes.axis, pair));
+  vec3 normal = xyz(load_float4(axes.axis, pair));
   support_face face_a = support_face_of(&both.a, normal), face_b = support_face_of(&both.b, negate(normal));
   faces[pair * 2u] = face_a.corners > 2u ? face_a.feature : INDEX_NONE;
   faces[pair * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
@@ -63,13 +63,13 @@ SHARED void clip_faces_item(read_listed_part_pairs pairs, read_shapes shapes, re
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   uint pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   clipped.count[pair] = INDEX_NONE;
   if (axes.state[pair] != SPLIT_CLIP || faces[pair * 2u] == INDEX_NONE || faces[pair * 2u + 1u] == INDEX_NONE) return;
   convex_query query;
   if (!load_convex_query(&query, pairs, shapes, surfaces, bodies, parameters, method, pair)) return;
   convex_pair both = pair_of(&query.first, &query.second);
-  contact_axes plane = contact_axes_of(xyz(load_row(axes.axis, pair)));
+  contact_axes plane = contact_axes_of(xyz(load_float4(axes.axis, pair)));
   support_face face_a = face_of_polytope(&both.a, faces[pair * 2u]),
                face_b = face_of_polytope(&both.b, faces[pair * 2u + 1u]);
   feature_overlap overlap;
@@ -81,8 +81,8 @@ SHARED void clip_faces_item(read_listed_part_pairs pairs, read_shapes shapes, re
   clipped.count[pair] = r.points;
   for (uint k = 0u; k < r.points; ++k) {
     clip_point p = r.kept[k];
-    store_row(clipped.point, counts[CAPACITY_PAIRS] * k + pair,
-              make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &both.a, &both.b, p)));
+    store_float4(clipped.point, counts[CAPACITY_PAIRS] * k + pair,
+                 make_vec4(p.u, p.v, p.separation, height_of_b(&overlap, &both.a, &both.b, p)));
   }
 }
 
@@ -99,7 +99,7 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
   uint count = clipped.count[i];
   reduction r;
   start_reduction(&r, bounding_radius_of(&pair->b), slack_of_corners(&pair->b));
-  for (uint k = 0u; k < count; ++k) reduce_step(&r, stored_point(load_row(clipped.point, stride * k + i)));
+  for (uint k = 0u; k < count; ++k) reduce_step(&r, stored_point(load_float4(clipped.point, stride * k + i)));
   while (next_pass(&r)) reduce_kept(&r);
   if (misses_deepest(&r, axis.w)) return 0;
   patch->axes = contact_axes_of(xyz(axis));
@@ -107,7 +107,7 @@ SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 ax
   for (int slot = 0; slot < 4; ++slot) {
     patch->height[slot] = R(0.0);
     for (uint k = count; k-- > 0u;) {
-      vec4 p = load_row(clipped.point, stride * k + i);
+      vec4 p = load_float4(clipped.point, stride * k + i);
       if (p.x == patch->point[slot].u && p.y == patch->point[slot].v && p.z == patch->point[slot].separation)
         patch->height[slot] = p.w;
     }
@@ -122,7 +122,7 @@ SHARED void reduce_contacts_item(read_listed_part_pairs pairs, read_shapes shape
 {
   if (!HAS_FEATURE(parameters, SAT_SPLIT)) return;
   uint pair;
-  if (!is_convex_pair(&pair, parameters, pairs, shapes.traits, PAIR_KIND_CONVEX_CONVEX, i)) return;
+  if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
   convex_query query;
   uint stride = counts[CAPACITY_PAIRS];
   if (axes.state[pair] == SPLIT_APART ||
@@ -134,7 +134,7 @@ SHARED void reduce_contacts_item(read_listed_part_pairs pairs, read_shapes shape
   contact_patch patch;
   patch.code = code_of_features(faces[pair * 2u], faces[pair * 2u + 1u]);
   mask reduced = clipped.count[pair] != INDEX_NONE &&
-                 reduced_patch(&patch, &both, load_row(axes.axis, pair), clipped, stride, pair);
+                 reduced_patch(&patch, &both, load_float4(axes.axis, pair), clipped, stride, pair);
   manifold m;
   if (reduced) m = within_reach(parameters, &query, kept_within(placed_manifold(&both, &patch), query.reach));
   else m = contact_of_query(parameters, &query, method & 255u);

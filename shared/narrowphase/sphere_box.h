@@ -72,55 +72,55 @@ SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion mov
 /* outward: from the box. */
 SHARED real gap_of_sphere_along(sphere_and_box pair, vec3 outward)
 {
-  return inner(outward, pair.center) - inner(absolute(rotate_back(pair.rotation, outward)), pair.extent) - pair.radius;
+  return dot3(outward, pair.center) - dot3(absolute(rotate_back(pair.rotation, outward)), pair.extent) - pair.radius;
 }
 
 /* The normal turns with the box. */
-SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, journey way)
+SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, toi_input input)
 {
   vec3 angular = choose3(pair.sphere_first, moves.b.angular, moves.a.angular);
   real speed = length_of(subtract(moves.a.linear, moves.b.linear)),
-       distance = length_of(pair.center) + speed * way.horizon;
+       distance = length_of(pair.center) + speed * input.horizon;
   real acceleration = acceleration_seen(length_of(angular), distance, speed, R(0.0), R(0.0));
   advancement at = start_advancement(reached);
   for (uint round = 0u; round < ADVANCEMENT_ROUNDS; ++round) {
     manifold now = sphere_box_contact(sphere_and_box_after(pair, moves, at.time));
     vec3 outward = choose3(pair.sphere_first, negate(now.normal), now.normal);
-    real gap = now.point[0].w, span = span_of(at, gap, acceleration, way);
+    real gap = now.point[0].w, span = span_of(at, gap, acceleration, input);
     real gap_then = gap_of_sphere_along(sphere_and_box_after(pair, moves, at.time + span),
                                         rotate(turn_within(angular, span), outward));
     at = advanced(at, round, gap, closing_speed(moves, now.normal),
-                  free_by_chord(gap, gap_then, span, acceleration, way), way);
+                  free_by_chord(gap, gap_then, span, acceleration, input), input);
     if (!any_of(at.active)) break;
   }
   return at;
 }
 
-SHARED void collide_sphere_box_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_sphere_box_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                     read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                     write_manifolds manifolds, item_index i)
 {
-  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_SPHERE_BOX, i);
+  handled item = handled_pair(parameters, pairs, flags, PAIR_KIND_SPHERE_BOX, i);
   if (!any_of(item.mine)) return;
-  natural a = item.a, b = item.b;
+  uint_lanes a = item.a, b = item.b;
   mask mine = item.mine;
-  mask sphere_first = shape_of(load_natural(traits, a)) == (uint)SHAPE_SPHERE;
+  mask sphere_first = shape_of(load_uint(flags, a)) == (uint)SHAPE_SPHERE;
 
-  natural sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
-  vec4 shape = load_row(shapes, box);
-  real zero = R(0.0), radius = load_row(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
+  uint_lanes sphere = choose(sphere_first, a, b), box = choose(sphere_first, b, a);
+  vec4 shape = load_float4(shapes, box);
+  real zero = R(0.0), radius = load_float4(shapes, sphere).x, least = minimum(radius, least_of(xyz(shape)));
   sphere_and_box pair = {offset_between(bodies.position, box, sphere), xyz(shape), radius,
-                         rotation_of(quat_from(load_row(bodies.orientation, box))), sphere_first};
+                         rotation_of(quat_from(load_float4(bodies.orientation, box))), sphere_first};
   pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, choose(sphere_first, zero, shape.w),
                                        choose(sphere_first, shape.w, zero));
   manifold m = sphere_box_contact(pair);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
-  journey way = journey_of_step(parameters, moves, least, radius + shape.w);
+  toi_input input = toi_input_of_step(parameters, moves, least, radius + shape.w);
   speculation s =
-      speculation_of(parameters, m, choose3(sphere_first, negate(pair.center), pair.center), moves, way, least);
+      speculation_of(parameters, m, choose3(sphere_first, negate(pair.center), pair.center), moves, input, least);
   if (any_of(mine & s.asked)) {
-    encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, way), way);
+    encounter met = encounter_of(parameters, s, impact_of_sphere_on_box(mine & s.reached, pair, moves, input), input);
     sphere_and_box then = sphere_and_box_after(pair, moves, choose(met.at_impact, met.time, zero));
     manifold later = sphere_box_contact(then);
     later = kept_within(later, reach_of_pair(parameters, moves, later.normal));

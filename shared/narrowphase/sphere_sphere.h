@@ -21,28 +21,28 @@ SHARED manifold spheres_contact(vec3 between, real radius_a, real radius_b, vec3
 
 /* The distance at which the centres pass each other is taken from the vector itself: as a difference of squares it
  * would lose to rounding what a fast pair misses by. */
-SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pair_motion moves, journey way)
+SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pair_motion moves, toi_input input)
 {
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
   real squared = length_squared(velocity);
   mask moving = reached & (squared > R(0.0));
-  real inverse = R(1.0) / choose(moving, squared, (real)R(1.0)), nearest = -inner(between, velocity) * inverse;
+  real inverse = R(1.0) / choose(moving, squared, (real)R(1.0)), nearest = -dot3(between, velocity) * inverse;
   real passing = length_of(add_scaled(between, velocity, nearest));
   real half_chord = square_root(maximum((radii - passing) * (radii + passing), R(0.0)) * inverse);
   advancement at = start_advancement(reached);
   at.active = reached & (!reached);
   real impact = maximum(nearest - half_chord, R(0.0));
-  at.hits = moving & (nearest > R(0.0)) & (passing <= radii) & (impact < way.horizon);
-  at.time = choose(at.hits, impact, clamped(nearest, R(0.0), way.horizon));
+  at.hits = moving & (nearest > R(0.0)) & (passing <= radii) & (impact < input.horizon);
+  at.time = choose(at.hits, impact, clamped(nearest, R(0.0), input.horizon));
   return at;
 }
 
 /* Spheres that miss keep a contact where they pass each other, if they would run into that of the start: its plane lies
  * along their motion, which so never meets it, and what others push into it is held. */
 SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, mask runs_into_start,
-                                      advancement at, journey way)
+                                      advancement at, toi_input input)
 {
-  encounter met = encounter_of(parameters, s, at, way);
+  encounter met = encounter_of(parameters, s, at, input);
   mask passes = met.missed & runs_into_start;
   met.time = choose(passes, at.time, met.time);
   met.at_impact = met.at_impact | passes;
@@ -58,27 +58,27 @@ SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion m
   return (R(0.25) + unplaced) * length_of(moves.fall) * parameters->step;
 }
 
-SHARED void collide_sphere_sphere_item(read_listed_pairs pairs, GLOBAL const uint *traits, GLOBAL const row *shapes,
+SHARED void collide_sphere_sphere_item(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                        read_bodies bodies, GLOBAL const Parameters *parameters,
                                        GLOBAL const uint *counts, write_manifolds manifolds, item_index i)
 {
-  handled item = handled_pair(parameters, pairs, traits, PAIR_KIND_SPHERE_SPHERE, i);
+  handled item = handled_pair(parameters, pairs, flags, PAIR_KIND_SPHERE_SPHERE, i);
   if (!any_of(item.mine)) return;
-  natural a = item.a, b = item.b;
+  uint_lanes a = item.a, b = item.b;
   mask mine = item.mine;
 
-  real radius_a = load_row(shapes, a).x, radius_b = load_row(shapes, b).x, least = minimum(radius_a, radius_b);
+  real radius_a = load_float4(shapes, a).x, radius_b = load_float4(shapes, b).x, least = minimum(radius_a, radius_b);
   vec3 between = offset_between(bodies.position, a, b), aside = parting_direction(a, b);
   pair_motion moves = load_pair_motion(bodies.velocity, parameters, a, b, R(0.0), R(0.0));
   manifold m = spheres_contact(between, radius_a, radius_b, aside);
   m = kept_within(m, reach_of_pair(parameters, moves, m.normal));
 
-  journey way = journey_of_step(parameters, moves, least, radius_a + radius_b);
-  speculation s = speculation_of(parameters, m, between, moves, way, least);
+  toi_input input = toi_input_of_step(parameters, moves, least, radius_a + radius_b);
+  speculation s = speculation_of(parameters, m, between, moves, input, least);
   if (any_of(mine & s.asked)) {
-    advancement at = impact_of_spheres(s.reached, between, radius_a + radius_b, moves, way);
+    advancement at = impact_of_spheres(s.reached, between, radius_a + radius_b, moves, input);
     encounter met =
-        encounter_of_spheres(parameters, s, approach_of_points(parameters, m, between, moves).reached[0], at, way);
+        encounter_of_spheres(parameters, s, approach_of_points(parameters, m, between, moves).reached[0], at, input);
     vec3 offset = offset_after(between, moves, choose(met.at_impact, met.time, (real)R(0.0)));
     manifold there = spheres_contact(offset, radius_a, radius_b, aside);
     there.point[0].w = there.point[0].w + choose(at.hits, (real)R(0.0), margin_of_passing(parameters, moves, met.time));

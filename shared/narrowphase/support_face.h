@@ -65,12 +65,12 @@ SHARED uint box_face_toward(vec3 own)
 /* Of the faces at the farthest vertex: a face elsewhere may be squarer to the direction, yet lie lower. */
 SHARED uint hull_face_toward(const convex *shape, vec3 own)
 {
-  natural vertex = support_vertex(shape, own);
+  uint_lanes vertex = support_vertex(shape, own);
   GLOBAL const uint *links = shape->tables.links + shape->hull.first_link;
   uint best = 0u;
   real most = R(-2.0);
   for (uint k = links[vertex]; k < links[vertex + 1u]; ++k) {
-    real cosine = inner(xyz(plane_of_face(shape, links[k])), own);
+    real cosine = dot3(xyz(plane_of_face(shape, links[k])), own);
     if (cosine <= most + FACE_LEAD) continue;
     most = cosine;
     best = links[k];
@@ -125,7 +125,7 @@ SHARED support_face capsule_feature(const convex *shape, vec3 own)
 /* Unit normal of a triangle seen counter-clockwise; meshes hold none without (host/geometry/triangle_mesh.h). */
 SHARED vec3 normal_of_triangle(const convex *shape)
 {
-  vec3 normal = outer(shape->second, shape->third);
+  vec3 normal = cross3(shape->second, shape->third);
   return scale(normal, R(1.0) / length_of(normal));
 }
 SHARED support_face triangle_feature(const convex *shape, vec3 own)
@@ -133,7 +133,7 @@ SHARED support_face triangle_feature(const convex *shape, vec3 own)
   vec3 normal = normal_of_triangle(shape);
   support_face face = point_feature(make_vec3(R(0.0), R(0.0), R(0.0)), 0u);
   face.corners = 3u;
-  face.turned = inner(normal, own) < R(0.0);
+  face.turned = dot3(normal, own) < R(0.0);
   face.normal = from_shape_axes(shape, face.turned ? negate(normal) : normal);
   return face;
 }
@@ -148,7 +148,7 @@ SHARED support_face support_face_of(const convex *shape, vec3 direction)
   else if (is_capsule(shape)) face = capsule_feature(shape, own);
   else if (is_triangle(shape)) face = triangle_feature(shape, own);
   else return point_feature(shape->center, 0u);
-  if (face.corners > 2u && inner(face.normal, direction) < FACE_LEAST_COSINE)
+  if (face.corners > 2u && dot3(face.normal, direction) < FACE_LEAST_COSINE)
     return point_feature(support_of(shape, direction), face.feature);
   return face;
 }

@@ -8,10 +8,10 @@
  *                                      into.
  *               | b
  *
- * The pair is advanced again and again by the time in which it cannot touch, the longer of two: gap / closing speed
- * (conservative advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what the gap now and a span later
- * say, along a normal that turns with one of the bodies. In between no point strays from the chord by more than its
- * acceleration lets it:
+ * The pair is advanced repeatedly by a time in which it cannot touch, the longer of two: gap / closing speed
+ * (conservative advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what follows from the gap now and
+ * the gap a span later, both along a normal that turns with one of the bodies. In between, no point leaves the chord by
+ * more than its acceleration allows:
  *
  *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it
  *       |`- .  chord                 passes is known to miss in a few rounds, also where it rolls along with hardly a
@@ -19,7 +19,7 @@
  *       |    `-.....` - o            gap. Of bodies that do not turn the gap along a normal is the chord itself.
  *       +------------------> time
  *
- * At rest nothing of this runs: touching points, and gaps that a slow pair does not close, are left as they are.
+ * None of this runs at rest: touching points, and gaps that a slow pair does not close, stay as they are.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_TIME_OF_IMPACT_H
 #define TANDEM_SHARED_NARROWPHASE_TIME_OF_IMPACT_H
@@ -27,36 +27,37 @@
 #include "shared/narrowphase/manifold.h"
 #include "shared/trigonometry.h"
 
-/* More are needed only where turning swings by a surface that it nearly touches; the contact is then made that much
- * early. */
+/* A pair needs more rounds only if a turning body swings past a surface that it nearly touches. The contact is then
+ * made early by the gap that is left. */
 #define ADVANCEMENT_ROUNDS 128
-/* For a pair that does not move far the contacts of the start are nearly right; a device would wait for the slowest
- * pair of all. */
+/* Pairs that do not move far get fewer rounds: the contacts of the start are nearly right for them, and a device would
+ * wait for the slowest pair of all. */
 #define SLOW_ROUNDS 8
-/* Of the smaller shape's least size: a pair that moves less within the step meets as it stands at the start. */
+/* A share of the smaller shape's least size. A pair that moves less than this within the step gets the contacts of the
+ * start. */
 #define FAR_SHARE R(0.25)
 /* Of a gap: bodies advance by less than that, and the manifold has a normal of its own. */
 #define ROUGHLY R(0.1)
-/* Of the least size: shapes this close count as touching. */
+/* A share of the least size. Shapes this close count as touching. */
 #define TOUCHING_SHARE R(1e-3)
-/* Of the slop: nor need they come closer than this within a step. */
+/* A share of the slop. Shapes need not come closer than this within a step. */
 #define TOUCHING_SLOP R(0.02)
 
 /* Two bodies that move evenly: as far within the step as gravity brings them. radius: that turning swings round; 0 for
  * a sphere in the middle of its body. fall: what of the velocity of a against b is gravity's. */
 typedef struct {
-  motion a, b;
+  spatial_velocity a, b;
   real radius_a, radius_b;
   vec3 fall;
 } pair_motion;
 
-SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const Parameters *parameters, natural a,
-                                    natural b, real radius_a, real radius_b)
+SHARED pair_motion load_pair_motion(GLOBAL const float4 *velocities, GLOBAL const Parameters *parameters, uint_lanes a,
+                                    uint_lanes b, real radius_a, real radius_b)
 {
-  vec4 first_a = load_row(velocities, a * 2u), second_a = load_row(velocities, a * 2u + 1u);
-  vec4 first_b = load_row(velocities, b * 2u), second_b = load_row(velocities, b * 2u + 1u);
+  vec4 first_a = load_float4(velocities, a * 2u), second_a = load_float4(velocities, a * 2u + 1u);
+  vec4 first_b = load_float4(velocities, b * 2u), second_b = load_float4(velocities, b * 2u + 1u);
   vec3 fall_a = mean_fall(parameters, first_a, second_a), fall_b = mean_fall(parameters, first_b, second_b);
-  pair_motion m = {motion_of_rows(first_a, second_a), motion_of_rows(first_b, second_b), radius_a, radius_b,
+  pair_motion m = {velocity_of_float4s(first_a, second_a), velocity_of_float4s(first_b, second_b), radius_a, radius_b,
                    subtract(fall_a, fall_b)};
   m.a.linear = add(m.a.linear, fall_a);
   m.b.linear = add(m.b.linear, fall_b);
@@ -69,7 +70,7 @@ SHARED pair_motion load_pair_motion(GLOBAL const row *velocities, GLOBAL const P
  * before. */
 SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
-  real closing = inner(m.fall, normal), last_substep = parameters->substep / parameters->step;
+  real closing = dot3(m.fall, normal), last_substep = parameters->substep / parameters->step;
   return maximum(closing, R(0.0)) * (R(1.0) + last_substep * last_substep) - closing;
 }
 
@@ -77,16 +78,16 @@ SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion
  * no earlier for gravity: the speculative distance is enough. */
 SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
-  motion a = m.a;
+  spatial_velocity a = m.a;
   a.linear = subtract(a.linear, m.fall);
   return reach_of(parameters, a, m.radius_a, m.b, m.radius_b, normal);
 }
 
-/* At most this fast the gap along a unit normal from a to b closes. */
+/* The highest speed at which the gap along a unit normal from a to b can close. */
 SHARED real closing_speed(pair_motion m, vec3 normal)
 {
-  return inner(subtract(m.a.linear, m.b.linear), normal) + length_of(outer(m.a.angular, normal)) * m.radius_a +
-         length_of(outer(m.b.angular, normal)) * m.radius_b;
+  return dot3(subtract(m.a.linear, m.b.linear), normal) + length_of(cross3(m.a.angular, normal)) * m.radius_a +
+         length_of(cross3(m.b.angular, normal)) * m.radius_b;
 }
 SHARED real fastest_closing(pair_motion m)
 {
@@ -122,26 +123,27 @@ SHARED mat3 turn_within(vec3 angular, real time)
 typedef struct {
   real horizon, touching, fastest, roughly;
   mask far;
-} journey;
+} toi_input;
 
-SHARED journey journey_of(real fastest, real horizon, real least, real size)
+SHARED toi_input toi_input_of(real fastest, real horizon, real least, real size)
 {
   real rounding = R(16.0) * ROUNDING * (fastest * horizon + size);
-  journey way = {horizon, maximum(TOUCHING_SHARE * least, rounding), fastest, R(0.0), fastest == fastest};
-  return way;
+  toi_input input = {horizon, maximum(TOUCHING_SHARE * least, rounding), fastest, R(0.0), fastest == fastest};
+  return input;
 }
 
-/* The journey of one step. Contacts are made somewhat ahead of touching, for what gravity and other contacts add: the
+/* The input of one step. Contacts are made somewhat ahead of touching, for what gravity and other contacts add: the
  * motion is followed past the end of the step until it has grown by that distance. least: of the sizes of the two;
  * size: of both. */
-SHARED journey journey_of_step(GLOBAL const Parameters *parameters, pair_motion moves, real least, real size)
+SHARED toi_input toi_input_of_step(GLOBAL const Parameters *parameters, pair_motion moves, real least, real size)
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
   real horizon = parameters->step + parameters->speculative_distance / fastest;
-  journey way = journey_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
-  way.roughly = ROUGHLY;
-  way.far = fastest * parameters->step > FAR_SHARE * least;
-  return way;
+  toi_input input =
+      toi_input_of(fastest, horizon, minimum(least, parameters->slop * (TOUCHING_SLOP / TOUCHING_SHARE)), size);
+  input.roughly = ROUGHLY;
+  input.far = fastest * parameters->step > FAR_SHARE * least;
+  return input;
 }
 
 /* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the
@@ -158,31 +160,31 @@ SHARED advancement start_advancement(mask wanted)
 }
 
 /* How far ahead to look for the second gap, s: the chord is then off by a quarter of this one at most. */
-SHARED real span_of(advancement at, real gap, real acceleration, journey way)
+SHARED real span_of(advancement at, real gap, real acceleration, toi_input input)
 {
-  real rest = maximum(way.horizon - at.time, R(0.0));
+  real rest = maximum(input.horizon - at.time, R(0.0));
   mask bends = acceleration > R(0.0);
   return choose(bends,
                 minimum(rest, square_root(R(2.0) * maximum(gap, R(0.0)) / choose(bends, acceleration, (real)R(1.0)))),
                 rest);
 }
 /* How much of the span is free of touching, s. */
-SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration, journey way)
+SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration, toi_input input)
 {
-  real stray = R(0.125) * acceleration * span * span, room = gap - R(0.5) * way.touching;
-  mask clear = gap_then - stray > R(0.5) * way.touching;
-  return span * choose(clear, (real)R(1.0), room / choose(clear, (real)R(1.0), gap - gap_then + R(4.0) * stray));
+  real stray = R(0.125) * acceleration * span * span, margin = gap - R(0.5) * input.touching;
+  mask clear = gap_then - stray > R(0.5) * input.touching;
+  return span * choose(clear, (real)R(1.0), margin / choose(clear, (real)R(1.0), gap - gap_then + R(4.0) * stray));
 }
 
 /* gap: along a normal; closing: how fast at most; chord: what is free by it, s. */
-SHARED advancement advanced(advancement at, uint round, real gap, real closing, real chord, journey way)
+SHARED advancement advanced(advancement at, uint round, real gap, real closing, real chord, toi_input input)
 {
-  natural rounds = choose(way.far, (natural)(uint)ADVANCEMENT_ROUNDS, (natural)(uint)SLOW_ROUNDS);
-  mask touches = at.active & ((gap <= way.touching) | (rounds == round + 1u));
-  mask closes = (closing > R(0.0)) & (gap <= way.fastest * (way.horizon - at.time));
-  real time = at.time + maximum((gap - R(0.5) * way.touching) / choose(closes, closing, (real)R(1.0)), chord);
+  uint_lanes rounds = choose(input.far, (uint_lanes)(uint)ADVANCEMENT_ROUNDS, (uint_lanes)(uint)SLOW_ROUNDS);
+  mask touches = at.active & ((gap <= input.touching) | (rounds == round + 1u));
+  mask closes = (closing > R(0.0)) & (gap <= input.fastest * (input.horizon - at.time));
+  real time = at.time + maximum((gap - R(0.5) * input.touching) / choose(closes, closing, (real)R(1.0)), chord);
   advancement next;
-  next.active = at.active & (!touches) & closes & (time < way.horizon);
+  next.active = at.active & (!touches) & closes & (time < input.horizon);
   next.hits = at.hits | touches;
   next.time = choose(next.active, time, at.time);
   return next;
@@ -211,12 +213,12 @@ SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_
                 choose(m.b.inverse_mass == zero, length_of(m.b.angular), zero);
   vec3 slide = scale(subtract(m.b.linear, m.a.linear), parameters->step);
   vec3 turning = add(scale(m.a.angular, share), scale(m.b.angular, R(1.0) - share));
-  real of_driven = driven * length_of(slide), of_both = inner(outer(slide, normal), turning);
+  real of_driven = driven * length_of(slide), of_both = dot3(cross3(slide, normal), turning);
   slide_closing s = {maximum(of_driven, of_both), maximum(of_driven, magnitude(of_both))};
   return s;
 }
 
-/* A body that turns so far moves on no line: it would meet the plane of a point beside it. */
+/* A body that turns this far does not move on a line, so it would meet the plane of a point beside it. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least)
 {
   return fastest * parameters->step > FAR_SHARE * least;
@@ -239,7 +241,7 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
   points.by_slide = closing_by_slide(parameters, moves, m.normal);
   for (int slot = 0; slot < 4; ++slot) {
     vec3 arm = xyz(m.point[slot]);
-    real closing = inner(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset))));
+    real closing = dot3(m.normal, subtract(velocity_at(moves.a, arm), velocity_at(moves.b, subtract(arm, offset))));
     points.closing[slot] = maximum(closing, R(0.0));
     points.fastest[slot] = maximum(closing + beyond_mean, R(0.0));
     points.reached[slot] = m.kept[slot] & (points.fastest[slot] * parameters->step >= m.point[slot].w);
@@ -265,49 +267,50 @@ SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, v
  * the motion of the step reaches, which are followed, and those of a body that swings far. */
 typedef struct {
   mask asked, reached, a_swings, b_swings;
-  real room; /* m: so far points of bodies that pass may be put clear of them */
+  real margin; /* m: so far points of bodies that pass may be put clear of them */
 } speculation;
 
 /* Of the size of a pair that can both be pushed. */
-#define ROOM_SHARE R(0.05)
+#define MARGIN_SHARE R(0.05)
 
 /* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far,
  * and so does not swing far, and reaches none of its points would keep them all, so it is not asked. */
 SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves,
-                                  journey way, real least)
+                                  toi_input input, real least)
 {
   real gap = least_separation(m);
   speculation s;
-  s.room = choose((moves.a.inverse_mass > R(0.0)) & (moves.b.inverse_mass > R(0.0)), ROOM_SHARE * least, (real)R(0.0));
+  s.margin =
+      choose((moves.a.inverse_mass > R(0.0)) & (moves.b.inverse_mass > R(0.0)), MARGIN_SHARE * least, (real)R(0.0));
   s.a_swings = swings_far(parameters, length_of(moves.a.angular) * moves.radius_a, least);
   s.b_swings = swings_far(parameters, length_of(moves.b.angular) * moves.radius_b, least);
-  mask ahead = has_points(m) & (gap > way.touching);
+  mask ahead = has_points(m) & (gap > input.touching);
   real closing = closing_speed(moves, m.normal) + closing_by_slide(parameters, moves, m.normal).either_way +
                  closing_beyond_mean(parameters, moves, m.normal);
   s.reached = ahead & (closing * parameters->step > gap);
   s.asked = s.reached | (ahead & (s.a_swings | s.b_swings));
-  if (any_of(s.asked & (!way.far))) {
-    s.asked = s.asked & (way.far | reaches_any_point(parameters, m, offset, moves));
+  if (any_of(s.asked & (!input.far))) {
+    s.asked = s.asked & (input.far | reaches_any_point(parameters, m, offset, moves));
     s.reached = s.reached & s.asked;
   }
   return s;
 }
 
-/* What becomes of the contacts that were asked for. None of the masks: they stay. */
+/* The outcome for speculative contacts. If no mask holds, the contacts stay. */
 typedef struct {
   mask at_impact; /* they are replaced by those of `time` */
   mask missed;
   mask passing; /* the bodies do not meet within the step */
   mask a_swings, b_swings;
-  real time; /* s */
-  real room; /* m, as of speculation */
+  real time;   /* s */
+  real margin; /* m, as of speculation */
 } encounter;
 
-/* A pair that does not come far meets as it stands at the start. One that misses while one of it swings far is looked
- * at as it is at the end of the step (guard_of). */
-SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s, advancement at, journey way)
+/* A pair that does not move far gets the contacts of the start. A pair that misses while one of its bodies swings far
+ * gets those of the end of the step (guard_of). */
+SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s, advancement at, toi_input input)
 {
-  mask missed = s.asked & (!at.hits), meets = s.asked & at.hits & way.far & (at.time > R(0.0));
+  mask missed = s.asked & (!at.hits), meets = s.asked & at.hits & input.far & (at.time > R(0.0));
   mask one_swings = (s.a_swings | s.b_swings) & (!(s.a_swings & s.b_swings));
   encounter met = {meets | (missed & one_swings),
                    missed,
@@ -315,14 +318,14 @@ SHARED encounter encounter_of(GLOBAL const Parameters *parameters, speculation s
                    s.a_swings,
                    s.b_swings,
                    choose(at.hits, at.time, (real)parameters->step),
-                   s.room};
+                   s.margin};
   return met;
 }
 
-/* Of a body that swings far and misses what nothing pushes, the contacts of the end of the step: what others add must
- * not bring it nearer than it is then. In its centre, where its turning moves nothing, so that its own motion ends
- * ahead of it; where that of the other moves the point by much, it is left out. Of two that can be pushed neither is
- * guarded. */
+/* The contact of the end of the step, for a body that swings far and misses a body that nothing pushes. It keeps other
+ * contacts from bringing the body nearer than it is then. The contact stands at the centre of the body, where its
+ * turning moves nothing, so that its own motion ends ahead of it. The contact is left out where the turning of the
+ * other body moves the point by much. If both bodies can be pushed, neither is guarded. */
 SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask a_swings, vec3 offset,
                          pair_motion moves)
 {
@@ -337,16 +340,17 @@ SHARED manifold guard_of(GLOBAL const Parameters *parameters, manifold end, mask
   return guard;
 }
 
-/* So much more than what comes nearer keeps rounding from making it touch. */
+/* This factor on the distance that comes nearer keeps rounding from making the point touch. */
 #define CLEARLY R(1.01)
 
-/* From the moment of the impact back to the start of the step: points were as far apart again as they close until then;
- * of bodies that miss each other as they may close within the whole of it. A point that parts was not nearer before:
- * what turns does not move on a line. Bodies that miss each other keep, of the contacts at the start, those that their
- * own motion does not reach, if they do not swing: others may push them. A point into which only arms that follow would
- * turn its plane is put clear of it, so that what others push through it keeps angular momentum, though they may push
- * the bodies as far into each other. Where there is no room for that the arms do not follow.
- * offset: centre of b from that of a, at the moment of the contacts. */
+/* Moves a manifold from the moment of the impact back to the start of the step. The points were farther apart then by
+ * what they close until the impact; points of bodies that miss each other, by what they may close within the whole
+ * step. A point that parts was not nearer before, because what turns does not move on a line. Bodies that miss each
+ * other and do not swing keep those contacts of the start that their own motion does not reach, because other bodies
+ * may push them. If only arms that follow would turn the plane of a contact into its point, the point is put clear of
+ * the plane: impulses through it then keep angular momentum, though they may push the bodies that far into each other.
+ * Where the margin does not suffice for that, the arms do not follow. offset: centre of b from that of a, at the moment
+ * of the contacts. */
 SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold found, encounter met, vec3 offset,
                                    pair_motion moves)
 {
@@ -362,7 +366,7 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
     m.kept[slot] = m.kept[slot] & (met.at_impact | (!met.missed) | (!(swings | points.reached[slot])));
     turned_into = turned_into | (met.passing & reaches_point(parameters, m, points, slot, either_way));
   }
-  mask arms_stay = turned_into & (either_way * parameters->step > met.room);
+  mask arms_stay = turned_into & (either_way * parameters->step > met.margin);
   for (int slot = 0; slot < 4; ++slot) {
     real closed = choose(met.passing, points.fastest[slot] * maximum(met.time, parameters->step),
                          points.closing[slot] * met.time);

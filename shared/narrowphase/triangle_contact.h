@@ -38,7 +38,7 @@ SHARED triangle_sides sides_of(const convex *shape)
   t.normal = from_shape_axes(shape, normal_of_triangle(shape));
   for (uint k = 0u; k < 3u; ++k) t.corner[k] = point_of_shape(shape, triangle_corner(shape, k));
   for (uint k = 0u; k < 3u; ++k) {
-    vec3 across = outer(subtract(t.corner[k == 2u ? 0u : k + 1u], t.corner[k]), t.normal);
+    vec3 across = cross3(subtract(t.corner[k == 2u ? 0u : k + 1u], t.corner[k]), t.normal);
     t.outward[k] = scale(across, R(1.0) / length_of(across));
   }
   return t;
@@ -48,23 +48,23 @@ SHARED triangle_sides sides_of(const convex *shape)
 SHARED vec3 normal_beyond(const convex *shape, uint neighbour)
 {
   vec3 first = mesh_vertex(shape->tables, neighbour, 0u);
-  vec3 normal = outer(subtract(mesh_vertex(shape->tables, neighbour, 1u), first),
-                      subtract(mesh_vertex(shape->tables, neighbour, 2u), first));
+  vec3 normal = cross3(subtract(mesh_vertex(shape->tables, neighbour, 1u), first),
+                       subtract(mesh_vertex(shape->tables, neighbour, 2u), first));
   return from_shape_axes(shape, scale(normal, R(1.0) / length_of(normal)));
 }
 
 /* Whether the surface lets a contact push out along a unit direction. */
 SHARED mask surface_permits(const convex *shape, const triangle_sides *t, vec3 out)
 {
-  real up = inner(out, t->normal);
+  real up = dot3(out, t->normal);
   if (up < R(0.0)) return 0;
   for (uint k = 0u; k < 3u; ++k) {
-    real lean = inner(out, t->outward[k]);
+    real lean = dot3(out, t->outward[k]);
     uint neighbour = shape->tables.mesh_triangles[shape->triangle * 6u + 3u + k];
     if (lean <= LEAN_NOISE || neighbour == INDEX_NONE) continue;
     vec3 beyond = normal_beyond(shape, neighbour);
     /* The sine of the angle from the neighbour's normal on to `out`, about the edge. */
-    if (lean * inner(beyond, t->normal) - up * inner(beyond, t->outward[k]) > LEAN_NOISE) return 0;
+    if (lean * dot3(beyond, t->normal) - up * dot3(beyond, t->outward[k]) > LEAN_NOISE) return 0;
   }
   return 1;
 }
@@ -74,13 +74,13 @@ SHARED mask in_front(const triangle_sides *t, const convex *other)
 {
   vec3 highest = subtract(support_of(other, t->normal), t->corner[0]),
        lowest = subtract(support_of(other, negate(t->normal)), t->corner[0]);
-  return inner(highest, t->normal) + inner(lowest, t->normal) >= R(0.0);
+  return dot3(highest, t->normal) + dot3(lowest, t->normal) >= R(0.0);
 }
 
 SHARED mask above_triangle(const triangle_sides *t, vec3 point, real slack)
 {
   for (uint k = 0u; k < 3u; ++k)
-    if (inner(subtract(point, t->corner[k]), t->outward[k]) > slack) return 0;
+    if (dot3(subtract(point, t->corner[k]), t->outward[k]) > slack) return 0;
   return 1;
 }
 
@@ -103,7 +103,7 @@ SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex
   pair->sides_b = sides_of(pair->of_b ? b : a);
   pair->outside_a = pair->of_a && in_front(&pair->sides_a, b);
   pair->outside_b = pair->of_b && in_front(&pair->sides_b, a);
-  if (!pair->of_a || !pair->of_b || inner(pair->sides_a.normal, pair->sides_b.normal) >= R(0.0)) return;
+  if (!pair->of_a || !pair->of_b || dot3(pair->sides_a.normal, pair->sides_b.normal) >= R(0.0)) return;
   pair->outside_a = pair->outside_a || gap_along(a, b, pair->sides_a.normal) > -thickness;
   pair->outside_b = pair->outside_b || gap_along(a, b, negate(pair->sides_b.normal)) > -thickness;
 }
@@ -118,8 +118,8 @@ SHARED mask normal_permitted(const triangle_pair *pair, vec3 normal)
 SHARED mask leads_behind(const triangle_pair *pair, vec3 normal)
 {
   if (pair->of_a && pair->of_b) return 0;
-  return (pair->of_a && inner(normal, pair->sides_a.normal) < -LEAN_NOISE) ||
-         (pair->of_b && inner(normal, pair->sides_b.normal) > LEAN_NOISE);
+  return (pair->of_a && dot3(normal, pair->sides_a.normal) < -LEAN_NOISE) ||
+         (pair->of_b && dot3(normal, pair->sides_b.normal) > LEAN_NOISE);
 }
 
 /* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape
@@ -143,8 +143,8 @@ SHARED core_contact triangle_penetration(const triangle_pair *pair, vec3 up, rea
 /* The face whose normal the contact has; 0 where it lies elsewhere. */
 SHARED const triangle_sides *face_of_contact(const triangle_pair *pair, vec3 normal)
 {
-  if (pair->of_a && inner(normal, pair->sides_a.normal) > R(0.999999)) return &pair->sides_a;
-  if (pair->of_b && inner(normal, pair->sides_b.normal) < R(-0.999999)) return &pair->sides_b;
+  if (pair->of_a && dot3(normal, pair->sides_a.normal) > R(0.999999)) return &pair->sides_a;
+  if (pair->of_b && dot3(normal, pair->sides_b.normal) < R(-0.999999)) return &pair->sides_b;
   return 0;
 }
 
@@ -165,8 +165,8 @@ SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, co
  * triangles each then has its own depth, not that of the box's lowest corner. */
 SHARED mask nearly_along_face(const triangle_pair *pair, vec3 normal)
 {
-  return (pair->outside_a && inner(normal, pair->sides_a.normal) > SAME_FACE) ||
-         (pair->outside_b && inner(normal, pair->sides_b.normal) < -SAME_FACE);
+  return (pair->outside_a && dot3(normal, pair->sides_a.normal) > SAME_FACE) ||
+         (pair->outside_b && dot3(normal, pair->sides_b.normal) < -SAME_FACE);
 }
 
 /* A face of the shapes near the normal, where the surface permits it. */

@@ -6,14 +6,14 @@
  *   scan             the same table then says where each tile's keys of a digit go
  *   sort_scatter     one group a tile: sort the tile by the digit in local memory, write runs of equal digits
  *
- * Ranking within a tile: strips of consecutive keys count their digits, each strip in a column of
+ * Ranking within a tile: chunks of consecutive keys count their digits, each chunk in a column of
  * its own, so that no atomic is needed and the order of equal keys stays:
  *
- *            strip 0   strip 1   strip 2 ..
- *   digit 0    3         0         1      -> sums along the row: keys of this digit in the strips before
+ *            chunk 0   chunk 1   chunk 2 ..
+ *   digit 0    3         0         1      -> sums along the row: keys of this digit in the chunks before
  *   digit 1    0         2         2      -> sums down the totals of rows: smaller digits in the tile
  *
- * The rank of a key among those of its tile is then: smaller digits + earlier strips + earlier in the strip.
+ * The rank of a key among those of its tile is then: smaller digits + earlier chunks + earlier in the chunk.
  */
 #ifndef TANDEM_SHARED_PARALLEL_RADIX_SORT_H
 #define TANDEM_SHARED_PARALLEL_RADIX_SORT_H
@@ -25,13 +25,13 @@
 #define SORT_TILE 2048u
 #define SORT_BITS 8u
 #define SORT_DIGITS 256u
-#define SORT_STRIPS STRIPS(32u)
-#define SORT_STRIP (SORT_TILE / SORT_STRIPS)
+#define SORT_CHUNKS CHUNKS(32u)
+#define SORT_CHUNK (SORT_TILE / SORT_CHUNKS)
 
-/* Local memory, in words. Keys and values pass through the same words as the counts of strips, later. */
+/* Local memory, in words. Keys and values pass through the same words as the counts of chunks, later. */
 #define SORT_RANKS_AT 0u /* a word a key, spread over banks: digit and rank, then place */
 #define SORT_SPREAD(i) ((i) + (i) / 64u)
-#define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u) /* a half_word a digit and strip; then the tile, sorted */
+#define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u) /* a half_word a digit and chunk; then the tile, sorted */
 #define SORT_DIGITS_AT (SORT_COUNTS_AT + 4096u)      /* a byte a key: its digit, in the new order */
 #define SORT_STARTS_AT (SORT_DIGITS_AT + SORT_TILE / 4u) /* a word a digit: smaller digits in the tile */
 #define SORT_BASES_AT (SORT_STARTS_AT + SORT_DIGITS) /* a word a digit: place in the result, less place in the tile */
@@ -42,9 +42,9 @@ SHARED uint sort_digit(uint key, uint shift, uint bits) { return (key >> shift) 
 SHARED uint sort_digit64(ulong key, uint shift, uint bits) { return (uint)(key >> shift) & ((1u << bits) - 1u); }
 
 /* Rows are rotated so that neither a row nor a column falls into one bank. */
-SHARED uint sort_count_at(uint digit, uint strip)
+SHARED uint sort_count_at(uint digit, uint chunk)
 {
-  return digit * SORT_STRIPS + ((strip + (digit & ~1u)) & (SORT_STRIPS - 1u));
+  return digit * SORT_CHUNKS + ((chunk + (digit & ~1u)) & (SORT_CHUNKS - 1u));
 }
 
 SHARED void sort_histogram_clear(LOCAL uint *counters) { FOR_EACH_ITEM(d, SORT_DIGITS) counters[d] = 0u; }
@@ -75,16 +75,16 @@ SHARED void sort_histogram64_group(GLOBAL const uint *counts, GLOBAL const ulong
   sort_histogram_store(local_memory, histogram, n, bits, group);
 }
 
-/* Counts the digits of each strip; ranks: from a key's digit to (digit << 16 | earlier equal digits in its strip). */
-SHARED void sort_count_strips(uint count, LOCAL uint *local_memory)
+/* Counts the digits of each chunk; ranks: from a key's digit to (digit << 16 | earlier equal digits in its chunk). */
+SHARED void sort_count_chunks(uint count, LOCAL uint *local_memory)
 {
   LOCAL uint *ranks = local_memory + SORT_RANKS_AT, *words = local_memory + SORT_COUNTS_AT;
   LOCAL half_word *counters = (LOCAL half_word *)words;
-  FOR_EACH_ITEM(i, (SORT_DIGITS * SORT_STRIPS + 1u) / 2u) words[i] = 0u;
-  FOR_EACH_ITEM(s, SORT_STRIPS)
+  FOR_EACH_ITEM(i, (SORT_DIGITS * SORT_CHUNKS + 1u) / 2u) words[i] = 0u;
+  FOR_EACH_ITEM(s, SORT_CHUNKS)
   {
-    const uint end = (s + 1u) * SORT_STRIP < count ? (s + 1u) * SORT_STRIP : count;
-    for (uint i = s * SORT_STRIP; i < end; ++i) {
+    const uint end = (s + 1u) * SORT_CHUNK < count ? (s + 1u) * SORT_CHUNK : count;
+    for (uint i = s * SORT_CHUNK; i < end; ++i) {
       const uint digit = ranks[SORT_SPREAD(i)], at = sort_count_at(digit, s), rank = counters[at];
       counters[at] = (half_word)(rank + 1u);
       ranks[SORT_SPREAD(i)] = digit << 16 | rank;
@@ -92,15 +92,15 @@ SHARED void sort_count_strips(uint count, LOCAL uint *local_memory)
   }
 }
 
-/* From counts to sums over earlier strips, and over smaller digits. */
-SHARED void sort_scan_strips(LOCAL uint *local_memory)
+/* From counts to sums over earlier chunks, and over smaller digits. */
+SHARED void sort_scan_chunks(LOCAL uint *local_memory)
 {
   LOCAL half_word *counters = (LOCAL half_word *)(local_memory + SORT_COUNTS_AT);
   LOCAL uint *starts = local_memory + SORT_STARTS_AT;
   FOR_EACH_ITEM(d, SORT_DIGITS)
   {
     uint sum = 0u;
-    for (uint s = 0u; s < SORT_STRIPS; ++s) {
+    for (uint s = 0u; s < SORT_CHUNKS; ++s) {
       const uint at = sort_count_at(d, s), value = counters[at];
       counters[at] = (half_word)sum;
       sum += value;
@@ -119,13 +119,13 @@ SHARED void sort_rank_tile(GLOBAL const uint *offsets, uint n, uint count, uint 
   LOCAL const uint *starts = local_memory + SORT_STARTS_AT;
   LOCAL const half_word *counters = (LOCAL const half_word *)(local_memory + SORT_COUNTS_AT);
   LOCAL unsigned char *digits = (LOCAL unsigned char *)(local_memory + SORT_DIGITS_AT);
-  sort_count_strips(count, local_memory);
-  sort_scan_strips(local_memory);
+  sort_count_chunks(count, local_memory);
+  sort_scan_chunks(local_memory);
   FOR_EACH_ITEM(d, 1u << bits) bases[d] = offsets[d * tiles + group] - starts[d];
   FOR_EACH_ITEM(i, count)
   {
     const uint digit = ranks[SORT_SPREAD(i)] >> 16, rank = ranks[SORT_SPREAD(i)] & 0xffffu;
-    const uint place = starts[digit] + counters[sort_count_at(digit, i / SORT_STRIP)] + rank;
+    const uint place = starts[digit] + counters[sort_count_at(digit, i / SORT_CHUNK)] + rank;
     ranks[SORT_SPREAD(i)] = place;
     digits[place] = (unsigned char)digit;
   }

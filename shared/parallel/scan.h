@@ -20,66 +20,66 @@
 #include "shared/platform.h"
 
 #define SCAN_TILE 4096u
-#define SCAN_STRIPS STRIPS(256u)
-#define SCAN_STRIP (SCAN_TILE / SCAN_STRIPS)
+#define SCAN_CHUNKS CHUNKS(256u)
+#define SCAN_CHUNK (SCAN_TILE / SCAN_CHUNKS)
 
-/* Strips of small tables: SMALL_STRIPS items each walk a share. */
-#define SMALL_STRIPS STRIPS(32u)
+/* Chunks of small tables: SMALL_CHUNKS items each walk a share. */
+#define SMALL_CHUNKS CHUNKS(32u)
 
-/* Local memory, in words: the tile, spread so that strips start in different banks; sums of strips. */
+/* Local memory, in words: the tile, spread so that chunks start in different banks; sums of chunks. */
 #define SCAN_SPREAD(i) ((i) + (i) / 16u)
 #define SCAN_SUMS_AT (SCAN_TILE + SCAN_TILE / 16u)
 #define SCAN_SMALL_AT (SCAN_SUMS_AT + 256u)
 #define SCAN_LOCAL_WORDS (SCAN_SMALL_AT + 64u)
 
-/* Exclusive sums in place of n values in local memory; returns nothing: scratch[SMALL_STRIPS] becomes the total.
- * n is a multiple of SMALL_STRIPS; scratch holds SMALL_STRIPS + 1 words. */
+/* Exclusive sums in place of n values in local memory; returns nothing: scratch[SMALL_CHUNKS] becomes the total.
+ * n is a multiple of SMALL_CHUNKS; scratch holds SMALL_CHUNKS + 1 words. */
 SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
 {
-  const uint strip = n / SMALL_STRIPS;
-  FOR_EACH_ITEM(s, SMALL_STRIPS)
+  const uint chunk = n / SMALL_CHUNKS;
+  FOR_EACH_ITEM(s, SMALL_CHUNKS)
   {
     uint sum = 0u;
-    for (uint k = s * strip; k < (s + 1u) * strip; ++k) sum = saturated_sum(sum, values[k]);
+    for (uint k = s * chunk; k < (s + 1u) * chunk; ++k) sum = saturated_sum(sum, values[k]);
     scratch[s] = sum;
   }
-  FOR_EACH_ITEM(s, SMALL_STRIPS)
+  FOR_EACH_ITEM(s, SMALL_CHUNKS)
   {
     uint sum = 0u;
     for (uint k = 0u; k < s; ++k) sum = saturated_sum(sum, scratch[k]);
-    for (uint k = s * strip; k < (s + 1u) * strip; ++k) {
+    for (uint k = s * chunk; k < (s + 1u) * chunk; ++k) {
       const uint value = values[k];
       values[k] = sum;
       sum = saturated_sum(sum, value);
     }
-    if (s == SMALL_STRIPS - 1u) scratch[SMALL_STRIPS] = sum;
+    if (s == SMALL_CHUNKS - 1u) scratch[SMALL_CHUNKS] = sum;
   }
 }
 
-/* Loads a tile and leaves, for each strip, the sum of the strips before it; the tile's total in
- * local_memory[SCAN_SMALL_AT + SMALL_STRIPS]. Items past `count` are 0. */
+/* Loads a tile and leaves, for each chunk, the sum of the chunks before it; the tile's total in
+ * local_memory[SCAN_SMALL_AT + SMALL_CHUNKS]. Items past `count` are 0. */
 SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL uint *local_memory)
 {
   LOCAL uint *sums = local_memory + SCAN_SUMS_AT;
   FOR_EACH_ITEM(i, SCAN_TILE) local_memory[SCAN_SPREAD(i)] = i < count ? values[first + i] : 0u;
-  FOR_EACH_ITEM(s, SCAN_STRIPS)
+  FOR_EACH_ITEM(s, SCAN_CHUNKS)
   {
     uint sum = 0u;
-    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i)
+    for (uint i = s * SCAN_CHUNK; i < (s + 1u) * SCAN_CHUNK; ++i)
       sum = saturated_sum(sum, local_memory[SCAN_SPREAD(i)]);
     sums[s] = sum;
   }
-  scan_small(sums, SCAN_STRIPS, local_memory + SCAN_SMALL_AT);
+  scan_small(sums, SCAN_CHUNKS, local_memory + SCAN_SMALL_AT);
 }
 
 /* Turns the loaded tile into exclusive sums that start at `start`, and writes them. */
 SHARED void scan_store(GLOBAL uint *result, uint first, uint count, uint start, LOCAL uint *local_memory)
 {
   LOCAL const uint *sums = local_memory + SCAN_SUMS_AT;
-  FOR_EACH_ITEM(s, SCAN_STRIPS)
+  FOR_EACH_ITEM(s, SCAN_CHUNKS)
   {
     uint sum = saturated_sum(start, sums[s]);
-    for (uint i = s * SCAN_STRIP; i < (s + 1u) * SCAN_STRIP; ++i) {
+    for (uint i = s * SCAN_CHUNK; i < (s + 1u) * SCAN_CHUNK; ++i) {
       const uint value = local_memory[SCAN_SPREAD(i)];
       local_memory[SCAN_SPREAD(i)] = sum;
       sum = saturated_sum(sum, value);
@@ -96,13 +96,13 @@ SHARED void scan_reduce_group(GLOBAL const uint *counts, GLOBAL const uint *valu
   const uint count = items_in_tile(words, SCAN_TILE, group);
   const uint first = group * SCAN_TILE;
   if (count == 0u) return;
-  FOR_EACH_ITEM(s, SCAN_STRIPS)
+  FOR_EACH_ITEM(s, SCAN_CHUNKS)
   {
     uint sum = 0u;
-    for (uint i = s; i < count; i += SCAN_STRIPS) sum = saturated_sum(sum, values[first + i]);
+    for (uint i = s; i < count; i += SCAN_CHUNKS) sum = saturated_sum(sum, values[first + i]);
     local_memory[s] = sum;
   }
-  for (uint width = SCAN_STRIPS / 2u; width > 0u; width /= 2u)
+  for (uint width = SCAN_CHUNKS / 2u; width > 0u; width /= 2u)
     FOR_EACH_ITEM(s, width) local_memory[s] = saturated_sum(local_memory[s], local_memory[s + width]);
   FOR_EACH_ITEM(s, 1u) sums[group] = local_memory[0];
 }
@@ -120,10 +120,10 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
   for (uint tile = 0u; tile < units_of(n, SCAN_TILE); ++tile) {
     const uint count = items_in_tile(n, SCAN_TILE, tile);
     scan_load(values, tile * SCAN_TILE, count, local_memory);
-    FOR_EACH_ITEM(s, SCAN_STRIPS)
+    FOR_EACH_ITEM(s, SCAN_CHUNKS)
     local_memory[SCAN_SUMS_AT + s] = saturated_sum(local_memory[SCAN_SUMS_AT + s], carry[tile & 1u]);
     FOR_EACH_ITEM(s, 1u)
-    carry[(tile + 1u) & 1u] = saturated_sum(carry[tile & 1u], local_memory[SCAN_SMALL_AT + SMALL_STRIPS]);
+    carry[(tile + 1u) & 1u] = saturated_sum(carry[tile & 1u], local_memory[SCAN_SMALL_AT + SMALL_CHUNKS]);
     scan_store(result, tile * SCAN_TILE, count, 0u, local_memory);
   }
   FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];

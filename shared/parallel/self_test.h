@@ -27,7 +27,7 @@
   RESULT("larger of two", choose(a > b, a, b))              \
   RESULT("uint to float", to_real(p))                       \
   RESULT("int to float", int_to_real(p))                    \
-  RESULT("conversion", to_real(p >> 8) + R(0.5) - int_to_real((natural)truncate_to_int(small)))
+  RESULT("conversion", to_real(p >> 8) + R(0.5) - int_to_real((uint_lanes)truncate_to_int(small)))
 
 #define SELF_TEST_WORDS(RESULT)                                                                          \
   RESULT("comparisons", (uint)(a < b) | (uint)(a <= b) << 1 | (uint)(a > b) << 2 | (uint)(a >= b) << 3 | \

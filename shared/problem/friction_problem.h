@@ -22,24 +22,24 @@ typedef struct {
   vec3 normal, first, second;
 } delassus_block; /* rows of a 3x3 block of W */
 
-SHARED delassus_block load_block(GLOBAL const row *problem_block, uint block)
+SHARED delassus_block load_block(GLOBAL const float4 *problem_block, uint block)
 {
-  delassus_block b = {xyz(load_row(problem_block, 3u * block)), xyz(load_row(problem_block, 3u * block + 1u)),
-                      xyz(load_row(problem_block, 3u * block + 2u))};
+  delassus_block b = {xyz(load_float4(problem_block, 3u * block)), xyz(load_float4(problem_block, 3u * block + 1u)),
+                      xyz(load_float4(problem_block, 3u * block + 2u))};
   return b;
 }
 SHARED vec3 block_times(delassus_block b, vec3 v)
 {
-  return make_vec3(inner(b.normal, v), inner(b.first, v), inner(b.second, v));
+  return make_vec3(dot3(b.normal, v), dot3(b.first, v), dot3(b.second, v));
 }
 
 /* Velocity of contact i under all impulses, summed in the order of its row of blocks. */
 SHARED vec3 velocity_of(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                        GLOBAL const row *problem_block, vec3 free_velocity, GLOBAL const row *impulse, uint i)
+                        GLOBAL const float4 *problem_block, vec3 free_velocity, GLOBAL const float4 *impulse, uint i)
 {
   vec3 velocity = free_velocity;
   for (uint k = problem_start[i]; k < problem_start[i + 1u]; ++k)
-    velocity = add(velocity, block_times(load_block(problem_block, k), xyz(load_row(impulse, problem_column[k]))));
+    velocity = add(velocity, block_times(load_block(problem_block, k), xyz(load_float4(impulse, problem_column[k]))));
   return velocity;
 }
 

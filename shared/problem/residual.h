@@ -4,7 +4,7 @@
  * docs/contact-problems.md defines them and says why so. Each contact writes its term and a fixed tree adds them
  * (shared/parallel/reduce.h).
  *
- * natural             | r - P_K(r - rho (u + mu |u_T| n)) |^2
+ * natural_map             | r - P_K(r - rho (u + mu |u_T| n)) |^2
  * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),
  *                     o = Jordan product
  *                     of the second-order cone (Fukushima, Luo and Tseng 2002)
@@ -32,7 +32,7 @@ SHARED real natural_term(vec3 impulse, vec3 velocity, real friction, real rho)
 /* x + y - (x o x + y o y)^(1/2). The square lies in the cone, its eigenvalues are head +- |tail|. */
 SHARED vec3 fischer_burmeister(vec3 x, vec3 y)
 {
-  real head = inner(x, x) + inner(y, y);
+  real head = dot3(x, x) + dot3(y, y);
   real first = R(2.0) * (x.x * x.y + y.x * y.y), second = R(2.0) * (x.x * x.z + y.x * y.z);
   real tail = square_root(first * first + second * second);
   real upper = square_root(head + tail), lower = square_root(maximum(head - tail, R(0.0)));
@@ -52,16 +52,16 @@ SHARED real fischer_term(vec3 impulse, vec3 velocity, real friction, real rho)
 }
 
 SHARED void problem_residual_item(GLOBAL const uint *counts, GLOBAL const uint *problem_start,
-                                  GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                                  GLOBAL const row *problem_free, GLOBAL const memory_real *problem_trace,
-                                  GLOBAL const row *impulse, GLOBAL memory_real *natural, GLOBAL memory_real *fischer,
-                                  GLOBAL memory_real *violation, uint i)
+                                  GLOBAL const uint *problem_column, GLOBAL const float4 *problem_block,
+                                  GLOBAL const float4 *problem_free, GLOBAL const memory_real *problem_trace,
+                                  GLOBAL const float4 *impulse, GLOBAL memory_real *natural_map,
+                                  GLOBAL memory_real *fischer, GLOBAL memory_real *violation, uint i)
 {
-  vec4 q = load_row(problem_free, i);
-  vec3 r = xyz(load_row(impulse, i));
+  vec4 q = load_float4(problem_free, i);
+  vec3 r = xyz(load_float4(impulse, i));
   vec3 u = velocity_of(problem_start, problem_column, problem_block, xyz(q), impulse, i);
   real rho = rho_of(counts, problem_trace);
-  natural[i] = natural_term(r, u, q.w, rho);
+  natural_map[i] = natural_term(r, u, q.w, rho);
   fischer[i] = fischer_term(r, u, q.w, rho);
   violation[i] = maximum(tangent_length(r) - q.w * maximum(r.x, R(0.0)), maximum(-r.x, R(0.0)));
 }

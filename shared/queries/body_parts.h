@@ -15,13 +15,13 @@
 /* What queries know of the scene, and of one another. */
 typedef struct {
   GLOBAL const Parameters *parameters;
-  GLOBAL const uint *traits, *convexes, *body_trees;
-  GLOBAL const row *shapes, *poses, *positions, *orientations;
+  GLOBAL const uint *flags, *convexes, *body_trees;
+  GLOBAL const float4 *shapes, *poses, *positions, *orientations;
   hull_tables tables;
   tree_tables trees;
   body_structure bodies;
   GLOBAL const uint *query_body, *query_filter;
-  GLOBAL const row *query_start, *query_way;
+  GLOBAL const float4 *query_start, *query_displacement;
 } query_scene;
 
 SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_search_structures search_structures,
@@ -29,7 +29,7 @@ SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_sear
                                   read_queries queries, uint structure)
 {
   query_scene scene = {parameters,
-                       shapes.traits,
+                       shapes.flags,
                        shapes.convex,
                        trees.of_body,
                        shapes.size,
@@ -42,7 +42,7 @@ SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_sear
                        queries.body,
                        queries.filter,
                        queries.start,
-                       queries.way};
+                       queries.displacement};
   return scene;
 }
 
@@ -52,12 +52,12 @@ typedef struct {
   mask has_tree;
   tree t;
   vec3 center; /* of the body, seen from the start of the query */
-  vec3 middle, half_way;
+  vec3 middle, half_displacement;
   real radius;
 } part_walk;
 
-/* way: from the start of the query; radius: of what goes along it. */
-SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, vec3 way, real radius)
+/* displacement: from the start of the query; radius: of what goes along it. */
+SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, vec3 displacement, real radius)
 {
   part_walk walk;
   walk.body = body;
@@ -66,23 +66,25 @@ SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, ve
   walk.end = 1u;
   walk.has_tree = HAS_FEATURE(scene->parameters, TREES) && scene->body_trees[body * 2u] != INDEX_NONE;
   if (!walk.has_tree) return walk;
-  quat turned = quat_from(load_row(scene->orientations, body)), own = quat_from(load_row(scene->poses, body * 4u + 1u));
+  quat turned = quat_from(load_float4(scene->orientations, body)),
+       own = quat_from(load_float4(scene->poses, body * 4u + 1u));
   mat3 rotation = rotation_of(quat_multiply(turned, own));
-  vec3 origin = add(center, rotate(rotation_of(turned), xyz(load_row(scene->poses, body * 4u))));
+  vec3 origin = add(center, rotate(rotation_of(turned), xyz(load_float4(scene->poses, body * 4u))));
   walk.first_child = scene->body_trees[body * 2u + 1u];
   walk.t = load_tree(scene->trees, scene->body_trees[body * 2u]);
   walk.end = walk.t.nodes;
-  walk.half_way = rotate_back(rotation, scale(way, R(0.5)));
-  walk.middle = subtract(walk.half_way, rotate_back(rotation, origin));
-  walk.radius = radius + R(1e-6) * (length_of(origin) + length_of(way) + load_row(scene->shapes, body).w);
+  walk.half_displacement = rotate_back(rotation, scale(displacement, R(0.5)));
+  walk.middle = subtract(walk.half_displacement, rotate_back(rotation, origin));
+  walk.radius = radius + R(1e-6) * (length_of(origin) + length_of(displacement) + load_float4(scene->shapes, body).w);
   return walk;
 }
 
-SHARED mask way_near_box(const part_walk *walk, box_bounds box)
+SHARED mask path_near_box(const part_walk *walk, box_bounds box)
 {
-  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))), d = absolute(walk->half_way),
-       c = absolute(from_box);
-  vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)), across = absolute(outer(from_box, walk->half_way));
+  vec3 from_box = subtract(walk->middle, scale(add(box.lower, box.upper), R(0.5))),
+       d = absolute(walk->half_displacement), c = absolute(from_box);
+  vec3 extent = scale(subtract(box.upper, box.lower), R(0.5)),
+       across = absolute(cross3(from_box, walk->half_displacement));
   vec3 h = make_vec3(extent.x + walk->radius, extent.y + walk->radius, extent.z + walk->radius);
   if (c.x > h.x + d.x || c.y > h.y + d.y || c.z > h.z + d.z) return 0;
   return across.x <= h.y * d.z + h.z * d.y && across.y <= h.z * d.x + h.x * d.z && across.z <= h.x * d.y + h.y * d.x;
@@ -93,13 +95,13 @@ SHARED mask next_part(const query_scene *scene, part_walk *walk, convex *part)
 {
   if (!walk->has_tree) {
     if (walk->node++ > 0u) return 0;
-    *part = shape_of_body(scene->traits, scene->shapes, scene->convexes, scene->poses, scene->orientations,
+    *part = shape_of_body(scene->flags, scene->shapes, scene->convexes, scene->poses, scene->orientations,
                           scene->tables, walk->center, walk->body);
     return 1;
   }
   while (walk->node < walk->end) {
     uint word = word_of_node(scene->trees, &walk->t, walk->node);
-    mask near = way_near_box(walk, bounds_of_node(scene->trees, &walk->t, walk->node));
+    mask near = path_near_box(walk, bounds_of_node(scene->trees, &walk->t, walk->node));
     walk->node = walk->node + (near ? 1u : subtree_size(word));
     if (!near || !is_leaf(word)) continue;
     GLOBAL const uint *entry = scene->trees.leaves + (walk->t.first_leaf + word) * 2u;

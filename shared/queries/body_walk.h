@@ -36,30 +36,31 @@ typedef struct {
 } body_walk;
 
 /* extent: half of a box that goes along the way, 0 for a ray. */
-SHARED void start_body_walk(body_walk *walk, const body_structure *bodies, place start, vec3 way, vec3 extent)
+SHARED void start_body_walk(body_walk *walk, const body_structure *bodies, double_float3 start, vec3 displacement,
+                            vec3 extent)
 {
   GLOBAL const uint *counts = bodies->cells.counts;
   walk->next = 0u;
-  walk->listed = counts[COUNT_BOUNDLESS];
+  walk->listed = counts[COUNT_UNBOUNDED];
   walk->rays.tree = bodies->hierarchy;
-  walk->rays.way = straight_way_of(start, way, extent);
+  walk->rays.path = straight_path_of(start, displacement, extent);
   if (bodies->structure == (uint)QUERY_HIERARCHY) start_ray_walk(&walk->rays);
   else if (bodies->structure == (uint)QUERY_EVERY_BODY) walk->listed = counts[COUNT_BODIES];
   else {
     walk->listed = counts[COUNT_LARGE];
-    start_grid_walk(&bodies->cells, &walk->rays.way, walk->rays.waiting);
+    start_grid_walk(&bodies->cells, &walk->rays.path, walk->rays.waiting);
   }
 }
 
 /* Where the way enters a body's box: at once for a half-space, ENDLESS where it misses it or enters behind `reach`. */
 SHARED real way_into_body(const body_walk *walk, const body_structure *bodies, uint body, real reach)
 {
-  if (body < bodies->cells.counts[COUNT_BOUNDLESS]) return R(0.0);
-  return way_into_box(&walk->rays.way, load_bounds(bodies->cells.bounds, body), reach);
+  if (body < bodies->cells.counts[COUNT_UNBOUNDED]) return R(0.0);
+  return fraction_into_box(&walk->rays.path, load_bounds(bodies->cells.bounds, body), reach);
 }
 
 /* The next body that the way may meet before `reach`; INDEX_NONE behind the last. */
-SHARED uint next_body_on_way(body_walk *walk, const body_structure *bodies, real reach)
+SHARED uint next_body_on_path(body_walk *walk, const body_structure *bodies, real reach)
 {
   while (walk->next < walk->listed) {
     uint body = walk->next;
@@ -67,7 +68,7 @@ SHARED uint next_body_on_way(body_walk *walk, const body_structure *bodies, real
     if (way_into_body(walk, bodies, body, reach) < ENDLESS) return body;
   }
   if (bodies->structure == (uint)QUERY_GRID)
-    return next_in_grid(&bodies->cells, &walk->rays.way, walk->rays.waiting, reach);
+    return next_in_grid(&bodies->cells, &walk->rays.path, walk->rays.waiting, reach);
   if (bodies->structure != (uint)QUERY_HIERARCHY) return INDEX_NONE;
   uint leaf = next_on_ray(&walk->rays, reach);
   return leaf == INDEX_NONE ? INDEX_NONE : body_of_leaf(&walk->rays, leaf);

@@ -22,7 +22,7 @@ SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, ui
 
 /* Ray i, and the bodies it may meet. */
 typedef struct {
-  place start;
+  double_float3 start;
   vec3 direction;               /* unit */
   real length, reach, farthest; /* m, of a fraction of 1; the largest fraction; that in m */
   uint query;
@@ -31,8 +31,8 @@ typedef struct {
 
 SHARED void load_ray(const query_scene *scene, uint i, ray *r)
 {
-  vec4 given = load_row(scene->query_way, i);
-  r->start = load_place(scene->query_start, i);
+  vec4 given = load_float4(scene->query_displacement, i);
+  r->start = load_position(scene->query_start, i);
   r->length = length_of(xyz(given));
   r->reach = given.w;
   r->farthest = minimum(given.w * r->length, ENDLESS);
@@ -44,18 +44,18 @@ SHARED void load_ray(const query_scene *scene, uint i, ray *r)
 /* The next body that the ray may meet before `reach`, in m; INDEX_NONE behind the last. */
 SHARED uint next_body_on_ray(const query_scene *scene, ray *r, real reach)
 {
-  return next_body_on_way(&r->walk, &scene->bodies, reach);
+  return next_body_on_path(&r->walk, &scene->bodies, reach);
 }
 
 /* Where the ray first hits a body. */
 SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, real reach)
 {
   first_hit nearest = nothing_hit();
-  if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, r->query)) return nearest;
+  if (!may_hit(scene->flags, scene->query_body, scene->query_filter, body, r->query)) return nearest;
   vec3 center = seen_from(scene->positions, body, r->start), none = make_vec3(R(0.0), R(0.0), R(0.0));
   /* As long as the ray need be to pass the body: one without an end has no length to work with. */
-  real way = minimum(reach, length_of(center) + load_row(scene->shapes, body).w);
-  part_walk walk = walk_parts(scene, body, center, scale(r->direction, way), R(0.0));
+  real distance = minimum(reach, length_of(center) + load_float4(scene->shapes, body).w);
+  part_walk walk = walk_parts(scene, body, center, scale(r->direction, distance), R(0.0));
   convex part;
   while (next_part(scene, &walk, &part))
     nearest = nearer_hit(nearest, hit_of_span(ray_span(&part, none, r->direction), r->direction, r->length, r->reach,
@@ -82,9 +82,9 @@ SHARED void cast_rays_item(GLOBAL const Parameters *parameters, read_search_stru
 }
 
 /* Whether it hits anything: 1 or 0. */
-SHARED void find_blocked_rays_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
-                                   read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
-                                   read_queries queries, GLOBAL uint *query_found, uint structure, uint i)
+SHARED void cast_rays_any_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+                               read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
+                               read_queries queries, GLOBAL uint *query_found, uint structure, uint i)
 {
   query_scene scene =
       query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);

@@ -4,7 +4,7 @@
  *        |   |   |#_-|###|   |       centre there, and its box, no larger than a cell, may reach half a cell beyond: it
  *        |   |###|###|   |   |       is touched, if at all, while the way is between layers L-1 and L+1. Where the way
  *        |   |#_-|###|   |   |       is meanwhile along the other two axes, widened by what goes along it and by half a
- *        o -     L             - ->  body, is a rectangle of cells; its rows along x are one stretch of the sorted list
+ *        o -     L             - ->  body, is a rectangle of cells; its rows along x are one range of the sorted list
  *                                    each. Every cell is in one layer, so every body comes once.
  *
  * A place on the way becomes a cell by the very rounding that a body's centre did: what lies between two places then
@@ -15,10 +15,10 @@
 #define TANDEM_SHARED_QUERIES_GRID_WALK_H
 
 #include "shared/broadphase/grid.h"
-#include "shared/queries/straight_way.h"
+#include "shared/queries/straight_path.h"
 
 typedef struct {
-  GLOBAL const row *bounds, *grid; /* of compute_query_bounds, and cells of that size */
+  GLOBAL const float4 *bounds, *grid; /* of compute_query_bounds, and cells of that size */
   GLOBAL const uint *sort_value, *cell_start, *counts;
 } body_cells;
 
@@ -43,9 +43,9 @@ enum {
 SHARED real along_axis(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
 /* The axis that the way follows most. */
-SHARED uint axis_of_layers(const straight_way *way)
+SHARED uint axis_of_layers(const straight_path *path)
 {
-  vec3 inverse = absolute(way->inverse);
+  vec3 inverse = absolute(path->inverse);
   if (inverse.x <= inverse.y && inverse.x <= inverse.z) return 0u;
   return inverse.y <= inverse.z ? 1u : 2u;
 }
@@ -55,68 +55,68 @@ typedef struct {
 } cell_range;
 
 /* The cells along an axis of bodies that the way may touch on a part of it. */
-SHARED cell_range cells_touched(const body_cells *cells, const straight_way *way, uint axis, way_part part)
+SHARED cell_range cells_touched(const body_cells *cells, const straight_path *path, uint axis, path_part part)
 {
-  vec4 layout = load_row(cells->grid, 0u);
-  real speed = R(1.0) / along_axis(way->inverse, axis), from = part.enter * speed, to = part.leave * speed;
-  real low = along_axis(way->start_high, axis), high = along_axis(way->start_low, axis),
+  vec4 layout = load_float4(cells->grid, 0u);
+  real speed = R(1.0) / along_axis(path->inverse, axis), from = part.enter * speed, to = part.leave * speed;
+  real low = along_axis(path->start_high, axis), high = along_axis(path->start_low, axis),
        origin = along_axis(xyz(layout), axis);
   real half_body = R(0.5001) / layout.w;
   real spare = half_body + R(4e-6) * (magnitude(low) + magnitude(high) + maximum(magnitude(from), magnitude(to)));
   real least = minimum(from, to) + (low - spare), most = maximum(from, to) + (high + spare);
   uint count = cells->counts[(uint)COUNT_GRID_X + axis];
   cell_range range = {(uint)cell_along(least - origin, layout.w, count), count - 1u};
-  if (most - origin < BOUNDLESS)
+  if (most - origin < UNBOUNDED)
     range.last = (uint)cell_along(most - origin, layout.w, count); /* never from a number that is none */
   return range;
 }
 
 /* Between two heights in cells along an axis, with room for the rounding of either. */
-SHARED way_part part_in_layers(const body_cells *cells, const straight_way *way, uint axis, real bottom, real top,
-                               real reach)
+SHARED path_part part_in_layers(const body_cells *cells, const straight_path *path, uint axis, real bottom, real top,
+                                real reach)
 {
-  vec4 layout = load_row(cells->grid, 0u);
-  real cell = R(1.0) / layout.w, origin = along_axis(xyz(layout), axis), inverse = along_axis(way->inverse, axis);
+  vec4 layout = load_float4(cells->grid, 0u);
+  real cell = R(1.0) / layout.w, origin = along_axis(xyz(layout), axis), inverse = along_axis(path->inverse, axis);
   real spare = R(1e-6) * (magnitude(origin) + top * cell);
-  real one = (origin + bottom * cell - spare - along_axis(way->start_low, axis)) * inverse;
-  real other = (origin + top * cell + spare - along_axis(way->start_high, axis)) * inverse;
-  way_part part = {maximum(minimum(one, other), R(0.0)), minimum(maximum(one, other), reach)};
+  real one = (origin + bottom * cell - spare - along_axis(path->start_low, axis)) * inverse;
+  real other = (origin + top * cell + spare - along_axis(path->start_high, axis)) * inverse;
+  path_part part = {maximum(minimum(one, other), R(0.0)), minimum(maximum(one, other), reach)};
   part.leave = part.leave + R(2e-6) * magnitude(part.leave); /* as far as the test of a box may overlook */
   return part;
 }
 
 /* On the way through the cells, and a cell around them. */
-SHARED way_part part_in_grid(const body_cells *cells, const straight_way *way)
+SHARED path_part part_in_grid(const body_cells *cells, const straight_path *path)
 {
-  way_part whole = {R(0.0), ENDLESS};
+  path_part whole = {R(0.0), ENDLESS};
   for (uint axis = 0u; axis < 3u; ++axis) {
-    way_part part =
-        part_in_layers(cells, way, axis, R(-1.0), (real)cells->counts[(uint)COUNT_GRID_X + axis] + R(1.0), ENDLESS);
+    path_part part =
+        part_in_layers(cells, path, axis, R(-1.0), (real)cells->counts[(uint)COUNT_GRID_X + axis] + R(1.0), ENDLESS);
     whole.enter = maximum(whole.enter, part.enter);
     whole.leave = minimum(whole.leave, part.leave);
   }
   return whole;
 }
 
-SHARED void start_grid_walk(const body_cells *cells, const straight_way *way, uint *place)
+SHARED void start_grid_walk(const body_cells *cells, const straight_path *path, uint *place)
 {
   for (uint k = 0u; k < (uint)GRID_WORDS; ++k) place[k] = 0u;
   place[GRID_Z] = 1u; /* behind the last row */
-  way_part part = part_in_grid(cells, way);
+  path_part part = part_in_grid(cells, path);
   if (!(part.enter <= part.leave)) return;
-  uint axis = axis_of_layers(way);
-  cell_range layers = cells_touched(cells, way, axis, part);
-  place[GRID_LAYER] = along_axis(way->inverse, axis) > R(0.0) ? layers.first : layers.last;
+  uint axis = axis_of_layers(path);
+  cell_range layers = cells_touched(cells, path, axis, part);
+  place[GRID_LAYER] = along_axis(path->inverse, axis) > R(0.0) ? layers.first : layers.last;
   place[GRID_LAYERS_LEFT] = layers.last - layers.first + 1u;
 }
 
 /* The rows of a layer that the way touches on this part. */
-SHARED void open_layer(const body_cells *cells, const straight_way *way, uint *place, uint axis, uint layer,
-                       way_part part)
+SHARED void open_layer(const body_cells *cells, const straight_path *path, uint *place, uint axis, uint layer,
+                       path_part part)
 {
   for (uint k = 0u; k < 3u; ++k) {
     cell_range range = {layer, layer};
-    if (k != axis) range = cells_touched(cells, way, k, part);
+    if (k != axis) range = cells_touched(cells, path, k, part);
     uint first = k == 0u ? (uint)GRID_X : k == 1u ? (uint)GRID_Y : (uint)GRID_Z;
     uint last = k == 0u ? (uint)GRID_X_LAST : k == 1u ? (uint)GRID_Y_LAST : (uint)GRID_Z_LAST;
     place[first] = range.first;
@@ -126,18 +126,18 @@ SHARED void open_layer(const body_cells *cells, const straight_way *way, uint *p
 }
 
 /* False where none is left before `reach`: those behind it come later still. */
-SHARED mask next_layer(const body_cells *cells, const straight_way *way, uint *place, real reach)
+SHARED mask next_layer(const body_cells *cells, const straight_path *path, uint *place, real reach)
 {
-  uint axis = axis_of_layers(way);
-  mask upward = along_axis(way->inverse, axis) > R(0.0);
+  uint axis = axis_of_layers(path);
+  mask upward = along_axis(path->inverse, axis) > R(0.0);
   while (place[GRID_LAYERS_LEFT] > 0u) {
     uint layer = place[GRID_LAYER];
-    way_part part = part_in_layers(cells, way, axis, (real)layer - R(1.0), (real)layer + R(2.0), reach);
+    path_part part = part_in_layers(cells, path, axis, (real)layer - R(1.0), (real)layer + R(2.0), reach);
     place[GRID_LAYER] = upward ? layer + 1u : layer - 1u;
     place[GRID_LAYERS_LEFT] = place[GRID_LAYERS_LEFT] - 1u;
     if (part.enter > reach + R(2e-6) * reach) place[GRID_LAYERS_LEFT] = 0u;
     if (!(part.enter <= part.leave)) continue;
-    open_layer(cells, way, place, axis, layer, part);
+    open_layer(cells, path, place, axis, layer, part);
     return 1;
   }
   return 0;
@@ -157,15 +157,15 @@ SHARED mask next_row(const body_cells *cells, uint *place)
 }
 
 /* The next body whose box the way enters before `reach`; INDEX_NONE behind the last. */
-SHARED uint next_in_grid(const body_cells *cells, const straight_way *way, uint *place, real reach)
+SHARED uint next_in_grid(const body_cells *cells, const straight_path *path, uint *place, real reach)
 {
   do {
     while (place[GRID_AT] < place[GRID_END]) {
       uint body = cells->sort_value[place[GRID_AT]];
       place[GRID_AT] = place[GRID_AT] + 1u;
-      if (way_into_box(way, load_bounds(cells->bounds, body), reach) < ENDLESS) return body;
+      if (fraction_into_box(path, load_bounds(cells->bounds, body), reach) < ENDLESS) return body;
     }
-  } while (next_row(cells, place) || next_layer(cells, way, place, reach));
+  } while (next_row(cells, place) || next_layer(cells, path, place, reach));
   return INDEX_NONE;
 }
 

@@ -30,53 +30,53 @@ SHARED first_hit nearer_hit(first_hit a, first_hit b)
 }
 
 /* query_body: number in the scene, group, mask; query_filter: group, mask. */
-SHARED mask may_hit(GLOBAL const uint *traits, GLOBAL const uint *query_body, GLOBAL const uint *query_filter,
-                    uint body, uint query)
+SHARED mask may_hit(GLOBAL const uint *flags, GLOBAL const uint *query_body, GLOBAL const uint *query_filter, uint body,
+                    uint query)
 {
-  if (motion_of(traits[body]) == (uint)MOTION_QUARANTINED) return 0;
+  if (body_type_of(flags[body]) == (uint)BODY_TYPE_QUARANTINED) return 0;
   return (query_body[4u * body + 1u] & query_filter[2u * query + 1u]) != 0u &&
          (query_body[4u * body + 2u] & query_filter[2u * query]) != 0u;
 }
 
 /* Whether a ball that moves comes near one that does not; both radii with what rounding may take. way: from the
  * start. */
-SHARED mask passes_near(vec3 center, vec3 way, real radius)
+SHARED mask passes_near(vec3 center, vec3 displacement, real radius)
 {
-  real square = length_squared(way), along = inner(center, way);
+  real square = length_squared(displacement), along = dot3(center, displacement);
   real t = square > R(0.0) ? clamped(along / square, R(0.0), R(1.0)) : R(0.0);
   real rounding = R(8.0) * ROUNDING * (length_of(center) + square_root(square));
   real most = radius + rounding;
-  return length_squared(add_scaled(center, way, -t)) <= most * most * R(1.000001);
+  return length_squared(add_scaled(center, displacement, -t)) <= most * most * R(1.000001);
 }
 
 /* Seen from a place of the world: a body's centre, from two floats less two floats. */
-SHARED vec3 seen_from(GLOBAL const row *positions, uint body, place from)
+SHARED vec3 seen_from(GLOBAL const float4 *positions, uint body, double_float3 from)
 {
-  place p = load_place(positions, body);
+  double_float3 p = load_position(positions, body);
   return add(subtract(p.high, from.high), subtract(p.low, from.low));
 }
 
 /* Any body's shape, also one that the narrowphase has a test of its own for. */
-SHARED convex shape_of_body(GLOBAL const uint *traits, GLOBAL const row *shapes, GLOBAL const uint *convexes,
-                            GLOBAL const row *poses, GLOBAL const row *orientations, hull_tables tables, vec3 center,
-                            uint body)
+SHARED convex shape_of_body(GLOBAL const uint *flags, GLOBAL const float4 *shapes, GLOBAL const uint *convexes,
+                            GLOBAL const float4 *poses, GLOBAL const float4 *orientations, hull_tables tables,
+                            vec3 center, uint body)
 {
-  uint kind = shape_of(traits[body]), hull = 0u;
-  quat turned = quat_from(load_row(orientations, body));
+  uint kind = shape_of(flags[body]), hull = 0u;
+  quat turned = quat_from(load_float4(orientations, body));
   if (is_general_shape(kind)) {
     kind = convexes[body * 2u];
     hull = convexes[body * 2u + 1u];
-    center = add(center, rotate(rotation_of(turned), xyz(load_row(poses, body * 4u))));
-    turned = quat_multiply(turned, quat_from(load_row(poses, body * 4u + 1u)));
+    center = add(center, rotate(rotation_of(turned), xyz(load_float4(poses, body * 4u))));
+    turned = quat_multiply(turned, quat_from(load_float4(poses, body * 4u + 1u)));
   }
-  return convex_of(kind, xyz(load_row(shapes, body)), rotation_of(turned), center, make_vec3(R(0.0), R(0.0), R(0.0)),
+  return convex_of(kind, xyz(load_float4(shapes, body)), rotation_of(turned), center, make_vec3(R(0.0), R(0.0), R(0.0)),
                    hull, tables);
 }
 
 SHARED void store_hit(first_hit hit, write_hits hits, uint i)
 {
-  store_row(hits.hit, i, extend(hit.normal, hit.fraction));
-  store_row(hits.point, i, extend(hit.point, R(0.0)));
+  store_float4(hits.hit, i, extend(hit.normal, hit.fraction));
+  store_float4(hits.point, i, extend(hit.point, R(0.0)));
   hits.body[i] = hit.body;
 }
 

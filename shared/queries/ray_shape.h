@@ -60,7 +60,7 @@ SHARED span joined_span(span a, span b)
 /* What lies below a plane of a unit normal at a distance from the origin. */
 SHARED span span_below_plane(vec3 o, vec3 u, vec3 normal, real distance)
 {
-  real height = inner(normal, o) - distance, rise = inner(normal, u);
+  real height = dot3(normal, o) - distance, rise = dot3(normal, u);
   if (rise == R(0.0)) return height <= R(0.0) ? whole_line() : no_span();
   span s = whole_line();
   if (rise > R(0.0)) s.leave = -height / rise;
@@ -86,7 +86,7 @@ SHARED span span_in_polytope(const convex *shape, vec3 o, vec3 u)
 SHARED span span_in_sphere(vec3 o, vec3 u, real height, real radius)
 {
   vec3 from = make_vec3(o.x, o.y - height, o.z);
-  real along = inner(from, u);
+  real along = dot3(from, u);
   vec3 nearest = add_scaled(from, u, -along);
   real square = radius * radius - length_squared(nearest);
   if (!(square >= R(0.0))) return no_span();
@@ -160,12 +160,12 @@ SHARED span span_in_capsule(vec3 o, vec3 u, vec3 size)
 /* Hit at one place, or not at all; the normal is that of the side the ray comes from. */
 SHARED span span_in_triangle(const convex *shape, vec3 o, vec3 u)
 {
-  vec3 normal = outer(shape->second, shape->third);
-  real rise = inner(normal, u), height = inner(normal, o);
+  vec3 normal = cross3(shape->second, shape->third);
+  real rise = dot3(normal, u), height = dot3(normal, o);
   if (rise == R(0.0)) return no_span();
   real s = -height / rise;
   vec3 at = add_scaled(o, u, s);
-  real second = inner(normal, outer(at, shape->third)), third = inner(normal, outer(shape->second, at)),
+  real second = dot3(normal, cross3(at, shape->third)), third = dot3(normal, cross3(shape->second, at)),
        whole = length_squared(normal);
   real slack = R(1e-6) * whole; /* so that no ray passes between two triangles */
   if (!(second >= -slack) || !(third >= -slack) || !(second + third <= whole + slack)) return no_span();
@@ -188,7 +188,7 @@ SHARED span span_in_shape(const convex *shape, vec3 o, vec3 u)
 SHARED span ray_span(const convex *shape, vec3 from, vec3 direction)
 {
   vec3 offset = subtract(from, shape->center);
-  real start = -inner(offset, direction);
+  real start = -dot3(offset, direction);
   span s = span_in_shape(shape, rotate_back(shape->rotation, add_scaled(offset, direction, start)),
                          rotate_back(shape->rotation, direction));
   s.enter = s.enter + start;

@@ -10,24 +10,24 @@
 #define TANDEM_SHARED_QUERIES_RAY_WALK_H
 
 #include "shared/broadphase/hierarchy_walks.h"
-#include "shared/queries/straight_way.h"
+#include "shared/queries/straight_path.h"
 
 /* The tree as kernels are given it. */
 typedef struct {
-  GLOBAL const row *nodes;
+  GLOBAL const float4 *nodes;
   GLOBAL const uint *links, *leaf_body, *counts;
 } body_hierarchy;
 
 typedef struct {
   body_hierarchy tree;
-  straight_way way;
+  straight_path path;
   uint slot, height;
   uint waiting[HIERARCHY_LEVELS];
 } ray_walk;
 
 SHARED real way_into_slot(const ray_walk *walk, uint slot, real reach)
 {
-  return way_into_box(&walk->way, load_bounds(walk->tree.nodes, slot), reach);
+  return fraction_into_box(&walk->path, load_bounds(walk->tree.nodes, slot), reach);
 }
 
 /* A tree of a single leaf has no node above it that tests its box. */

@@ -1,7 +1,7 @@
-/* contact.h - contact constraints from manifolds: effective masses, friction, bounce, warm start.
+/* contact.h - contact constraints from manifolds: effective masses, friction, restitution, warm start.
  *
- * Constraints stand in colour order. The points of a manifold are pressed together; its friction is solved
- * at its centre as one cone and one twist (Catto, Box2D version 3, "Solver2D", 2024):
+ * Constraints stand in colour order. The points of a manifold are solved as one block; its friction is solved at its
+ * centre as one cone and one twist (Catto, Box2D version 3, "Solver2D", 2024):
  *
  *            n ^   ^ twist about n, limited by friction x normal impulse x twist radius
  *       o------|------o
@@ -18,9 +18,9 @@
 #define STICKING_SPEED R(0.01)
 
 /* Codes of the combination rules: Combine of host/include/tandem/scene.h. Of two rules the first in this order wins. */
-SHARED real combined(natural rule_a, natural rule_b, real a, real b)
+SHARED real combined(uint_lanes rule_a, uint_lanes rule_b, real a, real b)
 {
-  natural rule = choose(rule_a < rule_b, rule_a, rule_b);
+  uint_lanes rule = choose(rule_a < rule_b, rule_a, rule_b);
   real product = a * b;
   real result = choose(rule == 3u, product, square_root(product));
   result = choose(rule == 2u, maximum(a, b), result);
@@ -33,10 +33,10 @@ typedef struct {
 } surface;
 
 /* material.w: friction rule + 8 restitution rule. */
-SHARED surface surface_between(GLOBAL const row *material, natural material_a, natural material_b)
+SHARED surface surface_between(GLOBAL const float4 *material, uint_lanes material_a, uint_lanes material_b)
 {
-  vec4 a = load_row(material, material_a), b = load_row(material, material_b);
-  natural rules_a = to_natural(a.w), rules_b = to_natural(b.w);
+  vec4 a = load_float4(material, material_a), b = load_float4(material, material_b);
+  uint_lanes rules_a = to_uint(a.w), rules_b = to_uint(b.w);
   surface s = {combined(rules_a & 7u, rules_b & 7u, a.x, b.x), combined(rules_a & 7u, rules_b & 7u, a.y, b.y),
                combined(rules_a >> 3u, rules_b >> 3u, a.z, b.z)};
   return s;
@@ -44,24 +44,24 @@ SHARED surface surface_between(GLOBAL const row *material, natural material_a, n
 
 /* The two bodies of a constraint. offset: centre of b minus centre of a. */
 typedef struct {
-  natural a, b;
-  motion motion_a, motion_b;
+  uint_lanes a, b;
+  spatial_velocity velocity_a, velocity_b;
   symmetric3 inertia_a, inertia_b;
   vec3 offset;
 } body_pair;
 
 SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
 {
-  return subtract(velocity_at(bodies.motion_b, arm_b), velocity_at(bodies.motion_a, arm_a));
+  return subtract(velocity_at(bodies.velocity_b, arm_b), velocity_at(bodies.velocity_a, arm_a));
 }
 
 /* How much relative velocity along `second` a unit impulse along `first` gives. */
 SHARED real response(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 first, vec3 second)
 {
-  vec3 turn_a = symmetric_times(bodies.inertia_a, outer(arm_a, first));
-  vec3 turn_b = symmetric_times(bodies.inertia_b, outer(arm_b, first));
-  return (bodies.motion_a.inverse_mass + bodies.motion_b.inverse_mass) * inner(first, second) +
-         inner(turn_a, outer(arm_a, second)) + inner(turn_b, outer(arm_b, second));
+  vec3 inertia_cross_a = symmetric_times(bodies.inertia_a, cross3(arm_a, first));
+  vec3 inertia_cross_b = symmetric_times(bodies.inertia_b, cross3(arm_b, first));
+  return (bodies.velocity_a.inverse_mass + bodies.velocity_b.inverse_mass) * dot3(first, second) +
+         dot3(inertia_cross_a, cross3(arm_a, second)) + dot3(inertia_cross_b, cross3(arm_b, second));
 }
 
 SHARED real inverse_or_zero(real x)
@@ -83,15 +83,15 @@ SHARED real friction_mass(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 normal)
 
 SHARED real twist_mass(body_pair bodies, vec3 normal)
 {
-  return inverse_or_zero(inner(normal, symmetric_times(bodies.inertia_a, normal)) +
-                         inner(normal, symmetric_times(bodies.inertia_b, normal)));
+  return inverse_or_zero(dot3(normal, symmetric_times(bodies.inertia_a, normal)) +
+                         dot3(normal, symmetric_times(bodies.inertia_b, normal)));
 }
 
-/* The speed at which a point shall part: restitution x speed of impact. A point that touches only later in
- * the step has fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. Negative: no
- * bounce. */
-SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, real approach, real pull,
-                         real separation)
+/* The target velocity of a point is restitution x speed of impact. A point that touches only later in the step has
+ * fallen further by then, v^2 + 2 g s, so that a ball returns to e^2 of its height. A negative value means that the
+ * point does not bounce. */
+SHARED real target_velocity_of(GLOBAL const Parameters *parameters, real restitution, real approach, real pull,
+                               real separation)
 {
   real ahead = maximum(separation, R(0.0));
   real squared = maximum(approach * approach - R(2.0) * pull * ahead, R(0.0));
@@ -100,26 +100,27 @@ SHARED real wished_speed(GLOBAL const Parameters *parameters, real restitution, 
   return choose(bounces, restitution * impact, (real)R(-1.0));
 }
 
-SHARED natural slot_of(natural feature, natural point) { return (feature >> (point * 2u)) & 3u; }
+SHARED uint_lanes slot_of(uint_lanes feature, uint_lanes point) { return (feature >> (point * 2u)) & 3u; }
 
 /* The impulse that the same feature carried in the last step; unused slots of the cache hold 0. */
-SHARED real cached_impulse(natural feature, natural point, natural old_feature, vec4 old)
+SHARED real cached_impulse(uint_lanes feature, uint_lanes point, uint_lanes old_feature, vec4 old)
 {
-  natural slot = slot_of(feature, point);
+  uint_lanes slot = slot_of(feature, point);
   real found = R(0.0);
   for (uint k = 0; k < 4u; ++k)
     found = choose(slot_of(old_feature, k) == slot, maximum(found, component(old, k)), found);
   return choose((feature >> 8u) == (old_feature >> 8u), found, (real)R(0.0));
 }
 
-SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const row *body_position,
-                                GLOBAL const row *solver_velocity, GLOBAL const row *solver_inertia, natural pair)
+SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b,
+                                GLOBAL const float4 *body_position, GLOBAL const float4 *solver_velocity,
+                                GLOBAL const float4 *solver_inertia, uint_lanes pair)
 {
   body_pair bodies;
-  bodies.a = load_natural(pair_a, pair);
-  bodies.b = load_natural(pair_b, pair);
-  bodies.motion_a = load_motion(solver_velocity, bodies.a);
-  bodies.motion_b = load_motion(solver_velocity, bodies.b);
+  bodies.a = load_uint(pair_a, pair);
+  bodies.b = load_uint(pair_b, pair);
+  bodies.velocity_a = load_velocity(solver_velocity, bodies.a);
+  bodies.velocity_b = load_velocity(solver_velocity, bodies.b);
   bodies.inertia_a = load_inertia(solver_inertia, bodies.a);
   bodies.inertia_b = load_inertia(solver_inertia, bodies.b);
   bodies.offset = offset_between(body_position, bodies.a, bodies.b);
@@ -127,21 +128,21 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
 }
 
 /* Acceleration of b against a along the normal under gravity. */
-SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass, body_pair bodies,
+SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, body_pair bodies,
                           vec3 normal)
 {
-  real a = choose(bodies.motion_a.inverse_mass > R(0.0), load_row(body_mass, bodies.a * 2u).w, (real)R(0.0));
-  real b = choose(bodies.motion_b.inverse_mass > R(0.0), load_row(body_mass, bodies.b * 2u).w, (real)R(0.0));
-  return (b - a) * inner(gravity_of(parameters), normal);
+  real a = choose(bodies.velocity_a.inverse_mass > R(0.0), load_float4(body_mass, bodies.a * 2u).w, (real)R(0.0));
+  real b = choose(bodies.velocity_b.inverse_mass > R(0.0), load_float4(body_mass, bodies.b * 2u).w, (real)R(0.0));
+  return (b - a) * dot3(gravity_of(parameters), normal);
 }
 
 /* constraint_normal keeps friction beside the normal, as a number below 0 where arms do not follow the bodies. */
 SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
 
-/* Of the size of a pair: bodies that pass each other by more within a substep keep the arms of their impact, or of the
- * start where they touch. In the substep of the impact the others would be off by that much, and then lie far outside
- * of the bodies. */
+/* A share of the size of a pair. Bodies that pass each other by more than this within a substep keep the arms of their
+ * impact, or of the start where they touch already. Arms that follow would be off by that much in the substep of the
+ * impact, and would lie far outside the bodies afterwards. */
 #define FOLLOWED_SHARE R(1.0)
 
 /* How far a gap may close within the step, m: gravity, where it parts the two, does so only later. It is counted as a
@@ -156,7 +157,7 @@ SHARED real farthest_closed(GLOBAL const Parameters *parameters, real speed, rea
 /* By its normal force alone a contact bears at most the square of the cosine between normal and gravity. */
 SHARED mask bears_weight(vec3 gravity, vec3 normal)
 {
-  real along = inner(gravity, normal);
+  real along = dot3(gravity, normal);
   return along * along > WEIGHTLESS * length_squared(gravity);
 }
 
@@ -165,18 +166,18 @@ typedef struct {
   vec3 a, b;
 } arm_shift;
 
-SHARED arm_shift shift_of_arms(motion motion_a, motion motion_b, vec3 slid)
+SHARED arm_shift shift_of_arms(spatial_velocity velocity_a, spatial_velocity velocity_b, vec3 slid)
 {
-  real share = share_of_slide(motion_a, motion_b);
+  real share = share_of_slide(velocity_a, velocity_b);
   arm_shift s = {scale(slid, share), scale(slid, share - R(1.0))};
   return s;
 }
 
 /* A ball that cannot be pushed moves its surface along itself, if it spins, so its arm does not follow what slides over
  * it: the plane of the contact would turn with it into the other body. */
-SHARED mask is_driven_ball(natural traits, motion m)
+SHARED mask is_driven_ball(uint_lanes flags, spatial_velocity m)
 {
-  return (m.inverse_mass == R(0.0)) & (shape_of(traits) == (natural)(uint)SHAPE_SPHERE);
+  return (m.inverse_mass == R(0.0)) & (shape_of(flags) == (uint_lanes)(uint)SHAPE_SPHERE);
 }
 
 /* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist.
@@ -187,15 +188,16 @@ typedef struct {
   real radius;
 } friction_patch;
 
-SHARED friction_patch patch_of(GLOBAL const row *manifold_points, natural pair, uint stride, natural points, real near)
+SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes pair, uint stride, uint_lanes points,
+                               real near)
 {
   vec4 point[4];
   real weight[4], sum = R(0.0);
-  for (uint k = 0; k < 4u; ++k) point[k] = load_row(manifold_points, stride * k + pair);
+  for (uint k = 0; k < 4u; ++k) point[k] = load_float4(manifold_points, stride * k + pair);
   mask none = point[0].w > near;
-  for (uint k = 1; k < 4u; ++k) none = none & ((points <= (natural)k) | (point[k].w > near));
+  for (uint k = 1; k < 4u; ++k) none = none & ((points <= (uint_lanes)k) | (point[k].w > near));
   for (uint k = 0; k < 4u; ++k) {
-    weight[k] = choose((points > (natural)k) & (none | (point[k].w <= near)), (real)R(1.0), (real)R(0.0));
+    weight[k] = choose((points > (uint_lanes)k) & (none | (point[k].w <= near)), (real)R(1.0), (real)R(0.0));
     sum = sum + weight[k];
   }
   real share = R(1.0) / sum; /* a constraint has at least one point */
@@ -233,7 +235,7 @@ SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
  * moment. What is stored is such that the solver's shift of arms brings them there by then, or those themselves where
  * arms do not follow: arms_back leads from the former to what is stored. */
 typedef struct {
-  natural pair, points, feature;
+  uint_lanes pair, points, feature;
   body_pair bodies;
   vec3 normal;
   surface between;
@@ -243,74 +245,77 @@ typedef struct {
 } contact_setup;
 
 /* Balls that are children of a compound turn with it, so their arms follow. */
-SHARED mask one_is_driven_ball(body_pair bodies, natural shape_a, natural shape_b, natural traits_a, natural traits_b)
+SHARED mask one_is_driven_ball(body_pair bodies, uint_lanes shape_a, uint_lanes shape_b, uint_lanes flags_a,
+                               uint_lanes flags_b)
 {
-  return ((shape_a == bodies.a) & is_driven_ball(traits_a, bodies.motion_a)) |
-         ((shape_b == bodies.b) & is_driven_ball(traits_b, bodies.motion_b));
+  return ((shape_a == bodies.a) & is_driven_ball(flags_a, bodies.velocity_a)) |
+         ((shape_b == bodies.b) & is_driven_ball(flags_b, bodies.velocity_b));
 }
 
-SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL const row *material,
+SHARED contact_setup begin_setup(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
                                  read_touching_bodies touching, read_part_pairs part_pairs, read_manifolds manifolds,
-                                 natural pair)
+                                 uint_lanes pair)
 {
   contact_setup s;
   s.pair = pair;
-  s.points = load_natural(manifolds.count, pair);
-  s.feature = load_natural(manifolds.feature, pair);
+  s.points = load_uint(manifolds.count, pair);
+  s.feature = load_uint(manifolds.feature, pair);
   s.bodies = load_body_pair(part_pairs.a, part_pairs.b, touching.position, touching.velocity, touching.inertia, pair);
   s.size = size_between(touching.shape, s.bodies.a, s.bodies.b);
-  natural shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
-          shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, s.bodies.b);
-  natural traits_a = load_natural(touching.traits, shape_a), traits_b = load_natural(touching.traits, shape_b);
-  s.between = surface_between(material, material_of(traits_a), material_of(traits_b));
-  vec4 manifold = load_row(manifolds.normal, pair);
+  uint_lanes shape_a = shape_in_pair(parameters, part_pairs.leaf, pair, 0u, s.bodies.a),
+             shape_b = shape_in_pair(parameters, part_pairs.leaf, pair, 1u, s.bodies.b);
+  uint_lanes flags_a = load_uint(touching.flags, shape_a), flags_b = load_uint(touching.flags, shape_b);
+  s.between = surface_between(material, material_of(flags_a), material_of(flags_b));
+  vec4 manifold = load_float4(manifolds.normal, pair);
   s.normal = xyz(manifold);
   s.pull = relative_pull(parameters, touching.mass, s.bodies, s.normal);
-  vec3 passing = subtract(s.bodies.motion_b.linear, s.bodies.motion_a.linear);
+  vec3 passing = subtract(s.bodies.velocity_b.linear, s.bodies.velocity_a.linear);
   s.arms_stay = keeps_arms(manifold.w) | (length_of(passing) * parameters->substep > FOLLOWED_SHARE * s.size) |
-                one_is_driven_ball(s.bodies, shape_a, shape_b, traits_a, traits_b);
+                one_is_driven_ball(s.bodies, shape_a, shape_b, flags_a, flags_b);
   vec3 slid = scale(passing, moment_of(manifold.w)), none = make_vec3(R(0.0), R(0.0), R(0.0));
   s.bodies.offset = add(s.bodies.offset, slid);
-  s.arms_back = shift_of_arms(s.bodies.motion_a, s.bodies.motion_b, choose3(s.arms_stay, none, negate(slid)));
+  s.arms_back = shift_of_arms(s.bodies.velocity_a, s.bodies.velocity_b, choose3(s.arms_stay, none, negate(slid)));
   return s;
 }
 
 /* The impulses of the same pair in the last step. */
 typedef struct {
   mask is_cached;
-  natural feature;
+  uint_lanes feature;
   vec4 normal, friction;
 } old_impulses;
 
-SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, natural cached)
+SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, uint_lanes cached)
 {
-  mask is_cached = cached != (natural)INDEX_NONE;
-  natural from = choose(is_cached, cached, (natural)0u);
-  old_impulses old = {is_cached, load_natural(cached_contacts.feature, from),
-                      load_row(cached_contacts.normal_impulse, from), load_row(cached_contacts.friction_impulse, from)};
+  mask is_cached = cached != (uint_lanes)INDEX_NONE;
+  uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
+  old_impulses old = {is_cached, load_uint(cached_contacts.feature, from),
+                      load_float4(cached_contacts.normal_impulse, from),
+                      load_float4(cached_contacts.friction_impulse, from)};
   return old;
 }
 
 /* What the points of a manifold start with. near: whether one of them may close within the step. */
 typedef struct {
-  real impulse[4], wished[4], deepest;
+  real impulse[4], target_velocity[4], deepest;
   mask near;
 } points_setup;
 
 SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                          vec4 point, uint k, uint stride, points_setup *points, GLOBAL row *constraint_points,
+                          vec4 point, uint k, uint stride, points_setup *points, GLOBAL float4 *constraint_points,
                           item_index i)
 {
-  mask used = s->points > (natural)k;
+  mask used = s->points > (uint_lanes)k;
   vec3 arm_a = xyz(point), arm_b = subtract(arm_a, s->bodies.offset);
   real mass = choose(used, inverse_or_zero(response(s->bodies, arm_a, arm_b, s->normal, s->normal)), (real)R(0.0));
-  real speed = inner(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
-  store_row(constraint_points, stride * k + i, extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));
-  store_row(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, s->arms_back.b), mass));
+  real speed = dot3(s->normal, relative_velocity(s->bodies, arm_a, arm_b));
+  store_float4(constraint_points, stride * k + i,
+               extend(add(arm_a, s->arms_back.a), choose(used, point.w, (real)R(0.0))));
+  store_float4(constraint_points, stride * (k + 4u) + i, extend(add(arm_b, s->arms_back.b), mass));
   points->impulse[k] =
       choose(used & old->is_cached, cached_impulse(s->feature, k, old->feature, old->normal), (real)R(0.0));
-  points->wished[k] =
-      choose(used, wished_speed(parameters, s->between.restitution, speed, s->pull, point.w), (real)R(-1.0));
+  points->target_velocity[k] =
+      choose(used, target_velocity_of(parameters, s->between.restitution, speed, s->pull, point.w), (real)R(-1.0));
   points->deepest = choose(used, minimum(points->deepest, point.w), points->deepest);
   points->near = points->near | (used & (point.w <= farthest_closed(parameters, speed, s->pull)));
 }
@@ -319,14 +324,14 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
 SHARED void mark_borne(GLOBAL const Parameters *parameters, const contact_setup *s, mask near, GLOBAL uint *body_falls)
 {
   mask bears = near & bears_weight(gravity_of(parameters), s->normal);
-  atomic_clear_if(bears & (s->bodies.motion_a.inverse_mass > R(0.0)), body_falls, s->bodies.a);
-  atomic_clear_if(bears & (s->bodies.motion_b.inverse_mass > R(0.0)), body_falls, s->bodies.b);
+  atomic_clear_if(bears & (s->bodies.velocity_a.inverse_mass > R(0.0)), body_falls, s->bodies.a);
+  atomic_clear_if(bears & (s->bodies.velocity_b.inverse_mass > R(0.0)), body_falls, s->bodies.b);
 }
 
 SHARED real friction_between(const contact_setup *s, vec3 center_a, vec3 center_b)
 {
   vec3 slide = relative_velocity(s->bodies, center_a, center_b);
-  slide = add_scaled(slide, s->normal, -inner(slide, s->normal));
+  slide = add_scaled(slide, s->normal, -dot3(slide, s->normal));
   return choose(length_of(slide) < STICKING_SPEED, s->between.static_friction, s->between.dynamic_friction);
 }
 
@@ -335,25 +340,25 @@ SHARED vec4 kept_friction(const old_impulses *old, vec3 normal, real radius)
 {
   tangents t = tangents_of(normal);
   real kept = choose(old->is_cached, (real)R(1.0), (real)R(0.0));
-  return make_vec4(kept * inner(xyz(old->friction), t.first), kept * inner(xyz(old->friction), t.second),
+  return make_vec4(kept * dot3(xyz(old->friction), t.first), kept * dot3(xyz(old->friction), t.second),
                    kept * old->friction.w, radius);
 }
 
 SHARED void prepare_friction(GLOBAL const Parameters *parameters, const contact_setup *s, const old_impulses *old,
-                             GLOBAL const row *manifold_points, uint stride, write_constraints constraints,
+                             GLOBAL const float4 *manifold_points, uint stride, write_constraints constraints,
                              item_index i)
 {
   friction_patch patch = patch_of(manifold_points, s->pair, stride, s->points, parameters->speculative_distance);
   vec3 center_a = patch.center, center_b = subtract(center_a, s->bodies.offset);
   real friction = friction_between(s, center_a, center_b);
-  store_row(constraints.normal, i, extend(s->normal, packed_friction(friction, s->arms_stay)));
-  store_row(constraints.center, i,
-            extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
-  store_row(constraints.center, stride + i, extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
-  store_row(constraints.friction_impulse, i, kept_friction(old, s->normal, patch.radius));
+  store_float4(constraints.normal, i, extend(s->normal, packed_friction(friction, s->arms_stay)));
+  store_float4(constraints.center, i,
+               extend(add(center_a, s->arms_back.a), friction_mass(s->bodies, center_a, center_b, s->normal)));
+  store_float4(constraints.center, stride + i, extend(add(center_b, s->arms_back.b), twist_mass(s->bodies, s->normal)));
+  store_float4(constraints.friction_impulse, i, kept_friction(old, s->normal, patch.radius));
 }
 
-SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const row *material,
+SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *material,
                                   read_touching_bodies touching_bodies, read_part_pairs part_pairs,
                                   GLOBAL const uint *pair_cached, read_manifolds manifolds,
                                   read_cached_contacts cached_contacts, GLOBAL const uint *sort_value,
@@ -361,27 +366,29 @@ SHARED void prepare_contacts_item(GLOBAL const Parameters *parameters, GLOBAL co
                                   item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  natural pair = load_natural(sort_value, i);
+  uint_lanes pair = load_uint(sort_value, i);
   contact_setup s = begin_setup(parameters, material, touching_bodies, part_pairs, manifolds, pair);
-  old_impulses old = load_old_impulses(cached_contacts, load_natural(pair_cached, pair));
+  old_impulses old = load_old_impulses(cached_contacts, load_uint(pair_cached, pair));
   points_setup points;
   points.deepest = R(0.0);
   points.near = s.bodies.a == s.bodies.b; /* none yet */
   for (uint k = 0; k < 4u; ++k)
-    prepare_point(parameters, &s, &old, load_row(manifolds.points, stride * k + pair), k, stride, &points,
+    prepare_point(parameters, &s, &old, load_float4(manifolds.points, stride * k + pair), k, stride, &points,
                   constraints.points, i);
   mark_borne(parameters, &s, points.near, body_falls);
   prepare_friction(parameters, &s, &old, manifolds.points, stride, constraints, i);
 
-  store_natural(constraints.pair, i, pair);
-  store_natural(constraints.a, i, s.bodies.a);
-  store_natural(constraints.b, i, s.bodies.b);
-  store_row(constraints.normal_impulse, i,
-            make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
+  store_uint(constraints.pair, i, pair);
+  store_uint(constraints.a, i, s.bodies.a);
+  store_uint(constraints.b, i, s.bodies.b);
+  store_float4(constraints.normal_impulse, i,
+               make_vec4(points.impulse[0], points.impulse[1], points.impulse[2], points.impulse[3]));
   store_real(constraints.slop, i, slop_or_deep(parameters, s.size, points.deepest));
   if (HAS_FEATURE(parameters, RESTITUTION)) {
-    store_row(constraints.bounce, i, make_vec4(points.wished[0], points.wished[1], points.wished[2], points.wished[3]));
-    store_row(constraints.bounce, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
+    store_float4(constraints.restitution, i,
+                 make_vec4(points.target_velocity[0], points.target_velocity[1], points.target_velocity[2],
+                           points.target_velocity[3]));
+    store_float4(constraints.restitution, stride + i, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
   }
 }
 

@@ -3,7 +3,7 @@
  * Giles, Diaz and Yuksel, "Augmented Vertex Block Descent", SIGGRAPH 2025. Bodies minimise the energy of an implicit
  * step,
  *
- *   1/2 (w - v*)^T M (w - v*)  +  penalties     w: velocities over the substep, v*: those that inertia and gravity wish
+ *   1/2 (w - v*)^T M (w - v*)  +  penalties     w: velocities over the substep, v*: those of inertia and gravity alone
  *
  * one body at a time with all others held (avbd_bodies.h), then every constraint takes the force of its penalty into
  * its multiplier and grows stiffer by how far it is violated:
@@ -34,7 +34,7 @@
 
 /* Impulses and violations of one constraint at the present velocities. */
 typedef struct {
-  vec3 turn_a[4], turn_b[4];
+  vec3 r_cross_n_a[4], r_cross_n_b[4];
   real impulse[4], violation[4];
   tangents along;
   vec3 arm_a, arm_b;
@@ -58,20 +58,20 @@ SHARED real share_within(real size, real limit)
 }
 
 SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 center_a, vec4 center_b, vec4 penalty,
-                            vec4 old, real pressure)
+                            vec4 old, real normal_impulse_sum)
 {
-  real limit = c.friction * pressure, twist_limit = limit * old.w;
+  real limit = c.friction * normal_impulse_sum, twist_limit = limit * old.w;
   f->along = tangents_of(c.normal);
   f->arm_a = add(xyz(center_a), shift.a);
   f->arm_b = add(xyz(center_b), shift.b);
-  vec3 slide = subtract(velocity_at(c.motion_b, f->arm_b), velocity_at(c.motion_a, f->arm_a));
-  real slide_first = inner(slide, f->along.first), slide_second = inner(slide, f->along.second);
+  vec3 slide = subtract(velocity_at(c.velocity_b, f->arm_b), velocity_at(c.velocity_a, f->arm_a));
+  real slide_first = dot3(slide, f->along.first), slide_second = dot3(slide, f->along.second);
   real first = old.x - penalty.x * slide_first, second = old.y - penalty.x * slide_second;
   f->slide_speed = square_root(slide_first * slide_first + slide_second * slide_second);
   f->slide_share = share_within(square_root(first * first + second * second), limit);
   f->first = first * f->slide_share;
   f->second = second * f->slide_share;
-  f->twist_speed = inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular));
+  f->twist_speed = dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular));
   real twist = old.z - penalty.y * f->twist_speed;
   f->twist_share = share_within(magnitude(twist), twist_limit);
   f->twist = twist * f->twist_share;
@@ -79,43 +79,45 @@ SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 
 
 /* penalty, second row: those of sliding and of twisting. */
 SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patches patches,
-                                GLOBAL const row *constraint_normal_impulse,
-                                GLOBAL const row *constraint_friction_impulse, GLOBAL const row *constraint_penalty,
-                                GLOBAL const row *solver_delta, uint stride, contact c, item_index i)
+                                GLOBAL const float4 *constraint_normal_impulse,
+                                GLOBAL const float4 *constraint_friction_impulse,
+                                GLOBAL const float4 *constraint_penalty, GLOBAL const float4 *solver_delta_pose,
+                                uint stride, contact c, item_index i)
 {
   contact_forces f;
-  vec4 old = load_row(constraint_normal_impulse, i), penalty = load_row(constraint_penalty, i * 2u);
-  drift moved = load_drift(solver_delta, c);
+  vec4 old = load_float4(constraint_normal_impulse, i), penalty = load_float4(constraint_penalty, i * 2u);
+  delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  real closed = inner(c.normal, moved.translation);
+  real closed = dot3(c.normal, moved.translation);
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(patches.points, stride * k + i);
-    f.turn_a[k] = outer(add(xyz(point_a), shift.a), c.normal);
-    f.turn_b[k] = outer(add(xyz(load_row(patches.points, stride * (k + 4u) + i)), shift.b), c.normal);
+    vec4 point_a = load_float4(patches.points, stride * k + i);
+    f.r_cross_n_a[k] = cross3(add(xyz(point_a), shift.a), c.normal);
+    f.r_cross_n_b[k] = cross3(add(xyz(load_float4(patches.points, stride * (k + 4u) + i)), shift.b), c.normal);
     real separation =
-        point_a.w + closed + (inner(f.turn_b[k], moved.rotation_b) - inner(f.turn_a[k], moved.rotation_a));
-    f.violation[k] = point_violation(parameters, separation, speed_along(c, c.normal, f.turn_a[k], f.turn_b[k]));
+        point_a.w + closed + (dot3(f.r_cross_n_b[k], moved.rotation_b) - dot3(f.r_cross_n_a[k], moved.rotation_a));
+    f.violation[k] =
+        point_violation(parameters, separation, speed_along(c, c.normal, f.r_cross_n_a[k], f.r_cross_n_b[k]));
     /* The penalty of an unused point is 0, and so is its multiplier. */
-    f.impulse[k] = maximum(component(old, (natural)k) - component(penalty, (natural)k) * f.violation[k], R(0.0));
+    f.impulse[k] = maximum(component(old, (uint_lanes)k) - component(penalty, (uint_lanes)k) * f.violation[k], R(0.0));
   }
-  friction_forces(&f, c, shift, load_row(patches.center, i), load_row(patches.center, stride + i),
-                  load_row(constraint_penalty, i * 2u + 1u), load_row(constraint_friction_impulse, i),
+  friction_forces(&f, c, shift, load_float4(patches.center, i), load_float4(patches.center, stride + i),
+                  load_float4(constraint_penalty, i * 2u + 1u), load_float4(constraint_friction_impulse, i),
                   (f.impulse[0] + f.impulse[1]) + (f.impulse[2] + f.impulse[3]));
   return f;
 }
 
 /* Bodies start from where they would be without gravity if something touches them: most of them rest on it. */
-SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const row *body_mass,
-                            GLOBAL const uint *incidence_start, GLOBAL row *solver_velocity, GLOBAL row *avbd_target,
-                            item_index i)
+SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
+                            GLOBAL const uint *body_constraint_start, GLOBAL float4 *solver_velocity,
+                            GLOBAL float4 *avbd_target, item_index i)
 {
-  motion m = load_motion(solver_velocity, i);
-  store_motion(avbd_target, i, m);
+  spatial_velocity m = load_velocity(solver_velocity, i);
+  store_velocity(avbd_target, i, m);
   mask touched =
-      (load_natural(incidence_start, i) != load_natural(incidence_start, i + 1u)) & (m.inverse_mass > R(0.0));
+      (load_uint(body_constraint_start, i) != load_uint(body_constraint_start, i + 1u)) & (m.inverse_mass > R(0.0));
   vec3 gravity = gravity_of(parameters);
-  m.linear = add_scaled(m.linear, gravity, -(load_row(body_mass, i * 2u).w * parameters->substep));
-  store_motion_if(touched, solver_velocity, i, m);
+  m.linear = add_scaled(m.linear, gravity, -(load_float4(body_mass, i * 2u).w * parameters->substep));
+  store_velocity_if(touched, solver_velocity, i, m);
 }
 
 SHARED real kept_penalty(real mass, real old)
@@ -127,34 +129,36 @@ SHARED real kept_penalty(real mass, real old)
 /* Penalties of the same features in the last step; a pair that did not touch then has none. */
 SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
                               GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_color,
-                              GLOBAL const uint *cached_feature, GLOBAL const row *cached_penalty, read_patches patches,
-                              GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                              GLOBAL row *constraint_friction_impulse, GLOBAL row *constraint_penalty, item_index i)
+                              GLOBAL const uint *cached_feature, GLOBAL const float4 *cached_penalty,
+                              read_patches patches, GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
+                              GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *constraint_penalty,
+                              item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  natural pair = load_natural(constraint_pair, i), cached = load_natural(pair_cached, pair),
-          feature = load_natural(manifold_feature, pair);
-  mask is_cached = cached != (natural)INDEX_NONE;
-  natural from = choose(is_cached, cached, (natural)0u);
-  is_cached = is_cached & (load_natural(cached_color, from) != (natural)COLOR_INACTIVE);
-  natural old_feature = load_natural(cached_feature, from);
-  vec4 old = load_row(cached_penalty, from * 2u), old_friction = load_row(cached_penalty, from * 2u + 1u);
+  uint_lanes pair = load_uint(constraint_pair, i), cached = load_uint(pair_cached, pair),
+             feature = load_uint(manifold_feature, pair);
+  mask is_cached = cached != (uint_lanes)INDEX_NONE;
+  uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
+  is_cached = is_cached & (load_uint(cached_color, from) != (uint_lanes)COLOR_INACTIVE);
+  uint_lanes old_feature = load_uint(cached_feature, from);
+  vec4 old = load_float4(cached_penalty, from * 2u), old_friction = load_float4(cached_penalty, from * 2u + 1u);
   real penalty[4];
   for (uint k = 0; k < 4u; ++k)
-    penalty[k] = kept_penalty(load_row(patches.points, stride * (k + 4u) + i).w,
+    penalty[k] = kept_penalty(load_float4(patches.points, stride * (k + 4u) + i).w,
                               choose(is_cached, cached_impulse(feature, k, old_feature, old), (real)R(0.0)));
-  store_row(constraint_penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
-  store_row(
+  store_float4(constraint_penalty, i * 2u, make_vec4(penalty[0], penalty[1], penalty[2], penalty[3]));
+  store_float4(
       constraint_penalty, i * 2u + 1u,
-      make_vec4(kept_penalty(load_row(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
-                kept_penalty(load_row(patches.center, stride + i).w, choose(is_cached, old_friction.y, (real)R(0.0))),
-                R(0.0), R(0.0)));
+      make_vec4(
+          kept_penalty(load_float4(patches.center, i).w, choose(is_cached, old_friction.x, (real)R(0.0))),
+          kept_penalty(load_float4(patches.center, stride + i).w, choose(is_cached, old_friction.y, (real)R(0.0))),
+          R(0.0), R(0.0)));
   real kept = AVBD_ALPHA * AVBD_GAMMA;
-  vec4 impulse = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  store_row(constraint_normal_impulse, i,
-            make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
-  store_row(constraint_friction_impulse, i,
-            make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
+  vec4 impulse = load_float4(constraint_normal_impulse, i), friction = load_float4(constraint_friction_impulse, i);
+  store_float4(constraint_normal_impulse, i,
+               make_vec4(kept * impulse.x, kept * impulse.y, kept * impulse.z, kept * impulse.w));
+  store_float4(constraint_friction_impulse, i,
+               make_vec4(kept * friction.x, kept * friction.y, kept * friction.z, friction.w));
 }
 
 SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
@@ -165,39 +169,40 @@ SHARED real grown_penalty(real penalty, real mass, real violation, mask holds)
 }
 
 SHARED void avbd_duals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                            GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                            GLOBAL const row *solver_velocity, GLOBAL const uint *counts, write_duals duals,
-                            GLOBAL row *constraint_bounce, item_index i)
+                            GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
+                            GLOBAL const float4 *solver_velocity, GLOBAL const uint *counts, write_duals duals,
+                            GLOBAL float4 *constraint_restitution, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   contact_forces f =
-      forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, solver_delta, stride, c, i);
-  vec4 penalty = load_row(duals.penalty, i * 2u), friction_penalty = load_row(duals.penalty, i * 2u + 1u);
+      forces_of(parameters, patches, duals.normal, duals.friction, duals.penalty, solver_delta_pose, stride, c, i);
+  vec4 penalty = load_float4(duals.penalty, i * 2u), friction_penalty = load_float4(duals.penalty, i * 2u + 1u);
   real grown[4];
   for (uint k = 0; k < 4u; ++k)
-    grown[k] = grown_penalty(component(penalty, (natural)k), load_row(patches.points, stride * (k + 4u) + i).w,
+    grown[k] = grown_penalty(component(penalty, (uint_lanes)k), load_float4(patches.points, stride * (k + 4u) + i).w,
                              f.violation[k], f.impulse[k] > R(0.0));
-  store_row(duals.penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
-  store_row(duals.penalty, i * 2u + 1u,
-            make_vec4(grown_penalty(friction_penalty.x, load_row(patches.center, i).w, f.slide_speed,
-                                    f.slide_share == R(1.0)),
-                      grown_penalty(friction_penalty.y, load_row(patches.center, stride + i).w, f.twist_speed,
-                                    f.twist_share == R(1.0)),
-                      R(0.0), R(0.0)));
-  vec4 pressed = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
-  store_row(duals.normal, i, pressed);
-  store_row(duals.friction, i, make_vec4(f.first, f.second, f.twist, load_row(duals.friction, i).w));
+  store_float4(duals.penalty, i * 2u, make_vec4(grown[0], grown[1], grown[2], grown[3]));
+  store_float4(duals.penalty, i * 2u + 1u,
+               make_vec4(grown_penalty(friction_penalty.x, load_float4(patches.center, i).w, f.slide_speed,
+                                       f.slide_share == R(1.0)),
+                         grown_penalty(friction_penalty.y, load_float4(patches.center, stride + i).w, f.twist_speed,
+                                       f.twist_share == R(1.0)),
+                         R(0.0), R(0.0)));
+  vec4 normal_impulses = make_vec4(f.impulse[0], f.impulse[1], f.impulse[2], f.impulse[3]);
+  store_float4(duals.normal, i, normal_impulses);
+  store_float4(duals.friction, i, make_vec4(f.first, f.second, f.twist, load_float4(duals.friction, i).w));
   if (HAS_FEATURE(parameters, RESTITUTION))
-    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
+    store_float4(constraint_restitution, stride + i,
+                 highest_impulses(load_float4(constraint_restitution, stride + i), normal_impulses));
 }
 
-SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const row *constraint_penalty,
-                            GLOBAL row *cached_penalty, item_index i)
+SHARED void avbd_cache_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_penalty,
+                            GLOBAL float4 *cached_penalty, item_index i)
 {
-  natural pair = load_natural(constraint_pair, i);
-  store_row(cached_penalty, pair * 2u, load_row(constraint_penalty, i * 2u));
-  store_row(cached_penalty, pair * 2u + 1u, load_row(constraint_penalty, i * 2u + 1u));
+  uint_lanes pair = load_uint(constraint_pair, i);
+  store_float4(cached_penalty, pair * 2u, load_float4(constraint_penalty, i * 2u));
+  store_float4(cached_penalty, pair * 2u + 1u, load_float4(constraint_penalty, i * 2u + 1u));
 }
 
 #endif

@@ -30,7 +30,7 @@ SHARED real over_or_zero(real x, real divisor)
 }
 
 /* zero: a 0 from memory, for llvmpipe takes 0 + x for x, also for -0. */
-SHARED block_system begin_block(block_frame frame, motion m, motion target, real zero)
+SHARED block_system begin_block(block_frame frame, spatial_velocity m, spatial_velocity target, real zero)
 {
   block_system s;
   vec3 linear = subtract(m.linear, target.linear),
@@ -95,41 +95,43 @@ SHARED void solve_block(block_system *s)
   }
 }
 
-SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const row *constraint_normal_impulse,
-                        GLOBAL const row *constraint_penalty, contact c, contact_forces f, uint constraint)
+SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const float4 *constraint_normal_impulse,
+                        GLOBAL const float4 *constraint_penalty, contact c, contact_forces f, uint constraint)
 {
-  vec4 penalty = load_row(constraint_penalty, constraint * 2u),
-       friction_penalty = load_row(constraint_penalty, constraint * 2u + 1u);
-  vec4 multipliers = load_row(constraint_normal_impulse, constraint);
+  vec4 penalty = load_float4(constraint_penalty, constraint * 2u),
+       friction_penalty = load_float4(constraint_penalty, constraint * 2u + 1u);
+  vec4 multipliers = load_float4(constraint_normal_impulse, constraint);
   real held = R(0.0);
   for (uint k = 0; k < 4u; ++k) {
     if (f.impulse[k] > R(0.0) ||
         component(multipliers, k) > R(0.0)) /* one that just let go may press again: it stays stiff */
-      add_row(s, frame, c.normal, frame.side > R(0.0) ? f.turn_b[k] : f.turn_a[k], component(penalty, k), f.impulse[k]);
+      add_row(s, frame, c.normal, frame.side > R(0.0) ? f.r_cross_n_b[k] : f.r_cross_n_a[k], component(penalty, k),
+              f.impulse[k]);
     held = held + f.impulse[k];
   }
   if (c.friction == R(0.0) || held == R(0.0)) return;
   vec3 arm = frame.side > R(0.0) ? f.arm_b : f.arm_a;
   real stiffness = friction_penalty.x * f.slide_share;
-  add_row(s, frame, f.along.first, outer(arm, f.along.first), stiffness, f.first);
-  add_row(s, frame, f.along.second, outer(arm, f.along.second), stiffness, f.second);
+  add_row(s, frame, f.along.first, cross3(arm, f.along.first), stiffness, f.first);
+  add_row(s, frame, f.along.second, cross3(arm, f.along.second), stiffness, f.second);
   add_turning_row(s, frame, c.normal, friction_penalty.y * f.twist_share, f.twist);
 }
 
 SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                      read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
-                      GLOBAL const uint *counts, GLOBAL row *solver_velocity, uint body)
+                      read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
+                      GLOBAL const uint *counts, GLOBAL float4 *solver_velocity, uint body)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  motion m = load_motion(solver_velocity, body);
-  vec3 inverse_moments = xyz(load_row(blocks.mass, body * 2u));
+  spatial_velocity m = load_velocity(solver_velocity, body);
+  vec3 inverse_moments = xyz(load_float4(blocks.mass, body * 2u));
   block_frame frame = {
-      rotation_of(quat_from(load_row(blocks.orientation, body))),
+      rotation_of(quat_from(load_float4(blocks.orientation, body))),
       make_vec3(square_root(inverse_moments.x), square_root(inverse_moments.y), square_root(inverse_moments.z)),
       square_root(m.inverse_mass), R(1.0)};
-  block_system s = begin_block(frame, m, load_motion(blocks.target, body), load_row(solver_velocity, body * 2u + 1u).w);
-  for (uint k = incidence_lists.start[body]; k < incidence_lists.start[body + 1u]; ++k) {
-    uint entry = incidence_lists.entries[k], i = entry >> 1u;
+  block_system s =
+      begin_block(frame, m, load_velocity(blocks.target, body), load_float4(solver_velocity, body * 2u + 1u).w);
+  for (uint k = body_constraint_lists.start[body]; k < body_constraint_lists.start[body + 1u]; ++k) {
+    uint entry = body_constraint_lists.entries[k], i = entry >> 1u;
     frame.side = (entry & 1u) != 0u ? R(1.0) : R(-1.0);
     contact c = load_contact(contacts, solver_velocity, blocks.inertia, i);
     add_contact(&s, frame, duals.normal, duals.penalty, c,
@@ -140,28 +142,30 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
   m.linear = add_scaled(m.linear, make_vec3(s.vector[0], s.vector[1], s.vector[2]), frame.root_mass);
   m.angular = add(m.angular,
                   rotate(frame.axes, multiply(frame.root_moments, make_vec3(s.vector[3], s.vector[4], s.vector[5]))));
-  store_motion(solver_velocity, body, m);
+  store_velocity(solver_velocity, body, m);
 }
 
 /* Bodies of one colour, all at once. */
 SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                             read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
-                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                             read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
                              uint i)
 {
-  avbd_body(parameters, blocks, contacts, patches, duals, incidence_lists, counts, solver_velocity, sort_value[i]);
+  avbd_body(parameters, blocks, contacts, patches, duals, body_constraint_lists, counts, solver_velocity,
+            sort_value[i]);
 }
 
-/* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the tail.
- * Bodies of one colour do not touch, so the result is that of launching each colour. */
+/* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the overflow
+ * constraints. Bodies of one colour do not touch, so the result is that of launching each colour. */
 SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
-                           read_patches patches, read_duals duals, read_incidence_lists incidence_lists,
-                           GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
+                           read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
+                           GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
                            uint color, uint only)
 {
   (void)only;
-  for (uint i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + COLOR_TAIL + 1u]; ++i)
-    avbd_body(parameters, blocks, contacts, patches, duals, incidence_lists, counts, solver_velocity, sort_value[i]);
+  for (uint i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + COLOR_OVERFLOW + 1u]; ++i)
+    avbd_body(parameters, blocks, contacts, patches, duals, body_constraint_lists, counts, solver_velocity,
+              sort_value[i]);
 }
 
 #endif

@@ -10,35 +10,35 @@
  *        |  |  |                     mean of the parts:  v + (P1 + P2 + P3) / m
  *      [ m/3|m/3|m/3 ]
  *
- * So a row leaves the impulse it gave, and split_apply adds those of a body in the order of its list: both bodies of a
- * row get the same impulse, and momentum is kept to rounding however far the iteration has come. It never overshoots,
- * but a body of n constraints is n times as soft in each of them, so it takes more iterations than solving colour after
- * colour.
+ * A row therefore stores the impulse that it gave, and split_apply adds the impulses of a body in the order of its
+ * list. Both bodies of a row get the same impulse, so momentum is kept to rounding in every iteration. The method never
+ * overshoots, but a body of n constraints is n times as soft in each of them, so it takes more iterations than solving
+ * colour after colour.
  *
  * The rows are those of shared/solve/contact.h, with the same fixed points. The solver `jacobi` uses them for all
- * constraints, the others for the tail, which has no colours.
+ * constraints, the others for the overflow constraints, which have no colours.
  */
 #ifndef TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 #define TANDEM_SHARED_SOLVE_MASS_SPLIT_H
 
 #include "shared/solve/contact.h"
 
-/* A body of more entries than this has them added in a tree (mass_split_sum.h). More than there are colours, so that
- * only a scene with a tail has one. */
+/* The entries of a body that has more than this are added in a tree (mass_split_sum.h). The number is above that of
+ * colours, so only a scene with overflow constraints has such a body. */
 #define SPLIT_DIRECT 64u
 #define SPLIT_CHUNK 32u
 /* Each body's partial sums have a place of their own: one of 32 entries needs less than two for each 32. */
 #define SPLIT_FIRST_SUM(start) ((start) >> 4u)
 
-/* A body's constraints with what cannot move carry all that rests on it: together they get as much of it as the others
- * together. */
-SHARED real parts_of(GLOBAL const uint *incidence_start, GLOBAL const uint *split_supports, natural body,
-                     mask supported)
+/* The constraints of a body with static bodies carry all that rests on the body, so together they get as large a part
+ * of it as all others together. */
+SHARED real parts_of(GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
+                     uint_lanes body, mask supported)
 {
-  natural all = load_natural(incidence_start, body + 1u) - load_natural(incidence_start, body),
-          supports = load_natural(split_supports, body);
-  mask mixed = (supports > (natural)0u) & (supports < all);
-  return to_real(choose(mixed, choose(supported, supports, all - supports) * 2u, all));
+  uint_lanes all = load_uint(body_constraint_start, body + 1u) - load_uint(body_constraint_start, body),
+             static_constraints = load_uint(split_static_constraints, body);
+  mask mixed = (static_constraints > (uint_lanes)0u) & (static_constraints < all);
+  return to_real(choose(mixed, choose(supported, static_constraints, all - static_constraints) * 2u, all));
 }
 
 SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
@@ -50,50 +50,51 @@ SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
 /* Makes the two bodies of a contact their parts. */
 SHARED contact split_contact(contact c, real parts_a, real parts_b)
 {
-  c.motion_a.inverse_mass = c.motion_a.inverse_mass * parts_a;
-  c.motion_b.inverse_mass = c.motion_b.inverse_mass * parts_b;
+  c.velocity_a.inverse_mass = c.velocity_a.inverse_mass * parts_a;
+  c.velocity_b.inverse_mass = c.velocity_b.inverse_mass * parts_b;
   c.inertia_a = scaled_inertia(c.inertia_a, parts_a);
   c.inertia_b = scaled_inertia(c.inertia_b, parts_b);
   return c;
 }
 
 /* Once a step: the effective masses between parts, and how many parts there are. */
-SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const row *solver_velocity,
-                              GLOBAL const row *solver_inertia, GLOBAL const uint *incidence_start,
-                              GLOBAL const uint *split_supports, GLOBAL const uint *counts, GLOBAL row *split_mass,
-                              item_index i)
+SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const float4 *solver_velocity,
+                              GLOBAL const float4 *solver_inertia, GLOBAL const uint *body_constraint_start,
+                              GLOBAL const uint *split_static_constraints, GLOBAL const uint *counts,
+                              GLOBAL float4 *split_mass, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  mask supported = (c.motion_a.inverse_mass == R(0.0)) | (c.motion_b.inverse_mass == R(0.0));
-  real parts_a = parts_of(incidence_start, split_supports, c.a, supported),
-       parts_b = parts_of(incidence_start, split_supports, c.b, supported);
+  mask supported = (c.velocity_a.inverse_mass == R(0.0)) | (c.velocity_b.inverse_mass == R(0.0));
+  real parts_a = parts_of(body_constraint_start, split_static_constraints, c.a, supported),
+       parts_b = parts_of(body_constraint_start, split_static_constraints, c.b, supported);
   c = split_contact(c, parts_a, parts_b);
-  body_pair parts = {c.a, c.b, c.motion_a, c.motion_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
+  body_pair parts = {c.a, c.b, c.velocity_a, c.velocity_b, c.inertia_a, c.inertia_b, {R(0.0), R(0.0), R(0.0)}};
   real mass[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_row(patches.points, stride * (k + 4u) + i);
-    real whole = response(parts, xyz(load_row(patches.points, stride * k + i)), xyz(point_b), c.normal, c.normal);
+    vec4 point_b = load_float4(patches.points, stride * (k + 4u) + i);
+    real whole = response(parts, xyz(load_float4(patches.points, stride * k + i)), xyz(point_b), c.normal, c.normal);
     mass[k] = choose(point_b.w > R(0.0), inverse_or_zero(whole), (real)R(0.0));
   }
-  vec3 center_a = xyz(load_row(patches.center, i)), center_b = xyz(load_row(patches.center, stride + i));
-  store_row(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
-  store_row(
+  vec3 center_a = xyz(load_float4(patches.center, i)), center_b = xyz(load_float4(patches.center, stride + i));
+  store_float4(split_mass, i, make_vec4(mass[0], mass[1], mass[2], mass[3]));
+  store_float4(
       split_mass, stride + i,
       make_vec4(friction_mass(parts, center_a, center_b, c.normal), twist_mass(parts, c.normal), parts_a, parts_b));
 }
 
 SHARED wrench choose_wrench(mask m, wrench a, wrench b)
 {
-  wrench w = {choose3(m, a.impulse, b.impulse), choose3(m, a.turn_a, b.turn_a), choose3(m, a.turn_b, b.turn_b)};
+  wrench w = {choose3(m, a.impulse, b.impulse), choose3(m, a.angular_impulse_a, b.angular_impulse_a),
+              choose3(m, a.angular_impulse_b, b.angular_impulse_b)};
   return w;
 }
 
-SHARED void store_wrench(GLOBAL row *split_impulse, uint stride, item_index i, wrench w)
+SHARED void store_wrench(GLOBAL float4 *split_impulse, uint stride, item_index i, wrench w)
 {
-  store_row(split_impulse, i, extend(w.impulse, R(0.0)));
-  store_row(split_impulse, stride + i, extend(negate(w.turn_a), R(0.0)));
-  store_row(split_impulse, stride * 2u + i, extend(w.turn_b, R(0.0)));
+  store_float4(split_impulse, i, extend(w.impulse, R(0.0)));
+  store_float4(split_impulse, stride + i, extend(negate(w.angular_impulse_a), R(0.0)));
+  store_float4(split_impulse, stride * 2u + i, extend(w.angular_impulse_b, R(0.0)));
 }
 
 /* Friction acts at the centre: a slide along the tangents and a twist about the normal. */
@@ -101,44 +102,44 @@ SHARED wrench friction_wrench(vec3 normal, vec3 center_a, vec3 center_b, real fi
 {
   tangents t = tangents_of(normal);
   vec3 slide = add(scale(t.first, first), scale(t.second, second)), turn = scale(normal, twist);
-  wrench w = {slide, add(outer(center_a, slide), turn), add(outer(center_b, slide), turn)};
+  wrench w = {slide, add(cross3(center_a, slide), turn), add(cross3(center_b, slide), turn)};
   return w;
 }
 
 SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
-                                  GLOBAL const row *constraint_normal_impulse,
-                                  GLOBAL const row *constraint_friction_impulse, read_solver_bodies solver_bodies,
-                                  GLOBAL const uint *counts, GLOBAL row *split_impulse, item_index i)
+                                  GLOBAL const float4 *constraint_normal_impulse,
+                                  GLOBAL const float4 *constraint_friction_impulse, read_solver_bodies solver_bodies,
+                                  GLOBAL const uint *counts, GLOBAL float4 *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
-  support s = load_support(patches.points, stride, c, shift, load_row(constraint_normal_impulse, i), i);
-  vec3 center_a = add(xyz(load_row(patches.center, i)), shift.a),
-       center_b = add(xyz(load_row(patches.center, stride + i)), shift.b);
-  wrench w = wrench_of(c, s, center_a, center_b, load_row(constraint_friction_impulse, i));
+  normal_rows s = load_normal_rows(patches.points, stride, c, shift, load_float4(constraint_normal_impulse, i), i);
+  vec3 center_a = add(xyz(load_float4(patches.center, i)), shift.a),
+       center_b = add(xyz(load_float4(patches.center, stride + i)), shift.b);
+  wrench w = wrench_of(c, s, center_a, center_b, load_float4(constraint_friction_impulse, i));
   store_wrench(split_impulse, stride, i, w);
 }
 
 /* The points of a manifold between parts. */
-SHARED support load_split_support(GLOBAL const row *constraint_points, uint stride, contact c, arm_shift shift,
-                                  vec4 impulses, vec4 masses, item_index i)
+SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points, uint stride, contact c,
+                                          arm_shift shift, vec4 impulses, vec4 masses, item_index i)
 {
-  support s = load_support(constraint_points, stride, c, shift, impulses, i);
-  for (uint k = 0; k < 4u; ++k) s.mass[k] = component(masses, (natural)k);
+  normal_rows s = load_normal_rows(constraint_points, stride, c, shift, impulses, i);
+  for (uint k = 0; k < 4u; ++k) s.mass[k] = component(masses, (uint_lanes)k);
   return s;
 }
 
 /* What the points get beyond `old`. */
-SHARED wrench wrench_of_points(contact c, const support *s, vec4 old, vec4 impulses)
+SHARED wrench wrench_of_points(contact c, const normal_rows *s, vec4 old, vec4 impulses)
 {
   real sum = impulses.x - old.x;
-  wrench w = {c.normal, scale(s->turn_a[0], sum), scale(s->turn_b[0], sum)};
+  wrench w = {c.normal, scale(s->r_cross_n_a[0], sum), scale(s->r_cross_n_b[0], sum)};
   for (uint k = 1; k < 4u; ++k) {
-    real change = component(impulses, (natural)k) - component(old, (natural)k);
+    real change = component(impulses, (uint_lanes)k) - component(old, (uint_lanes)k);
     sum = sum + change;
-    w.turn_a = add_scaled(w.turn_a, s->turn_a[k], change);
-    w.turn_b = add_scaled(w.turn_b, s->turn_b[k], change);
+    w.angular_impulse_a = add_scaled(w.angular_impulse_a, s->r_cross_n_a[k], change);
+    w.angular_impulse_b = add_scaled(w.angular_impulse_b, s->r_cross_n_b[k], change);
   }
   w.impulse = scale(c.normal, sum);
   return w;
@@ -146,7 +147,8 @@ SHARED wrench wrench_of_points(contact c, const support *s, vec4 old, vec4 impul
 
 SHARED wrench add_wrench(wrench a, wrench b)
 {
-  wrench w = {add(a.impulse, b.impulse), add(a.turn_a, b.turn_a), add(a.turn_b, b.turn_b)};
+  wrench w = {add(a.impulse, b.impulse), add(a.angular_impulse_a, b.angular_impulse_a),
+              add(a.angular_impulse_b, b.angular_impulse_b)};
   return w;
 }
 
@@ -157,7 +159,7 @@ SHARED vec4 extrapolated(vec4 now, vec4 before, real share)
                    now.z + share * (now.z - before.z), now.w);
 }
 
-SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
+SHARED vec4 extrapolated_normal(vec4 now, vec4 before, real share)
 {
   vec4 ahead = extrapolated(now, before, share);
   return make_vec4(maximum(ahead.x, R(0.0)), maximum(ahead.y, R(0.0)), maximum(ahead.z, R(0.0)),
@@ -167,22 +169,22 @@ SHARED vec4 extrapolated_push(vec4 now, vec4 before, real share)
 /* A contact between parts, as an iteration finds it. momentum: of split_solve_item. */
 typedef struct {
   contact c;
-  drift moved;
+  delta_pose moved;
   arm_shift shift;
   vec4 point_masses;
   real friction_mass, twist_mass;
   uint momentum;
 } split_row;
 
-SHARED split_row load_split_row(read_contacts contacts, GLOBAL const row *split_mass, read_solver_bodies solver_bodies,
-                                uint stride, uint momentum, item_index i)
+SHARED split_row load_split_row(read_contacts contacts, GLOBAL const float4 *split_mass,
+                                read_solver_bodies solver_bodies, uint stride, uint momentum, item_index i)
 {
   split_row r;
-  vec4 other = load_row(split_mass, stride + i);
+  vec4 other = load_float4(split_mass, stride + i);
   r.c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
-  r.moved = load_drift(solver_bodies.delta, r.c);
+  r.moved = load_delta_pose(solver_bodies.delta, r.c);
   r.shift = shift_of_contact(r.c, r.moved.translation);
-  r.point_masses = load_row(split_mass, i);
+  r.point_masses = load_float4(split_mass, i);
   r.friction_mass = other.x;
   r.twist_mass = other.y;
   r.momentum = momentum;
@@ -192,52 +194,52 @@ SHARED split_row load_split_row(read_contacts contacts, GLOBAL const row *split_
 SHARED real share_of_momentum(uint momentum) { return (real)momentum / ((real)momentum + R(3.0)); }
 
 /* Solves friction of the rough rows, and gives what it does to the bodies beyond the impulse before. */
-SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, uint stride, real pressure,
-                                   GLOBAL row *friction_impulse, GLOBAL row *rubbed, item_index i)
+SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, uint stride, real normal_impulse_sum,
+                                   GLOBAL float4 *friction_impulse, GLOBAL float4 *rubbed, item_index i)
 {
-  vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
-  vec4 old = load_row(friction_impulse, i);
+  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
+  vec4 old = load_float4(friction_impulse, i);
   mask stale = masses_are_stale(r->moved, r->shift, center_a, center_b);
   solved sliding = solve_friction(r->c, stale, r->shift, extend(xyz(center_a), r->friction_mass),
-                                  extend(xyz(center_b), r->twist_mass), old, pressure);
-  r->c = with_motion_if(rough, r->c, sliding.c);
+                                  extend(xyz(center_b), r->twist_mass), old, normal_impulse_sum);
+  r->c = with_velocities_if(rough, r->c, sliding.c);
   vec4 next = sliding.impulse;
-  if (r->momentum != 0u) next = extrapolated(next, load_row(rubbed, i), share_of_momentum(r->momentum));
-  store_row_if(rough, rubbed, i, sliding.impulse);
-  store_row_if(rough, friction_impulse, i, next);
+  if (r->momentum != 0u) next = extrapolated(next, load_float4(rubbed, i), share_of_momentum(r->momentum));
+  store_float4_if(rough, rubbed, i, sliding.impulse);
+  store_float4_if(rough, friction_impulse, i, next);
   return friction_wrench(r->c.normal, add(xyz(center_a), r->shift.a), add(xyz(center_b), r->shift.b), next.x - old.x,
                          next.y - old.y, next.z - old.z);
 }
 
 /* Presses the points together, each towards the impulse that it wishes by itself. */
-SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r, support *s, read_patches patches,
+SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r, normal_rows *s, read_patches patches,
                                uint stride, uint biased, item_index i)
 {
   softness soft = softness_of(parameters, r->c);
-  real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = inner(r->c.normal, r->moved.translation);
-  real wished[4];
+  real slop = load_real(patches.slop, i), leak = soft.impulse_scale, closed = dot3(r->c.normal, r->moved.translation);
+  real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real started = load_row(patches.points, stride * k + i).w,
-         whole = load_row(patches.points, stride * (k + 4u) + i).w;
-    real separation =
-        started + closed + (inner(s->turn_b[k], r->moved.rotation_b) - inner(s->turn_a[k], r->moved.rotation_a));
-    real speed = speed_along(r->c, r->c.normal, s->turn_a[k], s->turn_b[k]);
+    real started = load_float4(patches.points, stride * k + i).w,
+         whole = load_float4(patches.points, stride * (k + 4u) + i).w;
+    real separation = started + closed +
+                      (dot3(s->r_cross_n_b[k], r->moved.rotation_b) - dot3(s->r_cross_n_a[k], r->moved.rotation_a));
+    real speed = speed_along(r->c, r->c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
     soft.impulse_scale =
         leak * (s->mass[k] / choose(whole > R(0.0), whole, (real)R(1.0))); /* so that parts are no softer in the end */
-    wished[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
+    target_impulse[k] = normal_impulse(parameters, soft, slop, separation, speed, s->mass[k], s->impulse[k], biased);
   }
-  r->c = press_together(r->c, s, wished);
+  r->c = block_solve_normals(r->c, s, target_impulse);
 }
 
 /* The normal impulses that the next iteration starts from. */
-SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 pressed, uint momentum, uint stride,
-                                write_contact_impulses contact_impulses, GLOBAL row *pushed, item_index i)
+SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 normal_impulses, uint momentum, uint stride,
+                                write_contact_impulses contact_impulses, GLOBAL float4 *pushed, item_index i)
 {
-  vec4 next = pressed;
-  if (momentum != 0u) next = extrapolated_push(pressed, load_row(pushed, i), share_of_momentum(momentum));
-  store_row(pushed, i, pressed);
-  store_row(contact_impulses.normal, i, next);
-  keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
+  vec4 next = normal_impulses;
+  if (momentum != 0u) next = extrapolated_normal(normal_impulses, load_float4(pushed, i), share_of_momentum(momentum));
+  store_float4(pushed, i, normal_impulses);
+  store_float4(contact_impulses.normal, i, next);
+  keep_highest_impulses(parameters, contact_impulses.restitution, stride, normal_impulses, i);
   return next;
 }
 
@@ -246,52 +248,56 @@ SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 presse
  * Accelerate Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above,
  * which is what the method asks for. */
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                             GLOBAL const row *split_mass, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
-                             write_contact_impulses contact_impulses, write_iterates iterates,
-                             GLOBAL row *split_impulse, uint pass, uint momentum, item_index i)
+                             GLOBAL const float4 *split_mass, read_solver_bodies solver_bodies,
+                             GLOBAL const uint *counts, write_contact_impulses contact_impulses,
+                             write_iterates iterates, GLOBAL float4 *split_impulse, uint pass, uint momentum,
+                             item_index i)
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   uint stride = counts[CAPACITY_PAIRS];
   split_row r = load_split_row(contacts, split_mass, solver_bodies, stride, momentum, i);
-  vec4 impulses = load_row(contact_impulses.normal, i);
+  vec4 impulses = load_float4(contact_impulses.normal, i);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   wrench rubbed = {none, none, none};
   mask rough = r.c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    real pressure = (impulses.x + impulses.y) + (impulses.z + impulses.w);
-    rubbed = solve_split_friction(&r, rough, patches, stride, pressure, contact_impulses.friction, iterates.rubbed, i);
+    real normal_impulse_sum = (impulses.x + impulses.y) + (impulses.z + impulses.w);
+    rubbed = solve_split_friction(&r, rough, patches, stride, normal_impulse_sum, contact_impulses.friction,
+                                  iterates.previous_friction, i);
   }
-  support s = load_split_support(patches.points, stride, r.c, r.shift, impulses, r.point_masses, i);
+  normal_rows s = load_split_normal_rows(patches.points, stride, r.c, r.shift, impulses, r.point_masses, i);
   press_split_points(parameters, &r, &s, patches, stride, biased, i);
-  vec4 next = keep_split_impulses(parameters, impulses_of(&s), momentum, stride, contact_impulses, iterates.pushed, i);
+  vec4 next =
+      keep_split_impulses(parameters, impulses_of(&s), momentum, stride, contact_impulses, iterates.previous_normal, i);
   wrench given = wrench_of_points(r.c, &s, impulses, next);
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 
-/* One round of restitution: points that were pressed towards their wished speed. */
-SHARED void split_restitution_item(read_contacts contacts, read_patches patches, GLOBAL const row *constraint_bounce,
-                                   GLOBAL const row *split_mass, read_solver_bodies solver_bodies,
-                                   GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                                   GLOBAL row *split_impulse, item_index i)
+/* One round of restitution: points that were pressed towards their target velocity. */
+SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
+                                   GLOBAL const float4 *constraint_restitution, GLOBAL const float4 *split_mass,
+                                   read_solver_bodies solver_bodies, GLOBAL const uint *counts,
+                                   GLOBAL float4 *constraint_normal_impulse, GLOBAL float4 *split_impulse, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  vec4 wished = load_row(constraint_bounce, i), highest = load_row(constraint_bounce, stride + i);
-  vec4 masses = load_row(split_mass, i), other = load_row(split_mass, stride + i);
+  vec4 target_velocity = load_float4(constraint_restitution, i),
+       highest = load_float4(constraint_restitution, stride + i);
+  vec4 masses = load_float4(split_mass, i), other = load_float4(split_mass, stride + i);
   contact c = split_contact(load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i), other.z, other.w);
-  vec4 impulses = load_row(constraint_normal_impulse, i);
-  support s =
-      load_split_support(patches.points, stride, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
-  real pressed[4];
+  vec4 impulses = load_float4(constraint_normal_impulse, i);
+  normal_rows s =
+      load_split_normal_rows(patches.points, stride, c, load_arm_shift(solver_bodies.delta, c), impulses, masses, i);
+  real normal_impulses[4];
   for (uint k = 0; k < 4u; ++k) {
-    real target = component(wished, (natural)k);
-    mask applies = (target >= R(0.0)) & (component(highest, (natural)k) > R(0.0));
-    real wanted =
-        maximum(s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]) - target), R(0.0));
-    pressed[k] = choose(applies, wanted, s.impulse[k]);
+    real target = component(target_velocity, (uint_lanes)k);
+    mask applies = (target >= R(0.0)) & (component(highest, (uint_lanes)k) > R(0.0));
+    real wanted = maximum(
+        s.impulse[k] - s.mass[k] * (speed_along(c, c.normal, s.r_cross_n_a[k], s.r_cross_n_b[k]) - target), R(0.0));
+    normal_impulses[k] = choose(applies, wanted, s.impulse[k]);
   }
-  c = press_together(c, &s, pressed);
+  c = block_solve_normals(c, &s, normal_impulses);
   vec4 parted = make_vec4(s.impulse[0], s.impulse[1], s.impulse[2], s.impulse[3]);
-  store_row(constraint_normal_impulse, i, parted);
+  store_float4(constraint_normal_impulse, i, parted);
   store_wrench(split_impulse, stride, i, wrench_of_points(c, &s, impulses, parted));
 }
 
@@ -300,21 +306,22 @@ typedef struct {
 } impulse_sum;
 
 /* What entry `at` of the lists gives its body. */
-SHARED impulse_sum load_entry(GLOBAL const uint *incidence, GLOBAL const row *split_impulse, uint stride, mask wanted,
-                              natural at)
+SHARED impulse_sum load_entry(GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse, uint stride,
+                              mask wanted, uint_lanes at)
 {
-  natural entry = load_natural(incidence, choose(wanted, at, (natural)0u));
-  natural constraint = choose(wanted, entry >> 1u, (natural)0u), side = choose(wanted, entry & 1u, (natural)0u);
-  vec3 push = xyz(load_row(split_impulse, constraint));
+  uint_lanes entry = load_uint(body_constraint, choose(wanted, at, (uint_lanes)0u));
+  uint_lanes constraint = choose(wanted, entry >> 1u, (uint_lanes)0u),
+             side = choose(wanted, entry & 1u, (uint_lanes)0u);
+  vec3 push = xyz(load_float4(split_impulse, constraint));
   impulse_sum sum = {choose3(side == 0u, negate(push), push),
-                     xyz(load_row(split_impulse, (side + 1u) * stride + constraint))};
+                     xyz(load_float4(split_impulse, (side + 1u) * stride + constraint))};
   return sum;
 }
 
-SHARED impulse_sum load_partial(GLOBAL const row *split_partial, mask wanted, natural at)
+SHARED impulse_sum load_partial(GLOBAL const float4 *split_partial, mask wanted, uint_lanes at)
 {
-  natural from = choose(wanted, at, (natural)0u) * 2u;
-  impulse_sum sum = {xyz(load_row(split_partial, from)), xyz(load_row(split_partial, from + 1u))};
+  uint_lanes from = choose(wanted, at, (uint_lanes)0u) * 2u;
+  impulse_sum sum = {xyz(load_float4(split_partial, from)), xyz(load_float4(split_partial, from + 1u))};
   return sum;
 }
 
@@ -330,35 +337,36 @@ SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint
 SHARED mask is_nonzero(vec3 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)); }
 
 /* Joins the parts of a body. trees: whether the sums of bodies with long lists have been made. */
-SHARED void split_apply_item(GLOBAL const uint *incidence_start, GLOBAL const uint *incidence,
-                             GLOBAL const row *split_impulse, GLOBAL const row *split_partial,
-                             GLOBAL const row *solver_inertia, GLOBAL const uint *counts, GLOBAL row *solver_velocity,
-                             uint trees, item_index i)
+SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
+                             GLOBAL const float4 *split_impulse, GLOBAL const float4 *split_partial,
+                             GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,
+                             GLOBAL float4 *solver_velocity, uint trees, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
-  natural start = load_natural(incidence_start, i), entries = load_natural(incidence_start, i + 1u) - start;
-  if (!any_of(entries > (natural)0u)) return;
-  mask long_list = (entries > (natural)SPLIT_DIRECT) & ((natural)trees != (natural)0u);
-  natural direct = choose(long_list, (natural)0u, entries);
+  uint_lanes start = load_uint(body_constraint_start, i), entries = load_uint(body_constraint_start, i + 1u) - start;
+  if (!any_of(entries > (uint_lanes)0u)) return;
+  mask long_list = (entries > (uint_lanes)SPLIT_DIRECT) & ((uint_lanes)trees != (uint_lanes)0u);
+  uint_lanes direct = choose(long_list, (uint_lanes)0u, entries);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   impulse_sum sum = {none, none};
-  for (uint k = 0; any_of((natural)k < direct); ++k) {
-    mask more = (natural)k < direct;
-    sum = add_term(sum, load_entry(incidence, split_impulse, stride, more, start + (natural)k), more, k);
+  for (uint k = 0; any_of((uint_lanes)k < direct); ++k) {
+    mask more = (uint_lanes)k < direct;
+    sum = add_term(sum, load_entry(body_constraint, split_impulse, stride, more, start + (uint_lanes)k), more, k);
   }
   if (any_of(long_list)) {
-    natural sums = choose(long_list, (entries + (natural)(SPLIT_CHUNK * SPLIT_CHUNK - 1u)) >> 10u, (natural)0u);
-    for (uint k = 0; any_of((natural)k < sums); ++k) {
-      mask more = (natural)k < sums;
-      sum = add_term(sum, load_partial(split_partial, more, SPLIT_FIRST_SUM(start) + (natural)(k * SPLIT_CHUNK)), more,
-                     k);
+    uint_lanes sums =
+        choose(long_list, (entries + (uint_lanes)(SPLIT_CHUNK * SPLIT_CHUNK - 1u)) >> 10u, (uint_lanes)0u);
+    for (uint k = 0; any_of((uint_lanes)k < sums); ++k) {
+      mask more = (uint_lanes)k < sums;
+      sum = add_term(sum, load_partial(split_partial, more, SPLIT_FIRST_SUM(start) + (uint_lanes)(k * SPLIT_CHUNK)),
+                     more, k);
     }
   }
-  motion m = load_motion(solver_velocity, i);
+  spatial_velocity m = load_velocity(solver_velocity, i);
   m.linear = add_scaled(m.linear, sum.linear, m.inverse_mass);
   m.angular = add(m.angular, symmetric_times(load_inertia(solver_inertia, i), sum.angular));
   mask changed = is_nonzero(sum.linear) | is_nonzero(sum.angular); /* adding 0 would turn -0 into +0 */
-  store_motion_if(changed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
+  store_velocity_if(changed & (m.inverse_mass > R(0.0)), solver_velocity, i, m);
 }
 
 #endif

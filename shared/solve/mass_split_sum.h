@@ -1,12 +1,13 @@
 /* mass_split_sum.h - the impulses on a body of very many constraints, added in a tree that no backend changes.
  *
- * A floor that moves may carry ten thousand boxes. One item would add for ever; so items add runs of SPLIT_CHUNK
- * entries of its list, other items runs of such sums, and split_apply the few that are left:
+ * A floor that moves may carry ten thousand boxes, which would keep one item busy for very long. Items therefore add
+ * runs of SPLIT_CHUNK entries of its list, other items add runs of such sums, and split_apply adds the few that are
+ * left:
  *
  *   entries of a body   | 32 | 32 | 32 | .. | 32 |  ..          split_sum:   a sum at the first of each run
  *   sums                  s0   s1   s2  ..   s31  | s32 ..      split_join:  s0 = s0 + .. + s31
  *
- * Runs are counted from the start of the body's own list. Launched only where there is a tail.
+ * Runs are counted from the start of the body's own list. Launched only where there are overflow constraints.
  */
 #ifndef TANDEM_SHARED_SOLVE_MASS_SPLIT_SUM_H
 #define TANDEM_SHARED_SOLVE_MASS_SPLIT_SUM_H
@@ -14,13 +15,13 @@
 #include "shared/solve/mass_split.h"
 
 /* Counts the constraints that each moving body has with what cannot move. */
-SHARED void split_supports_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
-                                GLOBAL const uint *body_traits, GLOBAL uint *split_supports, uint i)
+SHARED void split_count_static_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
+                                    GLOBAL const uint *body_flags, GLOBAL uint *split_static_constraints, uint i)
 {
   uint a = constraint_a[i], b = constraint_b[i];
-  uint moving_a = motion_of(body_traits[a]) == (uint)MOTION_DYNAMIC,
-       moving_b = motion_of(body_traits[b]) == (uint)MOTION_DYNAMIC;
-  if (moving_a != moving_b) ATOMIC_ADD(split_supports + (moving_a ? a : b), 1u);
+  uint moving_a = body_type_of(body_flags[a]) == (uint)BODY_TYPE_DYNAMIC,
+       moving_b = body_type_of(body_flags[b]) == (uint)BODY_TYPE_DYNAMIC;
+  if (moving_a != moving_b) ATOMIC_ADD(split_static_constraints + (moving_a ? a : b), 1u);
 }
 
 /* A run of a long list that starts at an entry. */
@@ -29,13 +30,13 @@ typedef struct {
 } list_run;
 
 /* every: entries between the starts of two runs. Lengths are in units of `unit` entries. */
-SHARED list_run run_at(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start, GLOBAL const uint *counts,
-                       uint every, uint unit, uint i)
+SHARED list_run run_at(GLOBAL const uint *body_constraint_key, GLOBAL const uint *body_constraint_start,
+                       GLOBAL const uint *counts, uint every, uint unit, uint i)
 {
   list_run run = {0u, 0u, 0u};
-  uint body = incidence_body[i];
+  uint body = body_constraint_key[i];
   if (body >= counts[COUNT_BODIES]) return run;
-  uint start = incidence_start[body], entries = incidence_start[body + 1u] - start, rank = i - start;
+  uint start = body_constraint_start[body], entries = body_constraint_start[body + 1u] - start, rank = i - start;
   if (entries <= SPLIT_DIRECT || rank % every != 0u) return run;
   uint left = (entries - rank + unit - 1u) / unit;
   run.starts = 1u;
@@ -44,29 +45,29 @@ SHARED list_run run_at(GLOBAL const uint *incidence_body, GLOBAL const uint *inc
   return run;
 }
 
-SHARED void store_partial(GLOBAL row *split_partial, uint place, impulse_sum sum)
+SHARED void store_partial(GLOBAL float4 *split_partial, uint place, impulse_sum sum)
 {
-  store_row(split_partial, 2u * place, extend(sum.linear, R(0.0)));
-  store_row(split_partial, 2u * place + 1u, extend(sum.angular, R(0.0)));
+  store_float4(split_partial, 2u * place, extend(sum.linear, R(0.0)));
+  store_float4(split_partial, 2u * place + 1u, extend(sum.angular, R(0.0)));
 }
 
-SHARED void split_sum_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start,
-                           GLOBAL const uint *incidence, GLOBAL const row *split_impulse, GLOBAL const uint *counts,
-                           GLOBAL row *split_partial, uint i)
+SHARED void split_sum_item(GLOBAL const uint *body_constraint_key, GLOBAL const uint *body_constraint_start,
+                           GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse,
+                           GLOBAL const uint *counts, GLOBAL float4 *split_partial, uint i)
 {
-  list_run run = run_at(incidence_body, incidence_start, counts, SPLIT_CHUNK, 1u, i);
+  list_run run = run_at(body_constraint_key, body_constraint_start, counts, SPLIT_CHUNK, 1u, i);
   if (run.starts == 0u) return;
   uint stride = counts[CAPACITY_PAIRS];
-  impulse_sum sum = load_entry(incidence, split_impulse, stride, 1, i);
+  impulse_sum sum = load_entry(body_constraint, split_impulse, stride, 1, i);
   for (uint k = 1; k < run.length; ++k)
-    sum = add_term(sum, load_entry(incidence, split_impulse, stride, 1, i + k), 1, k);
+    sum = add_term(sum, load_entry(body_constraint, split_impulse, stride, 1, i + k), 1, k);
   store_partial(split_partial, run.place, sum);
 }
 
-SHARED void split_join_item(GLOBAL const uint *incidence_body, GLOBAL const uint *incidence_start,
-                            GLOBAL const uint *counts, GLOBAL row *split_partial, uint i)
+SHARED void split_join_item(GLOBAL const uint *body_constraint_key, GLOBAL const uint *body_constraint_start,
+                            GLOBAL const uint *counts, GLOBAL float4 *split_partial, uint i)
 {
-  list_run run = run_at(incidence_body, incidence_start, counts, SPLIT_CHUNK * SPLIT_CHUNK, SPLIT_CHUNK, i);
+  list_run run = run_at(body_constraint_key, body_constraint_start, counts, SPLIT_CHUNK * SPLIT_CHUNK, SPLIT_CHUNK, i);
   if (run.starts == 0u) return;
   impulse_sum sum = load_partial(split_partial, 1, run.place);
   for (uint k = 1; k < run.length; ++k) sum = add_term(sum, load_partial(split_partial, 1, run.place + k), 1, k);

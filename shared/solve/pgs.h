@@ -2,20 +2,20 @@
  *
  * The order of rows follows the talks, where a constraint solver is two kernels over all batches, contact and
  * friction ("GPU Rigid Body Simulation", 2013; GS-4150, 2013; solving in batches and warm starting from cached
- * contacts: "OpenCL Game Physics", 2009). One sweep is
+ * contacts: "OpenCL Game Physics", 2009). One pass is
  *
  *     for each colour: for each manifold: point 0, point 1, point 2, point 3    pgs_normals
  *     for each colour: for each manifold: twist, then the cone of sliding       pgs_friction
  *
- * so friction always meets the normal impulses of its own sweep. Each point is a row of its own: it sees what the
- * points before it did to the bodies. Only the cone differs from the talks, which clamp two tangents each by itself.
+ * so friction always uses the normal impulses of its own pass. Each point is a row of its own and sees what the points
+ * before it did to the bodies. Only the cone differs from the talks, which clamp two tangents each by itself.
  *
  *     normal:    impulse = max(impulse - mass (speed + bias), 0)
  *     ahead      bias = s / h             the gap s may close within the substep, and no more
  *     in overlap bias = share (s + slop) / h, at most the push speed (Baumgarte)
  *
- * Baumgarte's bias alone would leave bodies with the speed that drove them apart. So the bodies move with it, and
- * sweeps without it follow: what it added is taken out again, and the impulses kept for the next step are those of
+ * Baumgarte's bias alone would leave bodies with the speed that drove them apart. The bodies therefore move with the
+ * bias, and passes without it follow, which take out what it added. The impulses kept for the next step are those of
  * the forces alone.
  */
 #ifndef TANDEM_SHARED_SOLVE_PGS_H
@@ -40,73 +40,77 @@ SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, 
 }
 
 SHARED void pgs_normals_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                             GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                             GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                             GLOBAL row *constraint_bounce, GLOBAL row *solver_velocity, uint pass, item_index i)
+                             GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
+                             GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
+                             GLOBAL float4 *constraint_restitution, GLOBAL float4 *solver_velocity, uint pass,
+                             item_index i)
 {
   uint biased = pass == PASS_BIASED ? 1u : 0u;
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  vec4 old = load_row(constraint_normal_impulse, i);
-  drift moved = load_drift(solver_delta, c);
+  vec4 old = load_float4(constraint_normal_impulse, i);
+  delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  real closed = inner(c.normal, moved.translation);
+  real closed = dot3(c.normal, moved.translation);
   real slop = load_real(patches.slop, i);
   real impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_a = load_row(patches.points, stride * k + i), point_b = load_row(patches.points, stride * (k + 4u) + i);
-    vec3 turn_a = outer(add(xyz(point_a), shift.a), c.normal), turn_b = outer(add(xyz(point_b), shift.b), c.normal);
-    real separation = point_a.w + closed + (inner(turn_b, moved.rotation_b) - inner(turn_a, moved.rotation_a));
-    real before = component(old, (natural)k);
-    impulse[k] =
-        pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, turn_a, turn_b), point_b.w, before, biased);
-    c = apply_impulse(c, c.normal, turn_a, turn_b, impulse[k] - before);
+    vec4 point_a = load_float4(patches.points, stride * k + i),
+         point_b = load_float4(patches.points, stride * (k + 4u) + i);
+    vec3 r_cross_n_a = cross3(add(xyz(point_a), shift.a), c.normal),
+         r_cross_n_b = cross3(add(xyz(point_b), shift.b), c.normal);
+    real separation = point_a.w + closed + (dot3(r_cross_n_b, moved.rotation_b) - dot3(r_cross_n_a, moved.rotation_a));
+    real before = component(old, (uint_lanes)k);
+    impulse[k] = pgs_impulse(parameters, slop, separation, speed_along(c, c.normal, r_cross_n_a, r_cross_n_b),
+                             point_b.w, before, biased);
+    c = apply_impulse(c, c.normal, r_cross_n_a, r_cross_n_b, impulse[k] - before);
   }
-  vec4 pressed = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
-  store_row(constraint_normal_impulse, i, pressed);
+  vec4 normal_impulses = make_vec4(impulse[0], impulse[1], impulse[2], impulse[3]);
+  store_float4(constraint_normal_impulse, i, normal_impulses);
   if (HAS_FEATURE(parameters, RESTITUTION))
-    store_row(constraint_bounce, stride + i, highest_impulses(load_row(constraint_bounce, stride + i), pressed));
-  store_contact_motion(solver_velocity, c);
+    store_float4(constraint_restitution, stride + i,
+                 highest_impulses(load_float4(constraint_restitution, stride + i), normal_impulses));
+  store_contact_velocities(solver_velocity, c);
 }
 
-SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const row *constraint_center,
-                              GLOBAL const row *constraint_normal_impulse, GLOBAL const row *solver_inertia,
-                              GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                              GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
+SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const float4 *constraint_center,
+                              GLOBAL const float4 *constraint_normal_impulse, GLOBAL const float4 *solver_inertia,
+                              GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
+                              GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *solver_velocity, item_index i)
 {
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
   mask rough = c.friction > R(0.0);
   if (!any_of(rough)) return;
-  vec4 pushes = load_row(constraint_normal_impulse, i);
-  real pressure = (pushes.x + pushes.y) + (pushes.z + pushes.w);
+  vec4 normal_impulses = load_float4(constraint_normal_impulse, i);
+  real normal_impulse_sum = (normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w);
   mask stale = rough & (!rough); /* pgs_masses has just made them */
-  solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta, c), load_row(constraint_center, i),
-                                  load_row(constraint_center, counts[CAPACITY_PAIRS] + i),
-                                  load_row(constraint_friction_impulse, i), pressure);
-  store_row_if(rough, constraint_friction_impulse, i, sliding.impulse);
-  store_contact_motion(solver_velocity, with_motion_if(rough, c, sliding.c));
+  solved sliding = solve_friction(c, stale, load_arm_shift(solver_delta_pose, c), load_float4(constraint_center, i),
+                                  load_float4(constraint_center, counts[CAPACITY_PAIRS] + i),
+                                  load_float4(constraint_friction_impulse, i), normal_impulse_sum);
+  store_float4_if(rough, constraint_friction_impulse, i, sliding.impulse);
+  store_contact_velocities(solver_velocity, with_velocities_if(rough, c, sliding.c));
 }
 
-/* Effective masses where the bodies are now. Many sweeps over masses of another place do not converge: where a long
- * body has turned, a row whose mass is more than twice what it should be doubles its error every sweep. */
+/* Effective masses where the bodies are now. Many passes over masses of another place do not converge: where a long
+ * body has turned, a row whose mass is more than twice what it should be doubles its error every pass. */
 SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
-                            GLOBAL row *constraint_points, GLOBAL row *constraint_center, item_index i)
+                            GLOBAL float4 *constraint_points, GLOBAL float4 *constraint_center, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
   body_pair bodies = bodies_of(c);
   arm_shift shift = load_arm_shift(solver_bodies.delta, c);
   for (uint k = 0; k < 4u; ++k) {
-    vec4 point_b = load_row(constraint_points, stride * (k + 4u) + i);
-    vec3 arm_a = add(xyz(load_row(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
+    vec4 point_b = load_float4(constraint_points, stride * (k + 4u) + i);
+    vec3 arm_a = add(xyz(load_float4(constraint_points, stride * k + i)), shift.a), arm_b = add(xyz(point_b), shift.b);
     real mass = inverse_or_zero(response(bodies, arm_a, arm_b, c.normal, c.normal));
-    store_row(constraint_points, stride * (k + 4u) + i,
-              extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
+    store_float4(constraint_points, stride * (k + 4u) + i,
+                 extend(xyz(point_b), choose(point_b.w > R(0.0), mass, (real)R(0.0))));
   }
-  vec3 center_a = xyz(load_row(constraint_center, i)), center_b = xyz(load_row(constraint_center, stride + i));
-  store_row(constraint_center, i,
-            extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
-  store_row(constraint_center, stride + i, extend(center_b, twist_mass(bodies, c.normal)));
+  vec3 center_a = xyz(load_float4(constraint_center, i)), center_b = xyz(load_float4(constraint_center, stride + i));
+  store_float4(constraint_center, i,
+               extend(center_a, friction_mass(bodies, add(center_a, shift.a), add(center_b, shift.b), c.normal)));
+  store_float4(constraint_center, stride + i, extend(center_b, twist_mass(bodies, c.normal)));
 }
 
 #endif

@@ -29,11 +29,11 @@ typedef struct {
   real twist;
 } slipped;
 
-SHARED slipped slip_since(vec4 before, contact c, drift moved, vec3 arm_a, vec3 arm_b, real rate)
+SHARED slipped slip_since(vec4 before, contact c, delta_pose moved, vec3 arm_a, vec3 arm_b, real rate)
 {
-  vec3 turned_by = subtract(outer(moved.rotation_b, arm_b), outer(moved.rotation_a, arm_a));
+  vec3 turned_by = subtract(cross3(moved.rotation_b, arm_b), cross3(moved.rotation_a, arm_a));
   slipped s = {scale(add(add(xyz(before), moved.translation), turned_by), rate),
-               (before.w + inner(c.normal, subtract(moved.rotation_b, moved.rotation_a))) * rate};
+               (before.w + dot3(c.normal, subtract(moved.rotation_b, moved.rotation_a))) * rate};
   return s;
 }
 
@@ -50,14 +50,14 @@ SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
 SHARED solved xpbd_slide(contact c, vec3 slide, vec3 arm_a, vec3 arm_b, real mass, real limit, vec4 old)
 {
   tangents t = tangents_of(c.normal);
-  real first = old.x - mass * inner(slide, t.first), second = old.y - mass * inner(slide, t.second);
+  real first = old.x - mass * dot3(slide, t.first), second = old.y - mass * dot3(slide, t.second);
   real squared = first * first + second * second;
   mask slips = squared > limit * limit;
   real shrink = choose(slips, limit / square_root(choose(slips, squared, (real)R(1.0))), (real)R(1.0));
   first = first * shrink;
   second = second * shrink;
   vec3 change = add(scale(t.first, first - old.x), scale(t.second, second - old.y));
-  solved s = {apply_impulse(c, change, outer(arm_a, change), outer(arm_b, change), R(1.0)),
+  solved s = {apply_impulse(c, change, cross3(arm_a, change), cross3(arm_b, change), R(1.0)),
               make_vec4(first, second, old.z, old.w)};
   return s;
 }
@@ -66,47 +66,47 @@ SHARED real limit_of(contact c, vec4 normal_impulses)
 {
   return c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
 }
-SHARED real spin_between(contact c) { return inner(c.normal, subtract(c.motion_b.angular, c.motion_a.angular)); }
+SHARED real spin_between(contact c) { return dot3(c.normal, subtract(c.velocity_b.angular, c.velocity_a.angular)); }
 SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b)
 {
-  return subtract(velocity_at(c.motion_b, arm_b), velocity_at(c.motion_a, arm_a));
+  return subtract(velocity_at(c.velocity_b, arm_b), velocity_at(c.velocity_a, arm_a));
 }
 
 /* Slip that the same pair still had to undo in the last step. */
 SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
-                              GLOBAL const uint *cached_color, GLOBAL const row *cached_slip,
-                              GLOBAL const row *constraint_normal, GLOBAL row *constraint_slip, item_index i)
+                              GLOBAL const uint *cached_color, GLOBAL const float4 *cached_slip,
+                              GLOBAL const float4 *constraint_normal, GLOBAL float4 *constraint_slip, item_index i)
 {
-  natural cached = load_natural(pair_cached, load_natural(constraint_pair, i));
-  mask is_cached = cached != (natural)INDEX_NONE;
-  natural from = choose(is_cached, cached, (natural)0u);
-  mask touched = is_cached & (load_natural(cached_color, from) != (natural)COLOR_INACTIVE);
-  vec4 slip = load_row(cached_slip, from);
-  vec3 normal = xyz(load_row(constraint_normal, i)), along = add_scaled(xyz(slip), normal, -inner(xyz(slip), normal));
+  uint_lanes cached = load_uint(pair_cached, load_uint(constraint_pair, i));
+  mask is_cached = cached != (uint_lanes)INDEX_NONE;
+  uint_lanes from = choose(is_cached, cached, (uint_lanes)0u);
+  mask touched = is_cached & (load_uint(cached_color, from) != (uint_lanes)COLOR_INACTIVE);
+  vec4 slip = load_float4(cached_slip, from);
+  vec3 normal = xyz(load_float4(constraint_normal, i)), along = add_scaled(xyz(slip), normal, -dot3(xyz(slip), normal));
   vec4 none = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
-  store_row(constraint_slip, i, choose4(touched, extend(along, slip.w), none));
+  store_float4(constraint_slip, i, choose4(touched, extend(along, slip.w), none));
 }
 
 /* Presses the points together, each by what its position lacks. */
-SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, support *s, drift moved,
-                          GLOBAL const row *constraint_points, uint stride, item_index i)
+SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
+                          GLOBAL const float4 *constraint_points, uint stride, item_index i)
 {
-  real closed = inner(c.normal, moved.translation), wished[4];
+  real closed = dot3(c.normal, moved.translation), target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real separation = load_row(constraint_points, stride * k + i).w + closed +
-                      (inner(s->turn_b[k], moved.rotation_b) - inner(s->turn_a[k], moved.rotation_a));
+    real separation = load_float4(constraint_points, stride * k + i).w + closed +
+                      (dot3(s->r_cross_n_b[k], moved.rotation_b) - dot3(s->r_cross_n_a[k], moved.rotation_a));
     real wanted = maximum(separation * parameters->inverse_substep, -parameters->push_speed);
-    real speed = speed_along(c, c.normal, s->turn_a[k], s->turn_b[k]);
-    wished[k] = maximum(s->impulse[k] - s->mass[k] * (wanted + speed), R(0.0));
+    real speed = speed_along(c, c.normal, s->r_cross_n_a[k], s->r_cross_n_b[k]);
+    target_impulse[k] = maximum(s->impulse[k] - s->mass[k] * (wanted + speed), R(0.0));
   }
-  return press_together(c, s, wished);
+  return block_solve_normals(c, s, target_impulse);
 }
 
 /* Friction undoes what slides now and what has slipped before. friction: its impulse so far. */
-SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, drift moved, arm_shift shift,
+SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_pose moved, arm_shift shift,
                         read_patches patches, uint stride, vec4 slip_before, real limit, vec4 friction, item_index i)
 {
-  vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
+  vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
   vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
   slipped slip = slip_since(slip_before, c, moved, arm_a, arm_b, parameters->inverse_substep);
   solved held = xpbd_twist(c, spin_between(c) + slip.twist, center_b.w, limit, friction);
@@ -116,94 +116,99 @@ SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, drift mo
 
 /* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
 SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                                GLOBAL const row *constraint_slip, GLOBAL const row *solver_inertia,
-                                GLOBAL const row *solver_delta, GLOBAL const uint *counts,
-                                write_contact_impulses contact_impulses, GLOBAL row *solver_velocity,
+                                GLOBAL const float4 *constraint_slip, GLOBAL const float4 *solver_inertia,
+                                GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
+                                write_contact_impulses contact_impulses, GLOBAL float4 *solver_velocity,
                                 uint first_iteration, item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(contact_impulses.normal, i), friction = load_row(contact_impulses.friction, i);
+  vec4 impulses = load_float4(contact_impulses.normal, i), friction = load_float4(contact_impulses.friction, i);
   if (first_iteration != 0u) {
     impulses = make_vec4(R(0.0), R(0.0), R(0.0), R(0.0));
     friction = make_vec4(R(0.0), R(0.0), R(0.0), friction.w);
-    store_row(contact_impulses.friction, i, friction);
+    store_float4(contact_impulses.friction, i, friction);
   }
-  drift moved = load_drift(solver_delta, c);
+  delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  support s = load_support(patches.points, stride, c, shift, impulses, i);
+  normal_rows s = load_normal_rows(patches.points, stride, c, shift, impulses, i);
   c = xpbd_press(parameters, c, &s, moved, patches.points, stride, i);
-  vec4 pressed = impulses_of(&s);
-  store_row(contact_impulses.normal, i, pressed);
-  keep_highest_impulses(parameters, contact_impulses.bounce, stride, pressed, i);
+  vec4 normal_impulses = impulses_of(&s);
+  store_float4(contact_impulses.normal, i, normal_impulses);
+  keep_highest_impulses(parameters, contact_impulses.restitution, stride, normal_impulses, i);
   mask rough = c.friction > R(0.0);
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    solved held = xpbd_hold(parameters, c, moved, shift, patches, stride, load_row(constraint_slip, i),
-                            limit_of(c, pressed), friction, i);
-    c = with_motion_if(rough, c, held.c);
-    store_row_if(rough, contact_impulses.friction, i, held.impulse);
+    solved held = xpbd_hold(parameters, c, moved, shift, patches, stride, load_float4(constraint_slip, i),
+                            limit_of(c, normal_impulses), friction, i);
+    c = with_velocities_if(rough, c, held.c);
+    store_float4_if(rough, contact_impulses.friction, i, held.impulse);
   }
-  store_contact_motion(solver_velocity, c);
+  store_contact_velocities(solver_velocity, c);
 }
 
 /* Takes out the speed with which positions were pushed apart, at most all of the impulse that did it, and what sliding
  * the pressure of the whole substep still holds. */
 SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
-                                 GLOBAL const row *solver_inertia, GLOBAL const row *solver_delta,
-                                 GLOBAL const uint *counts, GLOBAL row *constraint_normal_impulse,
-                                 GLOBAL row *constraint_friction_impulse, GLOBAL row *solver_velocity, item_index i)
+                                 GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
+                                 GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
+                                 GLOBAL float4 *constraint_friction_impulse, GLOBAL float4 *solver_velocity,
+                                 item_index i)
 {
   uint stride = counts[CAPACITY_PAIRS];
   contact c = load_contact(contacts, solver_velocity, solver_inertia, i);
-  vec4 impulses = load_row(constraint_normal_impulse, i);
+  vec4 impulses = load_float4(constraint_normal_impulse, i);
   mask pressing = (impulses.x > R(0.0)) | (impulses.y > R(0.0)) | (impulses.z > R(0.0)) | (impulses.w > R(0.0));
   if (!any_of(pressing)) return;
   contact before = c;
-  drift moved = load_drift(solver_delta, c);
+  delta_pose moved = load_delta_pose(solver_delta_pose, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  support s = load_support(patches.points, stride, c, shift, impulses, i);
-  real wished[4];
+  normal_rows s = load_normal_rows(patches.points, stride, c, shift, impulses, i);
+  real target_impulse[4];
   for (uint k = 0; k < 4u; ++k) {
-    real resting = maximum(s.impulse[k] - s.mass[k] * speed_along(c, c.normal, s.turn_a[k], s.turn_b[k]), R(0.0));
-    wished[k] = choose(s.impulse[k] > R(0.0), resting, s.impulse[k]);
+    real resting =
+        maximum(s.impulse[k] - s.mass[k] * speed_along(c, c.normal, s.r_cross_n_a[k], s.r_cross_n_b[k]), R(0.0));
+    target_impulse[k] = choose(s.impulse[k] > R(0.0), resting, s.impulse[k]);
   }
-  c = press_together(c, &s, wished);
-  store_row_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
+  c = block_solve_normals(c, &s, target_impulse);
+  store_float4_if(pressing, constraint_normal_impulse, i, impulses_of(&s));
   mask rough = pressing & (c.friction > R(0.0));
   if (HAS_FEATURE(parameters, FRICTION) && any_of(rough)) {
-    vec4 center_a = load_row(patches.center, i), center_b = load_row(patches.center, stride + i);
+    vec4 center_a = load_float4(patches.center, i), center_b = load_float4(patches.center, stride + i);
     vec3 arm_a = add(xyz(center_a), shift.a), arm_b = add(xyz(center_b), shift.b);
     real limit = limit_of(c, impulses_of(&s));
-    solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_row(constraint_friction_impulse, i));
+    solved held = xpbd_twist(c, spin_between(c), center_b.w, limit, load_float4(constraint_friction_impulse, i));
     held = xpbd_slide(held.c, slide_between(held.c, arm_a, arm_b), arm_a, arm_b, center_a.w, limit, held.impulse);
-    c = with_motion_if(rough, c, held.c);
-    store_row_if(rough, constraint_friction_impulse, i, held.impulse);
+    c = with_velocities_if(rough, c, held.c);
+    store_float4_if(rough, constraint_friction_impulse, i, held.impulse);
   }
-  store_contact_motion(solver_velocity, with_motion_if(pressing, before, c));
+  store_contact_velocities(solver_velocity, with_velocities_if(pressing, before, c));
 }
 
-/* Friction at its limit holds nothing: what slipped then is forgotten. Contacts that no longer press hold nothing
- * either. */
+/* Friction at its limit holds nothing, so what slipped then is forgotten. Contacts without a normal impulse hold
+ * nothing either. */
 #define XPBD_HOLDS R(0.999)
 
 SHARED void xpbd_cache_item(GLOBAL const uint *constraint_pair, read_contacts contacts,
-                            GLOBAL const row *constraint_center, GLOBAL const row *constraint_slip,
-                            GLOBAL const row *constraint_normal_impulse, GLOBAL const row *constraint_friction_impulse,
-                            read_solver_bodies solver_bodies, GLOBAL const uint *counts, GLOBAL row *cached_slip,
-                            item_index i)
+                            GLOBAL const float4 *constraint_center, GLOBAL const float4 *constraint_slip,
+                            GLOBAL const float4 *constraint_normal_impulse,
+                            GLOBAL const float4 *constraint_friction_impulse, read_solver_bodies solver_bodies,
+                            GLOBAL const uint *counts, GLOBAL float4 *cached_slip, item_index i)
 {
   contact c = load_contact(contacts, solver_bodies.velocity, solver_bodies.inertia, i);
-  drift moved = load_drift(solver_bodies.delta, c);
+  delta_pose moved = load_delta_pose(solver_bodies.delta, c);
   arm_shift shift = shift_of_contact(c, moved.translation);
-  slipped slip = slip_since(load_row(constraint_slip, i), c, moved, add(xyz(load_row(constraint_center, i)), shift.a),
-                            add(xyz(load_row(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));
-  vec4 pressed = load_row(constraint_normal_impulse, i), friction = load_row(constraint_friction_impulse, i);
-  real limit = XPBD_HOLDS * c.friction * ((pressed.x + pressed.y) + (pressed.z + pressed.w));
+  slipped slip =
+      slip_since(load_float4(constraint_slip, i), c, moved, add(xyz(load_float4(constraint_center, i)), shift.a),
+                 add(xyz(load_float4(constraint_center, counts[CAPACITY_PAIRS] + i)), shift.b), R(1.0));
+  vec4 normal_impulses = load_float4(constraint_normal_impulse, i),
+       friction = load_float4(constraint_friction_impulse, i);
+  real limit =
+      XPBD_HOLDS * c.friction * ((normal_impulses.x + normal_impulses.y) + (normal_impulses.z + normal_impulses.w));
   mask slides = friction.x * friction.x + friction.y * friction.y >= limit * limit;
   mask twists = magnitude(friction.z) >= limit * friction.w;
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
-  store_row(cached_slip, load_natural(constraint_pair, i),
-            extend(choose3(slides, none, slip.slide), choose(twists, (real)R(0.0), slip.twist)));
+  store_float4(cached_slip, load_uint(constraint_pair, i),
+               extend(choose3(slides, none, slip.slide), choose(twists, (real)R(0.0), slip.twist)));
 }
 
 #endif

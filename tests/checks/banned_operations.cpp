@@ -310,7 +310,7 @@ void test_options(const fs::path &root)
 void test_harmless(const fs::path &root)
 {
   const std::string harmless =
-      "minimum(a, b); maximum(a, b); length_of(v); length_squared(v); clamped(x, a, b); inner(a, b); outer(a, b);\n"
+      "minimum(a, b); maximum(a, b); length_of(v); length_squared(v); clamped(x, a, b); dot3(a, b); cross3(a, b);\n"
       "square_root(x); quat_normalized(q); sine(x); cosine(x); arc_tangent2(y, x); real mix = dot + max; mask half; "
       "half_extents(s);\n"
       "ATOMIC_ADD(p, 1u); atomic_add_uint(p, 1u); ATOMIC_MAX(p, v); atomic_max_uint(p, v); to_real(x); summing(x);\n"

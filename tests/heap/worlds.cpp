@@ -164,10 +164,10 @@ std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
       {"bodies", [](World &world) { world.bodies(); }},
       {"precise_bodies", [](World &world) { world.precise_bodies(); }},
       {"cast_rays", [](World &world) { world.cast_rays(some_rays()); }},
-      {"find_blocked_rays", [](World &world) { world.find_blocked_rays(some_rays()); }},
-      {"cast_rays_through", [](World &world) { world.cast_rays_through(some_rays()); }},
-      {"sweep_boxes", [](World &world) { world.sweep_boxes(a_box()); }},
-      {"sweep", [](World &world) { swept_ball(world); }},
+      {"cast_rays_any", [](World &world) { world.cast_rays_any(some_rays()); }},
+      {"cast_rays_all", [](World &world) { world.cast_rays_all(some_rays()); }},
+      {"cast_boxes", [](World &world) { world.cast_boxes(a_box()); }},
+      {"shape cast", [](World &world) { swept_ball(world); }},
       {"state_hash", [](World &world) { world.state_hash(); }},
       {"body_hash", [](World &world) { world.body_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
@@ -239,7 +239,7 @@ TEST_CASE("heap: a step in which buffers grow leaves the state as it was where i
       fail_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
       fail_everywhere_in_step({scene, settings, two_threads, at}, 53);
     }
-  fail_everywhere_in_step({crowd(52), short_step(with(Solver::soft_step, Broadphase::grid, true)), serial, 0},
+  fail_everywhere_in_step({dense_cluster(52), short_step(with(Solver::soft_step, Broadphase::grid, true)), serial, 0},
                           131); /* more colours than there are launches for, too */
 }
 

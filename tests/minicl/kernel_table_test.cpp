@@ -6,5 +6,5 @@ TEST_CASE("the scalar table has every kernel but the stages of the host")
 {
   for (size_t k = 0; k < tandem::kernel_count; ++k)
     CHECK((tandem::minicl::scalar_kernels.run[k] != nullptr) ==
-          (tandem::row_of(tandem::kernel_at(k)).form != tandem::Form::host));
+          (tandem::row_of(tandem::kernel_at(k)).execution != tandem::Execution::host));
 }

@@ -5,11 +5,11 @@
 #include "shared/argument_groups.h"
 #include "shared/records.h"
 
-SHARED void probe_turn_back_item(GLOBAL row *body_velocity, uint i)
+SHARED void probe_turn_back_item(GLOBAL float4 *body_velocity, uint i)
 {
-  motion m = load_motion(body_velocity, i);
+  spatial_velocity m = load_velocity(body_velocity, i);
   m.linear = scale(m.linear, R(-1.0));
-  store_motion(body_velocity, i, m);
+  store_velocity(body_velocity, i, m);
 }
 
 /* How many steps each body has seen. */

@@ -85,20 +85,21 @@ TEST_CASE("module: a kernel at the forces pushes in each substep, on every backe
 
 TEST_CASE("module: what a STATE buffer counts is counted once a step, also of a step that ran again")
 {
-  Scene crowd = balls(400);
-  for (size_t i = 0; i < crowd.bodies.size(); ++i) crowd.bodies[i].position = {1e-4 * static_cast<double>(i), 0, 0};
-  World world(crowd, with(pushing(0)), {"tbb", {}});
+  Scene dense_cluster = balls(400);
+  for (size_t i = 0; i < dense_cluster.bodies.size(); ++i)
+    dense_cluster.bodies[i].position = {1e-4 * static_cast<double>(i), 0, 0};
+  World world(dense_cluster, with(pushing(0)), {"tbb", {}});
   const uint64_t before = world.state_hash();
   for (int i = 0; i < 3; ++i) world.step();
   REQUIRE(world.statistics().overflow > 0);
-  CHECK(world.read<uint32_t>(probe::buffer::probe_age) == std::vector<uint32_t>(crowd.bodies.size(), 3));
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age) == std::vector<uint32_t>(dense_cluster.bodies.size(), 3));
   CHECK(world.state_hash() != before);
 
-  World other(crowd, with(pushing(0)), {"tbb", {}});
+  World other(dense_cluster, with(pushing(0)), {"tbb", {}});
   for (int i = 0; i < 3; ++i) other.step();
   CHECK(other.state_hash() == world.state_hash());
   const std::vector<uint32_t> one{7};
-  other.write<uint32_t>(probe::buffer::probe_age, one, crowd.bodies.size() - 1);
+  other.write<uint32_t>(probe::buffer::probe_age, one, dense_cluster.bodies.size() - 1);
   CHECK(other.state_hash() != world.state_hash());
   other.step();
   CHECK(other.read<uint32_t>(probe::buffer::probe_age).back() == 8);
@@ -126,7 +127,7 @@ TEST_CASE("module: contacts that a kernel drops hold nothing")
   scene.shapes.push_back(half_space_shape());
   for (Body &body : scene.bodies) body.position[1] = 0.1;
   Body ground;
-  ground.motion = Motion::fixed;
+  ground.type = BodyType::fixed;
   ground.shape = 1;
   scene.bodies.push_back(ground);
   Extension extension{&probe::module(), {}, {}};
@@ -181,12 +182,12 @@ TEST_CASE("module: its kernels are placed, profiled and compared as the pipeline
   const Scene scene = load_scene("mixed:n=30");
   const Comparison same = compare_backends(scene, request);
   CHECK(same.equal);
-  PlantedError planted;
-  planted.kernel = probe::kernel::probe_push;
-  planted.buffer = Buffer::solver_velocity;
-  planted.step = 2;
-  planted.scalar = 8 * 5;
-  request.tamper = plant(planted);
+  InjectedFault fault;
+  fault.kernel = probe::kernel::probe_push;
+  fault.buffer = Buffer::solver_velocity;
+  fault.step = 2;
+  fault.scalar = 8 * 5;
+  request.inject_fault = inject_fault(fault);
   const Comparison different = compare_backends(scene, request);
   REQUIRE(different.first_difference);
   CHECK(different.first_difference->kernel == probe::kernel::probe_push);
@@ -222,8 +223,8 @@ TEST_CASE("module: what does not fit is refused by name")
 
 TEST_CASE("module: lists are added once, and a name that is taken is refused")
 {
-  const KernelRow mine{"module_test_kernel", own_stage, Form::item, COUNT_BODIES, 0, {}};
-  const BufferRow taken{"body_velocity", Element::row, Capacity::BODIES, 1, 0, Lifetime::SCENE, ""};
+  const KernelRow mine{"module_test_kernel", own_stage, Execution::item, COUNT_BODIES, 0, {}};
+  const BufferRow taken{"body_velocity", Element::float4, Capacity::BODIES, 1, 0, Lifetime::SCENE, ""};
   const size_t modules = module_count();
   const auto added = [&](const char *name, std::span<const KernelRow> kernels, std::span<const BufferRow> buffers) {
     return message_of([&] { add_module({name, kernels, buffers, {}, nullptr}); });

@@ -1,7 +1,7 @@
 /* Contact problems give the same bits on every backend: each residual of the history and every impulse. */
 #include "host/runtime/make_backend.h"
 #include "host/verify/contact_solver.h"
-#include "shared/problem/sweep.h"
+#include "shared/problem/pass.h"
 #include "tests/parity/parity.h"
 
 using namespace tandem;
@@ -61,7 +61,7 @@ void require_equal(const ContactProblem &problem, const std::vector<std::string>
 TEST_CASE("parity on CPU: levels of a contact problem give the bits of the plain pass")
 {
   const ContactProblem problem = chain(1000);
-  std::vector<row> blocks, free, step(1000), impulse(1000, row{0, 0, 0, 0});
+  std::vector<float4> blocks, free, step(1000), impulse(1000, float4{0, 0, 0, 0});
   std::vector<float> trace(1000), reference(1000);
   const auto number = [](double value) { return static_cast<float>(value); };
   for (const auto &b : problem.blocks)
@@ -73,7 +73,7 @@ TEST_CASE("parity on CPU: levels of a contact problem give the bits of the plain
   const uint32_t *start = problem.start.data(), *column = problem.column.data();
   for (uint32_t i = 0; i < 1000; ++i)
     problem_prepare_item(start, column, blocks.data(), free.data(), step.data(), trace.data(), reference.data(), i);
-  for (int sweep = 0; sweep < 12; ++sweep)
+  for (int iteration = 0; iteration < 12; ++iteration)
     for (uint32_t i = 0; i < 1000; ++i)
       solve_problem_contact(start, column, blocks.data(), free.data(), step.data(), impulse.data(), impulse.data(), 0,
                             i);

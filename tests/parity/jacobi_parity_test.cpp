@@ -1,4 +1,4 @@
-/* Mass-split rows give equal bits on every backend: for all contacts, and for a tail beside colours. */
+/* Mass-split rows give equal bits on every backend: for all contacts, and for overflow constraints beside colours. */
 #include "tests/parity/parity.h"
 #include "tests/physics/laden.h"
 
@@ -25,7 +25,7 @@ TEST_CASE("parity on CPU: jacobi", "[sanitizer]")
   require_parity("spheres:n=60,height=0,restitution=0.5", cpu, 25, settings_for(Solver::jacobi));
 }
 
-TEST_CASE("parity on CPU: the tail")
+TEST_CASE("parity on CPU: the overflow constraints")
 {
   require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 12, {});
   require_parity(physics_tests::laden_slab(13, 0.5f), cpu, 6, settings_for(Solver::jacobi));
@@ -37,7 +37,7 @@ TEST_CASE("parity on CPU: a list of more than a thousand")
   require_parity(physics_tests::laden_slab(35), {"serial", cpu[2], cpu[3]}, 3, {});
 }
 
-TEST_CASE("parity on OpenCL: jacobi and the tail")
+TEST_CASE("parity on OpenCL: jacobi and the overflow constraints")
 {
   require_pocl();
   const std::vector<std::string> backends = {"serial", "cl:pocl"};
@@ -46,7 +46,7 @@ TEST_CASE("parity on OpenCL: jacobi and the tail")
   require_parity(physics_tests::laden_slab(13, 0.5f), backends, 8, all_features({}));
 }
 
-TEST_CASE("jacobi and the tail are the same in a specialised build")
+TEST_CASE("jacobi and the overflow constraints are the same in a specialised build")
 {
   for (const Solver solver : {Solver::jacobi, Solver::soft_step}) {
     Settings settings = settings_for(solver);

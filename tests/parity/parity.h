@@ -58,7 +58,7 @@ inline Scene imploding_boxes()
     const Point at = {2.0 * (i % side) - side + 1, 2.0 * (i / side % side) - side + 1,
                       2.0 * (i / (side * side)) - side + 1};
     Body body;
-    body.motion = Motion::dynamic;
+    body.type = BodyType::dynamic;
     body.position = at;
     body.linear_velocity = {float(-9 * at[0]), float(-9 * at[1]), float(-9 * at[2])};
     for (float &spin : body.angular_velocity) spin = float(random.uniform(-9, 9));

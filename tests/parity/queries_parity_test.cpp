@@ -1,4 +1,4 @@
-/* Rays and sweeps give the same bits on every backend, whatever structure of bodies they walk. */
+/* Rays and shape casts give the same bits on every backend, whatever structure of bodies they walk. */
 #include <cstring>
 
 #include "host/base/random.h"
@@ -11,7 +11,7 @@ namespace {
 
 struct Answers {
   std::vector<RayHit> rays;
-  std::vector<SweepHit> sweeps;
+  std::vector<ShapeCastHit> casts;
   std::vector<bool> blocked;
   std::vector<std::vector<RayHit>> through;
   std::vector<std::vector<BoxHit>> boxes;
@@ -31,31 +31,31 @@ Answers ask(const std::string &scene, Broadphase broadphase, const std::string &
   };
   std::vector<Ray> rays(queries);
   std::vector<Pose> poses(queries);
-  std::vector<Vec3> ways(queries);
+  std::vector<Vec3> paths(queries);
   for (size_t k = 0; k < queries; ++k) {
     rays[k].origin = uniform3(6);
     poses[k] = {uniform3(6), random.orientation()};
-    const Point ray_to = uniform3(3), sweep_to = uniform3(3);
+    const Point ray_to = uniform3(3), cast_to = uniform3(3);
     for (size_t axis = 0; axis < 3; ++axis) {
       rays[k].direction[axis] = float(1.5 * (ray_to[axis] - rays[k].origin[axis]));
-      ways[k][axis] = float(sweep_to[axis] - poses[k].position[axis]);
+      paths[k][axis] = float(cast_to[axis] - poses[k].position[axis]);
     }
   }
   Answers answers;
   std::vector<QueryBox> boxes(queries);
   for (size_t k = 0; k < queries; ++k)
-    boxes[k] = {poses[k].position, {0.3f, 0.2f, 0.1f}, k % 2 ? ways[k] : Vec3{0, 0, 0}, {}};
+    boxes[k] = {poses[k].position, {0.3f, 0.2f, 0.1f}, k % 2 ? paths[k] : Vec3{0, 0, 0}, {}};
   answers.rays = world.cast_rays(rays);
-  answers.blocked = world.find_blocked_rays(rays);
-  answers.through = world.cast_rays_through(rays);
-  answers.boxes = world.sweep_boxes(boxes);
+  answers.blocked = world.cast_rays_any(rays);
+  answers.through = world.cast_rays_all(rays);
+  answers.boxes = world.cast_boxes(boxes);
   for (const Shape &shape : {sphere_shape(0.1f), box_shape(0.2f, 0.1f, 0.15f), world.scene().shapes.front()}) {
     if (shape.type == ShapeType::half_space) continue;
-    const std::vector<SweepHit> hits = world.sweep(shape, poses, ways);
-    answers.sweeps.insert(answers.sweeps.end(), hits.begin(), hits.end());
+    const std::vector<ShapeCastHit> hits = world.cast_shapes(shape, poses, paths);
+    answers.casts.insert(answers.casts.end(), hits.begin(), hits.end());
   }
   for (const RayHit &hit : answers.rays) answers.found += hit.body != no_body;
-  for (const SweepHit &hit : answers.sweeps) answers.found += hit.body != no_body;
+  for (const ShapeCastHit &hit : answers.casts) answers.found += hit.body != no_body;
   return answers;
 }
 
@@ -95,7 +95,7 @@ void require_equal_answers(const std::string &scene, const std::vector<std::stri
       CAPTURE(backend, broadphase);
       const Answers found = ask(scene, broadphase, backend, queries, steps);
       CHECK(same_bits(found.rays, expected.rays));
-      CHECK(same_bits(found.sweeps, expected.sweeps));
+      CHECK(same_bits(found.casts, expected.casts));
       CHECK(found.blocked == expected.blocked);
       CHECK(same_bits(found.through, expected.through));
       CHECK(same_bits(found.boxes, expected.boxes));

@@ -22,7 +22,7 @@ Scene rolling(const std::string &name)
   return scene;
 }
 
-/* Boxes on a slab: more contacts at one body than there are colours, so there is a tail. */
+/* Boxes on a slab: more contacts at one body than there are colours, so there are overflow constraints. */
 Scene laden_slab()
 {
   Scene scene = load_scene("box-stack:n=1");
@@ -84,7 +84,7 @@ TEST_CASE("parity on CPU: nncg over several tiles of its sums")
                {"serial", "tbb:threads=7,lanes=8"}, 2);
 }
 
-TEST_CASE("parity on CPU: pgs, nncg and rolling friction with a tail")
+TEST_CASE("parity on CPU: pgs, nncg and rolling friction with overflow constraints")
 {
   for (const Solver solver : {Solver::soft_step, Solver::pgs, Solver::nncg})
     require_same(laden_slab(), settings_of(solver, 1, 3), {"serial", "serial:order=backward", "tbb:threads=7,lanes=8"},

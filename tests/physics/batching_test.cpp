@@ -25,7 +25,7 @@ Coloring coloring_of(World &world)
   coloring.a = memory.read<uint32_t>(Buffer::constraint_a, counts[COUNT_CONSTRAINTS]);
   coloring.b = memory.read<uint32_t>(Buffer::constraint_b, counts[COUNT_CONSTRAINTS]);
   coloring.starts.assign(counts.begin() + COLOR_START, counts.end());
-  const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * counts[COUNT_BODIES]);
+  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * counts[COUNT_BODIES]);
   for (size_t i = 0; i < velocity.size(); i += 2) coloring.moves.push_back(velocity[i].w > 0);
   return coloring;
 }
@@ -41,7 +41,7 @@ void check_colors(const Coloring &coloring)
     REQUIRE(coloring.starts[color] <= coloring.starts[color + 1]);
     for (uint32_t i = coloring.starts[color]; i < coloring.starts[color + 1]; ++i) {
       pairs.insert({coloring.a[i], coloring.b[i]});
-      if (color == COLOR_TAIL) continue;
+      if (color == COLOR_OVERFLOW) continue;
       CAPTURE(color, i);
       for (uint32_t body : {coloring.a[i], coloring.b[i]})
         if (coloring.moves[body] && !touched.insert(body).second)
@@ -56,9 +56,9 @@ Scene laden_slab()
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
+  add_body(scene, BodyType::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 100; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f),
              {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f})
         .mass = 0.5f;
   return scene;
@@ -86,7 +86,7 @@ TEST_CASE("constraints of one colour share no moving body", "[physics][sanitizer
   CHECK_FALSE(world.batch_fault());
 }
 
-TEST_CASE("a body that touches more than 63 others goes to the tail and still works", "[physics]")
+TEST_CASE("a body that touches more than 63 others goes to the overflow constraints and still works", "[physics]")
 {
   Settings settings;
   settings.batching = GENERATE(from_range(choices<Batching>()));
@@ -99,14 +99,14 @@ TEST_CASE("a body that touches more than 63 others goes to the tail and still wo
   check_colors(coloring);
   CHECK_FALSE(world.batch_fault());
   CHECK(coloring.a.size() >= 101);
-  CHECK(coloring.starts[COLOR_TAIL + 1] - coloring.starts[COLOR_TAIL] >= 101 - COLOR_LIMIT);
+  CHECK(coloring.starts[COLOR_OVERFLOW + 1] - coloring.starts[COLOR_OVERFLOW] >= 101 - COLOR_LIMIT);
   CHECK(world.statistics().colors == COLOR_LIMIT + 1);
   CHECK(world.statistics().max_penetration < 0.0075);
   double moved = 0;
   const std::vector<BodyState> now = world.bodies();
   for (size_t i = 1; i < now.size(); ++i)
     moved = std::max(moved, (vector_of(now[i].position) - vector_of(start[i].position)).norm());
-  INFO("100 boxes on a slab, tail of " << coloring.starts[COLOR_TAIL + 1] - coloring.starts[COLOR_TAIL] << ": moved "
-                                       << moved << " m");
+  INFO("100 boxes on a slab, overflow constraints: "
+       << coloring.starts[COLOR_OVERFLOW + 1] - coloring.starts[COLOR_OVERFLOW] << ": moved " << moved << " m");
   CHECK(moved < 0.02);
 }

@@ -30,7 +30,7 @@ Coloring coloring_of(World &world)
   const uint32_t bodies = counts[COUNT_BODIES], constraints = counts[COUNT_CONSTRAINTS];
   const auto a = memory.read<uint32_t>(Buffer::constraint_a, constraints),
              b = memory.read<uint32_t>(Buffer::constraint_b, constraints);
-  const auto velocity = memory.read<row>(Buffer::body_velocity, 2 * bodies);
+  const auto velocity = memory.read<float4>(Buffer::body_velocity, 2 * bodies);
   const auto sorted = memory.read<uint32_t>(Buffer::sort_value, bodies);
   Coloring coloring{std::vector<std::set<uint32_t>>(bodies), std::vector<bool>(bodies),
                     std::vector<uint32_t>(bodies, uncolored)};
@@ -42,7 +42,7 @@ Coloring coloring_of(World &world)
     coloring.neighbors[a[i]].insert(b[i]);
     coloring.neighbors[b[i]].insert(a[i]);
   }
-  for (uint32_t color = 0; color <= COLOR_TAIL; ++color)
+  for (uint32_t color = 0; color <= COLOR_OVERFLOW; ++color)
     for (uint32_t i = counts[BODY_COLOR_START + color]; i < counts[BODY_COLOR_START + color + 1]; ++i)
       coloring.colors[sorted[i]] = color;
   return coloring;
@@ -70,9 +70,9 @@ Scene laden_slab(int side)
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(0.3f * float(side), 0.25f, 0.3f * float(side)), {0, 0.25f, 0}).mass = 20;
+  add_body(scene, BodyType::dynamic, box_shape(0.3f * float(side), 0.25f, 0.3f * float(side)), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < side * side; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.25f, 0.25f, 0.25f),
+    add_body(scene, BodyType::dynamic, box_shape(0.25f, 0.25f, 0.25f),
              {0.5f * (float(i % side) - 0.5f * float(side)), 0.75f, 0.5f * (float(i / side) - 0.5f * float(side))});
   return scene;
 }
@@ -93,7 +93,7 @@ TEST_CASE("bodies of one colour share no constraint, and colours are those of a 
         REQUIRE((coloring.colors[body] != uncolored) == coloring.takes_part[body]);
         for (uint32_t other : coloring.neighbors[body]) {
           ++joined;
-          if (coloring.colors[body] != COLOR_TAIL) REQUIRE(coloring.colors[other] != coloring.colors[body]);
+          if (coloring.colors[body] != COLOR_OVERFLOW) REQUIRE(coloring.colors[other] != coloring.colors[body]);
         }
       }
       CHECK(joined > 100);

@@ -22,8 +22,8 @@ Scene many_sizes()
     const float size = float(0.01 * std::pow(1000.0, random.uniform()));
     const float reach = 15;
     const Point place{random.uniform(-reach, reach), 0.5 + random.uniform(0, 2 * reach), random.uniform(-reach, reach)};
-    Body &body =
-        add_body(scene, Motion::dynamic, i % 2 ? sphere_shape(size) : box_shape(size, 0.3f * size, 0.6f * size), place);
+    Body &body = add_body(scene, BodyType::dynamic,
+                          i % 2 ? sphere_shape(size) : box_shape(size, 0.3f * size, 0.6f * size), place);
     body.mass = 1000 * size * size * size;
     body.orientation = random.orientation();
     body.linear_velocity = {float(random.uniform(-5, 5)), 0, float(random.uniform(-5, 5))};
@@ -37,7 +37,7 @@ Scene flat(bool one_point)
   Scene scene = empty_scene({0, 0, 0});
   for (int i = 0; i < 40; ++i) {
     const Point place = one_point ? Point{1, 2, 3} : Point{0.9f * float(i % 8), 0, 0.9f * float(i / 8)};
-    add_body(scene, Motion::dynamic, i % 3 ? box_shape(0.5f, 0.4f, 0.5f) : sphere_shape(0.5f), place);
+    add_body(scene, BodyType::dynamic, i % 3 ? box_shape(0.5f, 0.4f, 0.5f) : sphere_shape(0.5f), place);
   }
   return scene;
 }
@@ -46,8 +46,9 @@ Scene flat(bool one_point)
 Scene scattered()
 {
   Scene scene = empty_scene();
-  for (int i = 0; i < 50; ++i) add_body(scene, Motion::dynamic, sphere_shape(0.5f), {3.0f * float(i), 0, float(i % 7)});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {1000, 1000, -1000});
+  for (int i = 0; i < 50; ++i)
+    add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {3.0f * float(i), 0, float(i % 7)});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {1000, 1000, -1000});
   return scene;
 }
 
@@ -92,9 +93,9 @@ TEST_CASE("every broadphase leads to the bits of brute force", "[physics]")
 TEST_CASE("pairs come near once, persist and leave once, and touch only while they are near")
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {-3, 0, 0}).linear_velocity = {6, 0, 0};
-  add_body(scene, Motion::fixed, sphere_shape(0.5f), {0, 0.98, 0});
-  add_body(scene, Motion::fixed, box_shape(0.1f, 0.1f, 0.1f), {0, -40, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {-3, 0, 0}).linear_velocity = {6, 0, 0};
+  add_body(scene, BodyType::fixed, sphere_shape(0.5f), {0, 0.98, 0});
+  add_body(scene, BodyType::fixed, box_shape(0.1f, 0.1f, 0.1f), {0, -40, 0});
   for (Body &body : scene.bodies) body.material = 0;
   Settings settings;
   settings.pair_events = settings.events = true;
@@ -174,10 +175,10 @@ TEST_CASE("auto chooses by the sizes and the number of bodies, says why, and cha
   CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").broadphase == Broadphase::grid);
   CHECK(choice("box-grid:nx=12,ny=12,nz=12", "cl:nvidia").why.find("1729 bodies, of which 1 are") != std::string::npos);
   Scene sizes = empty_scene();
-  for (int i = 0; i < 300; ++i) add_body(sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
+  for (int i = 0; i < 300; ++i) add_body(sizes, BodyType::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
   Scene many_sizes = empty_scene();
   for (int i = 0; i < 2000; ++i)
-    add_body(many_sizes, Motion::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
+    add_body(many_sizes, BodyType::dynamic, sphere_shape(i % 3 ? 0.1f : 1.0f), {3.0 * i, 0, 0});
   CHECK(choose_broadphase(many_sizes, "cl").broadphase == Broadphase::trees);
   CHECK(choose_broadphase(many_sizes, "cl").why.find("667 are more than") != std::string::npos);
   for (const std::string name : {"scattered", "falling-boxes:n=150", "many sizes"}) {

@@ -1,6 +1,6 @@
 /* Compounds behave as the bodies they are made of, joined. */
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -51,7 +51,7 @@ TEST_CASE("a box of boxes rests and stacks as a box, on four points a pair", "[p
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int k = 0; k < 4; ++k) add_solid(scene, box_of_boxes(0.25f), {0, 0.25 + 0.5 * k, 0});
+  for (int k = 0; k < 4; ++k) add_dynamic_body(scene, box_of_boxes(0.25f), {0, 0.25 + 0.5 * k, 0});
   World world(scene);
   run(world, 300);
   const std::vector<BodyState> states = world.bodies();
@@ -69,8 +69,9 @@ TEST_CASE("compounds in free space keep their momentum", "[physics]")
   Scene scene = empty_scene({0, 0, 0});
   Random random(9);
   for (int k = 0; k < 20; ++k) {
-    Body &body = add_solid(scene, k % 2 ? dumbbell() : box_of_boxes(0.2f),
-                           {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random.orientation());
+    Body &body =
+        add_dynamic_body(scene, k % 2 ? dumbbell() : box_of_boxes(0.2f),
+                         {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}, random.orientation());
     body.linear_velocity = vec3_of(-2 * vector_of(body.position));
   }
   World world(scene);
@@ -95,7 +96,7 @@ TEST_CASE("each child has its own material", "[physics]")
   head.material = slippery;
   const Shape column = compound_shape({foot, head, child_of(box_shape(0.1f, 0.3f, 0.1f), {0, 0, 0})});
   const Vector up(-std::sin(0.2), std::cos(0.2), 0);
-  add_solid(scene, column, 0.35 * up, turn_about({0, 0, 1}, 0.2 + (slippery_down ? pi : 0)));
+  add_dynamic_body(scene, column, 0.35 * up, turn_about({0, 0, 1}, 0.2 + (slippery_down ? pi : 0)));
   World world(scene);
   run(world, 60);
   const double speed = vector_of(world.bodies()[1].linear_velocity).norm();
@@ -109,7 +110,7 @@ TEST_CASE("each child has its own filter", "[physics]")
   add_ground(scene).filter_group = 2;
   Child solid = child_of(sphere_shape(0.2f), {0, 0.5, 0}), ghost = child_of(box_shape(0.4f, 0.4f, 0.4f), {0, 0, 0});
   ghost.filter_mask = ~2u;
-  Body &body = add_solid(scene, compound_shape({solid, ghost}), {0, 1, 0}, turn_about({1, 0, 0}, pi));
+  Body &body = add_dynamic_body(scene, compound_shape({solid, ghost}), {0, 1, 0}, turn_about({1, 0, 0}, pi));
   body.infinite_inertia = true;
   World world(scene);
   const double centre = vector_of(body.position).y() - 1; /* of mass, above the frame of the compound */
@@ -122,9 +123,10 @@ TEST_CASE("a mesh can be a child", "[physics]")
   const Shape cube = mesh_of_box(0.3f, 0.3f, 0.3f);
   Scene scene = empty_scene();
   add_ground(scene);
-  add_solid(scene, compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}),
-            {0, 0.3, 0});
-  add_solid(scene, box_shape(0.1f, 0.1f, 0.1f), {0, 1.11, 0});
+  add_dynamic_body(scene,
+                   compound_shape({child_of(cube, {0, 0, 0}), child_of(box_shape(0.2f, 0.2f, 0.2f), {0, 0.5, 0})}),
+                   {0, 0.3, 0});
+  add_dynamic_body(scene, box_shape(0.1f, 0.1f, 0.1f), {0, 1.11, 0});
   World world(scene);
   run(world, 200);
   const std::vector<BodyState> states = world.bodies();

@@ -25,13 +25,13 @@ struct OracleManifold {
   Vector normal;              /* from a to b */
   std::vector<Vector> points; /* world */
   double friction = 0;
-  std::vector<double> wished; /* m/s at least, at each point; empty: 0 */
+  std::vector<double> target_velocity; /* m/s at least, at each point; empty: 0 */
 };
 
 struct OracleSolution {
-  std::vector<OracleBody> bodies; /* with their velocities after the impulses */
-  std::vector<double> pressure;   /* N s, sum of each manifold's normals */
-  double movement = 0;            /* of the last round, m/s: how converged it is */
+  std::vector<OracleBody> bodies;         /* with their velocities after the impulses */
+  std::vector<double> normal_impulse_sum; /* N s, sum of each manifold's normals */
+  double movement = 0;                    /* of the last round, m/s: how converged it is */
 };
 
 class ContactOracle {
@@ -45,7 +45,7 @@ public:
     jacobian_ = Eigen::MatrixXd::Zero(rows, columns);
     inverse_mass_ = Eigen::MatrixXd::Zero(columns, columns);
     velocity_ = Eigen::VectorXd::Zero(columns);
-    wished_ = Eigen::VectorXd::Zero(rows);
+    target_velocity_ = Eigen::VectorXd::Zero(rows);
     for (size_t i = 0; i < bodies_.size(); ++i) {
       inverse_mass_.block<3, 3>(Eigen::Index(6 * i), Eigen::Index(6 * i)) =
           bodies_[i].inverse_mass * Matrix::Identity();
@@ -59,7 +59,7 @@ public:
   OracleSolution solve(int most_rounds = 400000)
   {
     const Eigen::MatrixXd change = inverse_mass_ * jacobian_.transpose(), operator_ = jacobian_ * change;
-    const Eigen::VectorXd free = jacobian_ * velocity_ - wished_;
+    const Eigen::VectorXd free = jacobian_ * velocity_ - target_velocity_;
     const double step = 1 / operator_.norm();
     Eigen::VectorXd impulse = Eigen::VectorXd::Zero(free.size());
     OracleSolution solution;
@@ -77,7 +77,7 @@ public:
     }
     Eigen::Index row = 0;
     for (const OracleManifold &m : manifolds_) {
-      solution.pressure.push_back(impulse.segment(row, Eigen::Index(m.points.size())).sum());
+      solution.normal_impulse_sum.push_back(impulse.segment(row, Eigen::Index(m.points.size())).sum());
       row += Eigen::Index(m.points.size()) + 3;
     }
     return solution;
@@ -108,7 +108,7 @@ private:
   {
     for (size_t k = 0; k < m.points.size(); ++k) {
       set_row(row_, m, m.points[k], m.normal);
-      if (!m.wished.empty()) wished_[row_] = m.wished[k];
+      if (!m.target_velocity.empty()) target_velocity_[row_] = m.target_velocity[k];
       ++row_;
     }
     const Vector first = m.normal.unitOrthogonal(), second = m.normal.cross(first);
@@ -146,7 +146,7 @@ private:
   std::vector<OracleBody> bodies_;
   std::vector<OracleManifold> manifolds_;
   Eigen::MatrixXd jacobian_, inverse_mass_;
-  Eigen::VectorXd velocity_, wished_;
+  Eigen::VectorXd velocity_, target_velocity_;
   Eigen::Index row_ = 0;
 };
 
@@ -159,7 +159,7 @@ inline std::vector<OracleBody> oracle_bodies(const Scene &scene, double h)
     one.position = vector_of(body.position);
     one.linear = vector_of(body.linear_velocity);
     one.angular = vector_of(body.angular_velocity);
-    if (body.motion == Motion::dynamic) {
+    if (body.type == BodyType::dynamic) {
       const Matrix axes = axes_of(body.orientation);
       one.inverse_mass = 1.0 / body.mass;
       one.inverse_inertia = axes * vector_of(inverse_inertia_of(scene, body)).asDiagonal() * axes.transpose();

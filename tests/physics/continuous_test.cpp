@@ -1,7 +1,7 @@
 /* Continuous collision: what is fast stops at what is thin, and what misses is left alone. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -16,7 +16,7 @@ std::vector<Shape> bullets(Random &random, float size)
           Shape{ShapeType::capsule, {0.5f * size, size, 0.2f * size}},
           cylinder_shape(0.5f * size, size),
           cone_shape(0.7f * size, size),
-          stone(random, 12, size)};
+          random_hull_shape(random, 12, size)};
 }
 
 /* A wall of 1 to 10 mm across the Y-Z plane and a solid that flies at it, up to 80 degrees to its normal. */
@@ -25,13 +25,13 @@ Scene shot(Random &random, size_t kind, double speed, bool continuous)
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = random.below(2) ? 0.0f : 0.5f;
   const double thickness = random.uniform(0.001, 0.01);
-  add_body(scene, Motion::fixed, box_shape(float(thickness / 2), 100, 100), {0, 0, 0});
+  add_body(scene, BodyType::fixed, box_shape(float(thickness / 2), 100, 100), {0, 0, 0});
   const double angle = random.uniform(0, 80) * radians, turn = random.uniform(0, 2 * pi);
   const Vector velocity =
       speed * Vector(std::cos(angle), std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn));
   const double away = random.uniform(0.1, std::max(0.2, speed / 60));
   const Shape shape = bullets(random, float(random.uniform(0.005, 0.05)))[kind];
-  Body &body = add_solid(scene, shape, velocity * (-away / velocity.x()), random.orientation(), 0.1f);
+  Body &body = add_dynamic_body(scene, shape, velocity * (-away / velocity.x()), random.orientation(), 0.1f);
   body.linear_velocity = vec3_of(velocity);
   body.angular_velocity = vec3_of(random.uniform(0, 200) * direction(random));
   body.continuous = continuous;
@@ -85,12 +85,12 @@ TEST_CASE("bullets stay in a room of thin walls, also where one turns them into 
     for (int k = 0; k < 4; ++k) walls.push_back(direction(random));
     for (const Vector &normal : walls) {
       const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector::UnitY(), normal);
-      Body &wall =
-          add_body(scene, Motion::fixed, box_shape(3, float(thickness / 2), 3), point_of(normal * (1 + thickness / 2)));
+      Body &wall = add_body(scene, BodyType::fixed, box_shape(3, float(thickness / 2), 3),
+                            point_of(normal * (1 + thickness / 2)));
       wall.orientation = {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
     }
     for (const Shape &shape : bullets(random, float(random.uniform(0.01, 0.08)))) {
-      Body &body = add_solid(scene, shape, 0.5 * direction(random), random.orientation(), 0.1f);
+      Body &body = add_dynamic_body(scene, shape, 0.5 * direction(random), random.orientation(), 0.1f);
       body.linear_velocity = vec3_of(speed * direction(random));
       body.angular_velocity = vec3_of(random.uniform(0, 200) * direction(random));
       body.continuous = true;
@@ -146,8 +146,8 @@ TEST_CASE("a bullet that passes a millimetre beside an edge keeps its velocity t
   for (const Shape &shape : shapes)
     for (int start = 1; start <= 12; ++start) {
       Scene scene = empty_scene({0, 0, 0});
-      add_body(scene, Motion::fixed, box_shape(0.002f, 0.5f, 0.5f), {0, -0.5, 0}); /* its upper edge at y = 0 */
-      Body &body = add_body(scene, Motion::dynamic, shape, {-0.013 * start, 0.011, 0});
+      add_body(scene, BodyType::fixed, box_shape(0.002f, 0.5f, 0.5f), {0, -0.5, 0}); /* its upper edge at y = 0 */
+      Body &body = add_body(scene, BodyType::dynamic, shape, {-0.013 * start, 0.011, 0});
       body.linear_velocity = {speed, 0, 0};
       body.continuous = continuous;
       World world(scene, {}, {"serial", {}});
@@ -168,17 +168,17 @@ TEST_CASE("a bullet stops at a wall where it meets it, and slides on without fri
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
   scene.materials[0].restitution = e;
-  add_body(scene, Motion::fixed, box_shape(0.001f, 400, 1), {0, 0, 0});
-  Body &body = add_body(scene, Motion::dynamic, sphere_shape(0.02f), {-0.2, 0, 0});
+  add_body(scene, BodyType::fixed, box_shape(0.001f, 400, 1), {0, 0, 0});
+  Body &body = add_body(scene, BodyType::dynamic, sphere_shape(0.02f), {-0.2, 0, 0});
   body.linear_velocity = {0.6f * speed, 0.8f * speed, 0};
   body.continuous = true;
   World world(scene);
   world.step();
   const BodyState state = world.bodies()[1];
-  const double way = double{speed} / 60;
+  const double displacement = double{speed} / 60;
   CAPTURE(speed, e);
-  CHECK(state.position[0] == Approx(-0.021).margin(2e-6 * way + 1e-5));
-  CHECK(state.position[1] == Approx(0.8 * way).epsilon(1e-5));
+  CHECK(state.position[0] == Approx(-0.021).margin(2e-6 * displacement + 1e-5));
+  CHECK(state.position[1] == Approx(0.8 * displacement).epsilon(1e-5));
   CHECK(state.linear_velocity[0] == Approx(-double{e} * 0.6 * double{speed}).margin(2e-5 * double{speed}));
   CHECK(state.linear_velocity[1] == Approx(0.8 * double{speed}).epsilon(1e-6));
   CHECK(vector_of(state.angular_velocity).norm() < 1e-3);
@@ -193,9 +193,9 @@ TEST_CASE("a bullet and a free target share their momentum", "[physics]")
     Scene scene = empty_scene({0, 0, 0});
     scene.materials[0].restitution = k % 2 ? 0.0f : 0.5f;
     const Vector away = direction(random), aside = 0.05 * direction(random);
-    add_solid(scene, box_shape(0.2f, 0.3f, 0.25f), {0, 0, 0}, random.orientation(), 3);
-    Body &bullet = add_solid(scene, bullets(random, 0.02f)[size_t(k) % 7],
-                             away * random.uniform(0.5, speed / 60 + 0.5) + aside, random.orientation(), 0.1f);
+    add_dynamic_body(scene, box_shape(0.2f, 0.3f, 0.25f), {0, 0, 0}, random.orientation(), 3);
+    Body &bullet = add_dynamic_body(scene, bullets(random, 0.02f)[size_t(k) % 7],
+                                    away * random.uniform(0.5, speed / 60 + 0.5) + aside, random.orientation(), 0.1f);
     bullet.linear_velocity = vec3_of(-speed * away);
     bullet.continuous = true;
     World world(scene, {}, {"serial", {}});

@@ -49,7 +49,7 @@ private:
   {
     const uint32_t n = world_.memory().read<uint32_t>(Buffer::counts, 1, COUNT_CONSTRAINTS)[0];
     const auto pairs = world_.memory().read<uint32_t>(Buffer::constraint_pair, n);
-    const auto impulses = world_.memory().read<row>(Buffer::constraint_normal_impulse, n);
+    const auto impulses = world_.memory().read<float4>(Buffer::constraint_normal_impulse, n);
     for (uint32_t i = 0; i < n; ++i)
       carried_.try_emplace(pairs[i], Eigen::Vector4d::Zero()).first->second +=
           Eigen::Vector4d(impulses[i].x, impulses[i].y, impulses[i].z, impulses[i].w);
@@ -62,8 +62,8 @@ private:
     const uint32_t n = counts[COUNT_PAIRS];
     const auto a = memory.read<uint32_t>(Buffer::pair_a, n), b = memory.read<uint32_t>(Buffer::pair_b, n);
     const auto points = memory.read<uint32_t>(Buffer::manifold_count, n);
-    const auto normals = memory.read<row>(Buffer::manifold_normal, n);
-    const auto rows = memory.read<row>(Buffer::manifold_points, 4 * counts[CAPACITY_PAIRS]);
+    const auto normals = memory.read<float4>(Buffer::manifold_normal, n);
+    const auto rows = memory.read<float4>(Buffer::manifold_points, 4 * counts[CAPACITY_PAIRS]);
     const std::vector<BodyState> states = world_.bodies(); /* where the step started: nothing is committed yet */
     for (uint32_t i = 0; i < n; ++i) {
       const uint32_t first = world_.scene_body(a[i]), second = world_.scene_body(b[i]);
@@ -71,7 +71,7 @@ private:
       Contact found;
       Vector pressed = Vector::Zero(), overlapped = Vector::Zero();
       for (uint32_t k = 0; k < points[i]; ++k) {
-        const row &r = rows[k * counts[CAPACITY_PAIRS] + i];
+        const float4 &r = rows[k * counts[CAPACITY_PAIRS] + i];
         if (r.w > 0 && impulses[k] == 0) continue;
         const Vector at = vector_of(states[first].position) +
                           double(normals[i].w) * vector_of(states[first].linear_velocity) + Vector(r.x, r.y, r.z);

@@ -6,8 +6,8 @@
 
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
+#include "tests/physics/bodies.h"
 #include "tests/physics/event_oracle.h"
-#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -56,7 +56,7 @@ Scene ball_above_ground(double height, float restitution)
   Scene scene = empty_scene();
   const uint32_t material = add_material(scene, 0.5f, restitution);
   add_ground(scene).material = material;
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, height, 0}).material = material;
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, height, 0}).material = material;
   return scene;
 }
 
@@ -148,9 +148,9 @@ TEST_CASE("the events of a smooth pile account for the momentum of every body in
   Random random(7);
   for (int i = 0; i < 24; ++i) {
     const Shape shapes[] = {sphere_shape(0.3f), box_shape(0.3f, 0.25f, 0.35f), capsule_shape(0.2f, 0.2f)};
-    add_solid(scene, shapes[i % 3],
-              {0.5 * (i % 2) + random.uniform(-0.1, 0.1), 0.4 + 0.45 * (i / 4), 0.5 * (i / 2 % 2)},
-              random.orientation(), float(random.uniform(0.5, 2)));
+    add_dynamic_body(scene, shapes[i % 3],
+                     {0.5 * (i % 2) + random.uniform(-0.1, 0.1), 0.4 + 0.45 * (i / 4), 0.5 * (i / 2 % 2)},
+                     random.orientation(), float(random.uniform(0.5, 2)));
   }
   World world(scene, with_events(solver), {"serial", {}});
   size_t events = 0;
@@ -178,8 +178,8 @@ TEST_CASE("a ball that slides over an edge ceases to touch where the edge is", "
 {
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
-  add_body(scene, Motion::fixed, box_shape(1, 0.5f, 1), {0, -0.5, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.2f), {-0.5, 0.2, 0}).linear_velocity = {
+  add_body(scene, BodyType::fixed, box_shape(1, 0.5f, 1), {0, -0.5, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {-0.5, 0.2, 0}).linear_velocity = {
       3, 0, 0}; /* v^2 / r > g: it flies off */
   World world(scene, with_events(), {"serial", {}});
   const std::string history = run_history(world, 60);
@@ -193,8 +193,8 @@ TEST_CASE("a ball that slides over an edge ceases to touch where the edge is", "
 TEST_CASE("a contact ends also where the pair is gone from the list: carried off, or taken out", "[physics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, box_shape(10, 0.5f, 10), {0, -0.5, 0});
-  for (const double x : {0, 5}) add_body(scene, Motion::dynamic, sphere_shape(0.5f), {x, 0.5, 0});
+  add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 10), {0, -0.5, 0});
+  for (const double x : {0, 5}) add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {x, 0.5, 0});
   World world(scene, with_events(), {"serial", {}});
   run(world, 3);
   REQUIRE(world.contact_events().size() == 2);
@@ -218,7 +218,7 @@ TEST_CASE("every event of a random pile, against the oracle", "[physics]")
   for (int i = 0; i < 6; ++i) {
     Body zone;
     zone.name = "zone";
-    zone.motion = Motion(i % 3);
+    zone.type = BodyType(i % 3);
     zone.trigger = true;
     zone.position = {random.uniform(-2, 2), random.uniform(0, 3), random.uniform(-2, 2)};
     zone.linear_velocity = {0, 0, i % 3 == 1 ? 0.5f : 0.0f};
@@ -296,8 +296,8 @@ TEST_CASE("events change no motion, cost nothing unless asked for, and are refus
 TEST_CASE("a contact 1000 km from the origin is told to the millimetre", "[physics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, box_shape(1, 0.5f, 1), {1e6, -0.5, 2e5});
-  add_body(scene, Motion::dynamic, sphere_shape(0.2f), {1e6 + 0.123, 0.2, 2e5 + 0.456});
+  add_body(scene, BodyType::fixed, box_shape(1, 0.5f, 1), {1e6, -0.5, 2e5});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {1e6 + 0.123, 0.2, 2e5 + 0.456});
   World world(scene, with_events(), {"serial", {}});
   run(world, 30);
   const ContactEvent event = world.contact_events().at(0);
@@ -310,8 +310,8 @@ TEST_CASE("a ball that meets a wall within the step is told to have done so wher
   const float speed = GENERATE(5.0f, 30.0f, 300.0f);
   for (int start = 1; start <= 9; ++start) {
     Scene scene = empty_scene({0, 0, 0});
-    add_body(scene, Motion::fixed, box_shape(0.5f, 5, 5), {0.5, 0, 0});
-    Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.05f), {-0.05 - 0.1 * start * speed / 60, 0.3, -0.2});
+    add_body(scene, BodyType::fixed, box_shape(0.5f, 5, 5), {0.5, 0, 0});
+    Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.05f), {-0.05 - 0.1 * start * speed / 60, 0.3, -0.2});
     ball.linear_velocity = {speed, 0, 0};
     World world(scene, with_events(), {"serial", {}});
     world.step();

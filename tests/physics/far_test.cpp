@@ -13,11 +13,12 @@ Scene yard(const Point &origin, double height)
 {
   Scene scene = empty_scene();
   const auto at = [&](double x, double y, double z) { return Point{origin[0] + x, origin[1] + y, origin[2] + z}; };
-  add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
+  add_body(scene, BodyType::fixed, box_shape(32, 1, 8), at(0, -1, 0));
   for (int i = 0; i < 4; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0.1 * i, 0.5 + i, 0.03 * i));
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.4f), at(-8.3, height, 3.1)).linear_velocity = {5, 0, 0.3f};
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(-8.7, 0.913, -3.3)).angular_velocity = {0, 2, -7};
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0.1 * i, 0.5 + i, 0.03 * i));
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.25f, 0.4f), at(-8.3, height, 3.1)).linear_velocity =
+      {5, 0, 0.3f};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), at(-8.7, 0.913, -3.3)).angular_velocity = {0, 2, -7};
   return scene;
 }
 
@@ -57,7 +58,7 @@ TEST_CASE("far from the origin everything moves as at the origin", "[physics]")
 TEST_CASE("a slow body far away gets on: 1 mm/s at 1,000 km", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {1e6, 0, 0}).linear_velocity = {0.001f, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {1e6, 0, 0}).linear_velocity = {0.001f, 0, 0};
   World world(scene);
   run(world, 600);
   CHECK(world.bodies()[0].position[0] - 1e6 == Approx(0.01).epsilon(1e-5));

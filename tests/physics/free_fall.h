@@ -16,7 +16,7 @@ inline double farthest_from_free_fall(const Scene &scene, Settings settings, dou
   double farthest = 0;
   for (size_t i = 0; i < after.size(); ++i) {
     const Body &body = scene.bodies[i];
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const Vector before = vector_of(body.linear_velocity), expected = before + steps * step * vector_of(scene.gravity);
     const double scale = std::max(std::min(before.norm(), expected.norm()), 0.1);
     farthest = std::max(farthest, (vector_of(after[i].linear_velocity) - expected).norm() / scale);

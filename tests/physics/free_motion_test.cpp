@@ -19,8 +19,8 @@ TEST_CASE("free fall and projectiles follow the parabola to float rounding", "[p
   const uint32_t substeps = GENERATE(1, 4, 7);
   const std::string backend = GENERATE("serial", "tbb");
   Scene scene = empty_scene({0.5f, -10, 0.25f});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 30, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.2f, 0.3f), {20, 5, 0}).linear_velocity = {3, 12, -4};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 30, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.3f), {20, 5, 0}).linear_velocity = {3, 12, -4};
   scene.bodies[1].angular_velocity = {1, 2, 3};
   const Settings settings = settings_with(step, substeps);
   World world(scene, settings, Placement{backend, {}, false});
@@ -50,7 +50,7 @@ TEST_CASE("gravity_factor scales the fall", "[physics]")
 {
   Scene scene = empty_scene();
   for (float factor : {0.0f, 0.5f, 2.0f, -1.0f})
-    add_body(scene, Motion::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0}).gravity_factor =
+    add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0}).gravity_factor =
         factor;
   World world(scene);
   run(world, 60);
@@ -62,7 +62,7 @@ TEST_CASE("damping is the implicit decay of each substep, close to the exponenti
 {
   Scene scene = empty_scene({0, 0, 0});
   for (float damping : {0.1f, 1.0f, 5.0f}) {
-    Body &body = add_body(scene, Motion::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0});
+    Body &body = add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {3.0f * float(scene.bodies.size()), 0, 0});
     body.linear_damping = damping;
     body.angular_damping = 0.5f * damping;
     body.linear_velocity = {0, 4, 0};
@@ -90,7 +90,7 @@ TEST_CASE("free spin keeps its angular momentum and its energy", "[physics]")
   Random random(7);
   for (int i = 0; i < 12; ++i) {
     const float a = float(random.uniform(0.1, 1)), b = float(random.uniform(0.1, 1)), c = float(random.uniform(0.1, 1));
-    Body &body = add_body(scene, Motion::dynamic, box_shape(a, b, c), {5.0f * float(i), 0, 0});
+    Body &body = add_body(scene, BodyType::dynamic, box_shape(a, b, c), {5.0f * float(i), 0, 0});
     body.orientation = random.orientation();
     const Vector axis(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     body.angular_velocity = vec3_of(speed * axis.normalized());
@@ -122,8 +122,8 @@ TEST_CASE("a body spinning about its middle axis flips on time", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
   const double tilt = GENERATE(0.02, 0.1, 0.3);
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.3f, 0.1f), {0, 0, 0}).angular_velocity = {float(4 * tilt), 4, 0};
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.3f, 0.1f), {5, 0, 0}).angular_velocity = {0, 4, float(4 * tilt)};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.1f), {0, 0, 0}).angular_velocity = {float(4 * tilt), 4, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.1f), {5, 0, 0}).angular_velocity = {0, 4, float(4 * tilt)};
   World world(scene);
   std::vector<FlipClock> clocks(2);
   for (int step = 1; step <= 30 * 60; ++step) {

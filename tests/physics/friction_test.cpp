@@ -11,11 +11,11 @@ namespace {
 void add_incline(Scene &scene, uint32_t material, double angle, float z)
 {
   const Quat tilt = turn_about({0, 0, 1}, angle);
-  Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
+  Body &ramp = add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
   ramp.orientation = tilt;
   ramp.material = material;
   const Vector up(-std::sin(angle), std::cos(angle), 0);
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)));
+  Body &box = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)));
   box.orientation = tilt;
   box.material = material;
 }
@@ -73,7 +73,7 @@ TEST_CASE("a sliding box stops after v^2 / (2 mu g)", "[physics]")
     const uint32_t material = add_material(scene, float(slide.mu));
     scene.materials[material].friction_combine = Combine::maximum;
     Body &box =
-        add_body(scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 3.0f * float(scene.bodies.size())});
+        add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 3.0f * float(scene.bodies.size())});
     box.linear_velocity = {float(slide.speed), 0, 0};
     box.material = material;
   }
@@ -114,7 +114,7 @@ TEST_CASE("a sliding ball ends up rolling at 5/7 of its speed", "[physics]")
   add_ground(scene);
   const double speed = GENERATE(1.0, 7.0);
   const float radius = GENERATE(0.2f, 1.0f);
-  add_body(scene, Motion::dynamic, sphere_shape(radius), {0, radius, 0}).linear_velocity = {float(speed), 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, radius, 0}).linear_velocity = {float(speed), 0, 0};
   World world(scene);
   const double sliding_ends = 2 * speed / (7 * 0.6 * gravity);
   run(world, int(std::ceil(sliding_ends * 60)) + 2);
@@ -148,12 +148,12 @@ TEST_CASE("materials combine by the rule that stands first, and geometric mean y
   for (Combine a : rules)
     for (Combine b : rules) {
       const float z = 4.0f * float(friction.size());
-      Body &platform = add_body(scene, Motion::fixed, box_shape(20, 0.5f, 1), {0, -0.5f, z});
+      Body &platform = add_body(scene, BodyType::fixed, box_shape(20, 0.5f, 1), {0, -0.5f, z});
       platform.material = add_material(scene, float(mu[0]), float(bounce[0]));
-      Body &box = add_body(scene, Motion::dynamic, box_shape(0.4f, 0.1f, 0.4f), {0, 0.1f, z});
+      Body &box = add_body(scene, BodyType::dynamic, box_shape(0.4f, 0.1f, 0.4f), {0, 0.1f, z});
       box.material = add_material(scene, float(mu[1]), float(bounce[1]));
       box.linear_velocity = {6, 0, 0};
-      Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.25f), {-5, 1.25f, z});
+      Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {-5, 1.25f, z});
       ball.material = box.material;
       for (int k = 1; k <= 2; ++k) {
         Material &material = scene.materials[scene.materials.size() - size_t(k)];

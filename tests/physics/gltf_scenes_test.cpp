@@ -11,7 +11,7 @@
 #include "tests/catch.h"
 #include "tests/host/io/gltf/gltf_scenes.h"
 #include "tests/parity/parity.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -157,7 +157,7 @@ void turns_about_x(Course &course)
 void hangs_in_the_air(Course &course)
 {
   course.until(2);
-  CHECK(course.scene.bodies[1].motion == Motion::kinematic);
+  CHECK(course.scene.bodies[1].type == BodyType::kinematic);
   for (size_t body : {0, 1}) CHECK(course.stands_still(body));
 }
 

@@ -2,7 +2,7 @@
  * what no contact was made for.
  */
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -20,7 +20,7 @@ Scene hits(const Shape &flying, const Shape &standing, int lanes)
   for (int lane = 0; lane < lanes; ++lane) {
     const double z = apart * lane, speed = random.uniform(100, 300);
     const Quat turn = any_turn(random);
-    Body &wall = add_body(scene, Motion::fixed, standing, {0, 0, z});
+    Body &wall = add_body(scene, BodyType::fixed, standing, {0, 0, z});
     wall.orientation = turn;
     Vector inside(random.uniform(-half, half), random.uniform(-half, half), random.uniform(-half, half));
     inside = axes_of(turn) * inside;
@@ -29,7 +29,7 @@ Scene hits(const Shape &flying, const Shape &standing, int lanes)
     const double touching_balls = 2 * std::sqrt(3.0) * half;
     while ((inside - time * velocity).norm() <= touching_balls) time = random.uniform(0, step);
     const Vector start = inside - time * velocity;
-    Body &body = add_solid(scene, flying, {start.x(), start.y(), start.z() + z}, any_turn(random));
+    Body &body = add_dynamic_body(scene, flying, {start.x(), start.y(), start.z() + z}, any_turn(random));
     body.linear_velocity = vec3_of(velocity);
   }
   return scene;
@@ -43,7 +43,7 @@ int unnoticed(const Scene &scene, const Settings &settings)
   const std::vector<BodyState> after = world.bodies();
   int count = 0;
   for (size_t i = 0; i < after.size(); ++i)
-    if (scene.bodies[i].motion == Motion::dynamic)
+    if (scene.bodies[i].type == BodyType::dynamic)
       count += (vector_of(after[i].linear_velocity) - vector_of(scene.bodies[i].linear_velocity)).norm() < 0.01;
   return count;
 }
@@ -55,11 +55,11 @@ Scene struck_from_above(double speed, double spin)
   constexpr double radius = 0.1, gap = 0.01;
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
-  add_solid(scene, box_shape(20, 0.02f, 20), {0, -0.02, 0}, {0, 0, 0, 1}, 1e5);
-  Body &ball = add_solid(scene, sphere_shape(radius), {0, radius + gap, 0});
+  add_dynamic_body(scene, box_shape(20, 0.02f, 20), {0, -0.02, 0}, {0, 0, 0, 1}, 1e5);
+  Body &ball = add_dynamic_body(scene, sphere_shape(radius), {0, radius + gap, 0});
   ball.linear_velocity = {float(speed), 0, 0};
   ball.angular_velocity = {0, 0, float(spin)};
-  Body &hammer = add_solid(scene, sphere_shape(radius), {0, 3 * radius + 3 * gap, 0}, {0, 0, 0, 1}, 10);
+  Body &hammer = add_dynamic_body(scene, sphere_shape(radius), {0, 3 * radius + 3 * gap, 0}, {0, 0, 0, 1}, 10);
   hammer.linear_velocity = {float(speed), -10, 0};
   return scene;
 }
@@ -85,14 +85,15 @@ Scene thrown_at_sheets(const Shape &sheet, int lanes)
   scene.materials[0].restitution = 0;
   for (int lane = 0; lane < lanes; ++lane) {
     const double z = apart * lane, size = 0.15 * logarithmic(random, 0.15, 2), speed = logarithmic(random, 1, 300);
-    add_body(scene, Motion::fixed, sheet, {0, -0.005, z});
+    add_body(scene, BodyType::fixed, sheet, {0, -0.005, z});
     const float thin = float(size * (lane % 3 == 1 ? 0.05 : 0.5)), wide = float(lane % 3 == 2 ? 0.05 * size : size);
     const Shape shape = box_shape(float(size), thin, wide);
-    const Vector way = Vector(random.uniform(-1, 1), -1, random.uniform(-1, 1)).normalized();
+    const Vector displacement = Vector(random.uniform(-1, 1), -1, random.uniform(-1, 1)).normalized();
     const double before = 2 * size + speed * step * random.uniform(0, 4);
-    const Vector start = Vector(random.uniform(-2, 2), 0, random.uniform(-2, 2)) - before * way;
-    Body &body = add_solid(scene, shape, {start.x(), std::max(start.y(), 1.8 * size), start.z() + z}, any_turn(random));
-    body.linear_velocity = vec3_of(speed * way);
+    const Vector start = Vector(random.uniform(-2, 2), 0, random.uniform(-2, 2)) - before * displacement;
+    Body &body =
+        add_dynamic_body(scene, shape, {start.x(), std::max(start.y(), 1.8 * size), start.z() + z}, any_turn(random));
+    body.linear_velocity = vec3_of(speed * displacement);
     if (lane % 4) body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 1, 30));
   }
   return scene;

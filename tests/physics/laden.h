@@ -13,7 +13,7 @@ inline Scene laden_slab(int side, float restitution = 0, const Vec3 &gravity = {
   scene.materials[0].restitution = restitution;
   const float half = 0.11f * float(side);
   const float gap = speed == 0 ? 0 : 0.01f;
-  add_body(scene, Motion::dynamic, box_shape(half, 0.25f, half), {0, 0.25f, 0}).mass = 20;
+  add_body(scene, BodyType::dynamic, box_shape(half, 0.25f, half), {0, 0.25f, 0}).mass = 20;
   scene.shapes.push_back(box_shape(0.1f, 0.1f, 0.1f));
   for (int i = 0; i < side * side; ++i) {
     Body body;

@@ -1,5 +1,5 @@
 /* Constraints solved all at once on bodies split by mass: momentum stays whatever the iteration has reached, a plate
- * under many spheres parts from them as theory says, and the tail of a laden body carries its load. */
+ * under many spheres parts from them as theory says, and the overflow constraints of a laden body carries its load. */
 #include "host/runtime/interface/kernel_list.h"
 #include "tests/catch.h"
 #include "tests/physics/laden.h"
@@ -51,7 +51,7 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
   constexpr int side = 10;
   constexpr double mass = 0.5, speed = 2;
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0, 0}).mass = plate_mass;
+  add_body(scene, BodyType::dynamic, box_shape(3, 0.25f, 3), {0, 0, 0}).mass = plate_mass;
   scene.shapes.push_back(sphere_shape(0.2f));
   for (int i = 0; i < side * side; ++i) {
     Body body;
@@ -70,9 +70,9 @@ TEST_CASE("spheres that land on a free plate at once move on with it", "[physics
   CHECK(worst < 0.02 * speed);
 }
 
-/* Twenty by twenty boxes of ten times the mass of the slab on it, on the ground. With the tail solved in order by one
- * item they sank in by 6.1 mm and never came to rest. */
-TEST_CASE("a tail carries its load at rest", "[physics]")
+/* Twenty by twenty boxes of ten times the mass of the slab on it, on the ground. With the overflow constraints solved
+ * in order by one item they sank in by 6.1 mm and never came to rest. */
+TEST_CASE("overflow constraints carry their load at rest", "[physics]")
 {
   const Solver solver = GENERATE(Solver::soft_step, Solver::pgs, Solver::nncg, Solver::xpbd, Solver::direct);
   Scene scene = laden_slab(20, 0, {0, -10, 0}, 0);
@@ -92,7 +92,7 @@ TEST_CASE("a tail carries its load at rest", "[physics]")
   CHECK(moved < 0.02);
 }
 
-TEST_CASE("kernels and buffers of the tail come with the tail")
+TEST_CASE("kernels and buffers of the overflow constraints come with them")
 {
   const auto runs = [](World &world, Kernel kernel) {
     const std::vector<Kernel> kernels = world.kernels();

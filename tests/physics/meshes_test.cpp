@@ -4,7 +4,7 @@
 
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -25,7 +25,7 @@ Shape profile_mesh(const std::vector<std::array<double, 2>> &profile)
 
 Body &add_mesh(Scene &scene, const Shape &shape, const Vector &at = Vector::Zero(), const Quat &turn = {0, 0, 0, 1})
 {
-  Body &body = add_body(scene, Motion::fixed, shape, point_of(at));
+  Body &body = add_body(scene, BodyType::fixed, shape, point_of(at));
   body.orientation = turn;
   return body;
 }
@@ -78,7 +78,7 @@ TEST_CASE("a ball rests in a valley on both its sides", "[physics]")
   Scene scene = empty_scene();
   make_slippery(scene);
   add_mesh(scene, profile_mesh({{-2, 2 * std::tan(slope)}, {0, 0}, {2, 2 * std::tan(slope)}}));
-  add_solid(scene, sphere_shape(float(radius)), {0.01, radius / std::cos(slope) + 0.02, 0});
+  add_dynamic_body(scene, sphere_shape(float(radius)), {0.01, radius / std::cos(slope) + 0.02, 0});
   Settings settings;
   World world(scene, settings);
   run(world, 600);
@@ -101,7 +101,7 @@ TEST_CASE("a box slides down an inclined mesh as down a plane", "[physics]")
   make_slippery(scene);
   add_mesh(scene, profile_mesh(profile));
   const Vector down(std::cos(slope), -std::sin(slope), 0), up(std::sin(slope), std::cos(slope), 0);
-  add_solid(scene, box_shape(0.4f, 0.2f, 0.3f), 0.2 * up, turn_about({0, 0, 1}, -slope));
+  add_dynamic_body(scene, box_shape(0.4f, 0.2f, 0.3f), 0.2 * up, turn_about({0, 0, 1}, -slope));
   World world(scene);
   run(world, int(60 * seconds));
   const Vector v = vector_of(world.bodies()[1].linear_velocity);
@@ -114,7 +114,7 @@ TEST_CASE("a box that slides against the foot of a wall of the same mesh stops t
   Scene scene = empty_scene();
   make_slippery(scene);
   add_mesh(scene, profile_mesh({{-3, 0}, {-1, 0}, {0, 0}, {1, 0}, {1, 2}}));
-  add_solid(scene, box_shape(0.3f, 0.3f, 0.3f), {-1, 0.3, 0}).linear_velocity = {4, 0, 0};
+  add_dynamic_body(scene, box_shape(0.3f, 0.3f, 0.3f), {-1, 0.3, 0}).linear_velocity = {4, 0, 0};
   World world(scene);
   run(world, 120);
   const BodyState box = world.bodies()[1];
@@ -131,8 +131,8 @@ TEST_CASE("what comes from behind passes a mesh, what comes from before does not
   const Shape shapes[] = {sphere_shape(0.2f), box_shape(0.2f, 0.2f, 0.2f), capsule_shape(0.1f, 0.1f),
                           hull_of_box(0.2f, 0.2f, 0.2f)};
   for (int k = 0; k < 4; ++k) {
-    add_solid(scene, shapes[k], {k - 1.5, -1, 1}).linear_velocity = {0, 3, 0};
-    add_solid(scene, shapes[k], {k - 1.5, 1, -1}).linear_velocity = {0, -3, 0};
+    add_dynamic_body(scene, shapes[k], {k - 1.5, -1, 1}).linear_velocity = {0, 3, 0};
+    add_dynamic_body(scene, shapes[k], {k - 1.5, 1, -1}).linear_velocity = {0, -3, 0};
   }
   World world(scene);
   run(world, 60);
@@ -148,12 +148,12 @@ TEST_CASE("a closed mesh falls, rests and turns as the box it is", "[physics]")
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {0, 0.3, 0});
-  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {3, 0.3, 0}, turn_about({1, 2, 3}, 0.7));
-  add_solid(scene, box_shape(0.5f, 0.5f, 0.5f), {6, 0.5, 0});
-  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {6, 1.25, 0});
-  add_solid(scene, mesh_of_box(0.5f, 0.5f, 0.5f), {9, 0.5, 0});
-  add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {9.03, 1.25, 0.02}, turn_about({0, 1, 0}, 0.3));
+  add_dynamic_body(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {0, 0.3, 0});
+  add_dynamic_body(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {3, 0.3, 0}, turn_about({1, 2, 3}, 0.7));
+  add_dynamic_body(scene, box_shape(0.5f, 0.5f, 0.5f), {6, 0.5, 0});
+  add_dynamic_body(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {6, 1.25, 0});
+  add_dynamic_body(scene, mesh_of_box(0.5f, 0.5f, 0.5f), {9, 0.5, 0});
+  add_dynamic_body(scene, mesh_of_box(0.3f, 0.2f, 0.4f), {9.03, 1.25, 0.02}, turn_about({0, 1, 0}, 0.3));
   const Vec3 moments = inertia_of(scene.shapes[scene.bodies[1].shape], 1),
              expected = inertia_of(box_shape(0.3f, 0.2f, 0.4f), 1);
   for (size_t k = 0; k < 3; ++k) CHECK(moments[k] == Approx(expected[k]).epsilon(1e-6));
@@ -176,9 +176,9 @@ TEST_CASE("closed meshes collide in free space and keep their momentum", "[physi
   Scene scene = empty_scene({0, 0, 0});
   Random random(5);
   for (int k = 0; k < 12; ++k) {
-    Body &body = add_solid(scene, mesh_of_box(0.3f, 0.2f, 0.4f),
-                           {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)},
-                           random.orientation());
+    Body &body = add_dynamic_body(scene, mesh_of_box(0.3f, 0.2f, 0.4f),
+                                  {random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9), random.uniform(-0.9, 0.9)},
+                                  random.orientation());
     body.linear_velocity = vec3_of(-2 * vector_of(body.position));
   }
   World world(scene);
@@ -209,7 +209,7 @@ TEST_CASE("a field of heights is where its heights say", "[physics]")
     const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector(0, 1, 0), up);
     return Quat{float(q.x()), float(q.y()), float(q.z()), float(q.w())};
   }();
-  add_solid(scene, box_shape(0.3f, 0.1f, 0.2f), Vector(1, height(1, -0.3), -0.3) + 0.11 * up, tilt);
+  add_dynamic_body(scene, box_shape(0.3f, 0.1f, 0.2f), Vector(1, height(1, -0.3), -0.3) + 0.11 * up, tilt);
   World world(scene);
   run(world, 120);
   const Vector at = vector_of(world.bodies()[1].position);

@@ -8,8 +8,8 @@
  *       clearance`--'
  */
 #include "tests/catch.h"
+#include "tests/physics/bodies.h"
 #include "tests/physics/free_fall.h"
-#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -99,11 +99,11 @@ void add_throw(Scene &scene, Random &random, int lane, double step, const Throws
       laid_past(obstacle, mover, {{0, 0, 0}, speed * heading, pull}, aside, -before, after, clearance);
 
   const Vector middle(0, 0, 100.0 * lane);
-  if (throws.is_free) add_solid(scene, obstacle.shape, middle, {0, 0, 0, 1}, 1000);
+  if (throws.is_free) add_dynamic_body(scene, obstacle.shape, middle, {0, 0, 0, 1}, 1000);
   else
-    add_body(scene, Motion::kinematic, obstacle.shape, point_of(middle)).angular_velocity =
+    add_body(scene, BodyType::kinematic, obstacle.shape, point_of(middle)).angular_velocity =
         vec3_of(throws.spin * direction(random));
-  Body &body = add_solid(scene, mover.shape, middle + flight.place(-before));
+  Body &body = add_dynamic_body(scene, mover.shape, middle + flight.place(-before));
   body.linear_velocity = vec3_of(flight.velocity - before * flight.gravity);
 }
 
@@ -146,13 +146,13 @@ TEST_CASE("what hits without friction feels no spin: balls that graze balls whic
     const double z = 100.0 * lane, standing = logarithmic(random, 0.05, 2), flying = logarithmic(random, 0.05, 2);
     const double speed = logarithmic(random, 1, 100), before = speed / 60 * random.uniform(0, 3) + standing + flying;
     const double depth = logarithmic(random, 1e-5, 0.02) * std::min(standing, flying);
-    add_body(still, Motion::kinematic, sphere_shape(float(standing)), {0, 0, z});
-    add_solid(still, sphere_shape(float(flying)), {-before, standing + flying - depth, z}).linear_velocity = {
+    add_body(still, BodyType::kinematic, sphere_shape(float(standing)), {0, 0, z});
+    add_dynamic_body(still, sphere_shape(float(flying)), {-before, standing + flying - depth, z}).linear_velocity = {
         float(speed), 0, 0};
   }
   Scene spins = still;
   for (Body &body : spins.bodies)
-    if (body.motion == Motion::kinematic)
+    if (body.type == BodyType::kinematic)
       body.angular_velocity = vec3_of(logarithmic(random, 1, 60) * direction(random));
   World without(still, settings_for(solver), {"tbb", {}}), with(spins, settings_for(solver), {"tbb", {}});
   run(without, 60);
@@ -176,9 +176,9 @@ TEST_CASE("what misses goes on: boxes that fall below one another, one of them a
   for (double gap : {0.0001, 0.001, 0.005}) {
     Scene scene = empty_scene();
     scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
-    add_body(scene, Motion::fixed, box_shape(1, 200, 1), {-1.5, 0, 0});
-    add_solid(scene, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0});
-    add_solid(scene, box_shape(0.4f, 0.5f, 0.4f), {0.05, -1 - gap, 0});
+    add_body(scene, BodyType::fixed, box_shape(1, 200, 1), {-1.5, 0, 0});
+    add_dynamic_body(scene, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0});
+    add_dynamic_body(scene, box_shape(0.4f, 0.5f, 0.4f), {0.05, -1 - gap, 0});
     World world(scene, settings_for(solver));
     for (int step = 0; step < 60; ++step) {
       world.step();

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "tests/catch.h"
+#include "tests/physics/bodies.h"
 #include "tests/physics/free_fall.h"
-#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -58,7 +58,7 @@ void add_obstacle(Scene &scene, Obstacle kind, double z, double yaw)
   const auto stand = [&](const Shape &shape, double height, const Vector &axis = Vector::UnitX(),
                          double angle = 0) -> Body & {
     const Eigen::Quaterniond turn = about * Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis.normalized()));
-    Body &body = add_body(scene, Motion::fixed, shape, {0, height, z});
+    Body &body = add_body(scene, BodyType::fixed, shape, {0, height, z});
     body.orientation = {float(turn.x()), float(turn.y()), float(turn.z()), float(turn.w())};
     if (shape.type == ShapeType::box) body.position[1] = -support(shape, axes_of(body.orientation), Vector::UnitY());
     return body;
@@ -66,7 +66,7 @@ void add_obstacle(Scene &scene, Obstacle kind, double z, double yaw)
   const auto rotate = [&](const Shape &shape, double height, const Vector &spin) {
     Body &body = stand(shape, height);
     body.position[1] = height;
-    body.motion = Motion::kinematic;
+    body.type = BodyType::kinematic;
     body.angular_velocity = vec3_of(about * spin);
   };
   switch (kind) {
@@ -94,7 +94,7 @@ Shape mover(Random &random, int kind)
   case 0: return sphere_shape(size);
   case 1: return box_shape(size, 0.6f * size, 0.4f * size);
   case 2: return capsule_shape(0.4f * size, size);
-  default: return stone(random, 12, size);
+  default: return random_hull_shape(random, 12, size);
   }
 }
 
@@ -116,7 +116,7 @@ Scene flights(Obstacle obstacle, double clearance, double speed, uint64_t seed, 
     const double z = apart * lane;
     add_obstacle(scene, obstacle, z, random.uniform(-0.7, 0.7));
     const Shape shape = mover(random, lane % 4);
-    Body &body = add_solid(scene, shape, {0, 0, 0}, any_turn(random));
+    Body &body = add_dynamic_body(scene, shape, {0, 0, 0}, any_turn(random));
     const Vector down = -Vector::UnitY(), middle = axes_of(body.orientation) * vector_of(body.shape_position);
     const Matrix shape_axes = axes_of(body.orientation) * axes_of(body.shape_orientation);
     const double below = support(shape, shape_axes, down) + middle.dot(down);
@@ -143,11 +143,11 @@ Scene glides(uint64_t seed, int lanes)
     const Shape obstacles[] = {box_shape(half, half, half), mesh_of_box(half, half, half),
                                hull_of_box(half, half, half)};
     const Shape movers[] = {box_shape(small, small, small), hull_of_box(small, small, small)};
-    add_body(scene, Motion::fixed, obstacles[lane % 3], {0, 0, z});
+    add_body(scene, BodyType::fixed, obstacles[lane % 3], {0, 0, z});
     const bool falls = random.below(2) == 1;
     const double before = half + small + 0.02 * speed, beside = half + small + clearance;
     const Vector start = falls ? Vector(-beside, before, z) : Vector(-before, beside, z);
-    Body &body = add_solid(scene, movers[random.below(2)], start);
+    Body &body = add_dynamic_body(scene, movers[random.below(2)], start);
     body.linear_velocity = falls ? Vec3{0, float(-speed), 0} : Vec3{float(speed), 0, 0};
   }
   return scene;
@@ -161,11 +161,11 @@ Scene past_turning_balls(uint64_t seed, double step, const Vec3 &gravity = {0, 0
   for (int lane = 0; lane < 200; ++lane) {
     const double z = 3 * apart * lane, standing = logarithmic(random, 0.05, 2), flying = logarithmic(random, 0.05, 2);
     const double speed = logarithmic(random, 1, 300), clearance = logarithmic(random, 0.001, 0.02);
-    Body &ball = add_body(scene, Motion::kinematic, sphere_shape(float(standing)), {0, 0, z});
+    Body &ball = add_body(scene, BodyType::kinematic, sphere_shape(float(standing)), {0, 0, z});
     const double turning = logarithmic(random, 0.3, 40) * (lane % 4 < 2 ? 1 : -1);
     ball.angular_velocity = {0, float(0.5 * turning), float(0.9 * turning)};
     const double before = standing + flying + random.uniform(0, 1) + speed * step * random.uniform(0, 3);
-    Body &body = add_solid(scene, sphere_shape(float(flying)), {standing + flying + clearance, before, z});
+    Body &body = add_dynamic_body(scene, sphere_shape(float(flying)), {standing + flying + clearance, before, z});
     body.linear_velocity = {0, float(-speed), 0};
     if (lane % 2) body.angular_velocity = vec3_of(50 * direction(random));
   }
@@ -181,7 +181,7 @@ double largest_deviation(const Scene &scene, const Settings &settings, double se
   const std::vector<BodyState> after = world.bodies();
   for (size_t i = 0; i < after.size(); ++i) {
     const Vector before = vector_of(scene.bodies[i].linear_velocity);
-    if (scene.bodies[i].motion == Motion::dynamic)
+    if (scene.bodies[i].type == BodyType::dynamic)
       largest = std::max(largest, (vector_of(after[i].linear_velocity) - before).norm() / before.norm());
   }
   return largest;
@@ -197,7 +197,7 @@ double largest_change(const Scene &scene, const Settings &settings, double speed
   const std::vector<BodyState> after = world.bodies();
   double largest = 0;
   for (size_t i = 0; i < after.size(); ++i) {
-    if (scene.bodies[i].motion != Motion::dynamic) continue;
+    if (scene.bodies[i].type != BodyType::dynamic) continue;
     const auto energy = [&](const BodyState &s) {
       return 0.5 * double(scene.bodies[i].mass) * vector_of(s.linear_velocity).squaredNorm() +
              0.5 * vector_of(s.angular_velocity).dot(spin_momentum(scene, scene.bodies[i], s));
@@ -220,8 +220,8 @@ Scene falls(uint64_t seed, double step)
   for (int lane = 0; lane < 240; ++lane) {
     const double z = apart * lane, speed = logarithmic(random, 1, 30);
     const double height = 0.17 + random.uniform(0, 1) * speed * step, beside = 0.55 + logarithmic(random, 0.001, 0.02);
-    add_body(scene, Motion::fixed, blocks[lane % 3], {0, 0, z});
-    Body &body = add_body(scene, Motion::dynamic, movers[lane / 3 % 4], {beside, 0.5 + height, z});
+    add_body(scene, BodyType::fixed, blocks[lane % 3], {0, 0, z});
+    Body &body = add_body(scene, BodyType::dynamic, movers[lane / 3 % 4], {beside, 0.5 + height, z});
     body.linear_velocity = {0, float(-speed), 0};
   }
   return scene;
@@ -240,8 +240,8 @@ Scene spinners(uint64_t seed)
     const bool is_wall = random.uniform(0, 1) < 0.5;
     const double reach = std::hypot(size, thin * std::sqrt(2)) + thin,
                  x = (is_wall ? 0.1 : 0.2) + reach + logarithmic(random, 0.001, 0.02);
-    add_solid(scene, is_wall ? box_shape(0.1f, 1, 1) : sphere_shape(0.2f), {0, 0, z});
-    Body &body = add_solid(scene, shapes[lane % 3], {x, 0, z}, any_turn(random));
+    add_dynamic_body(scene, is_wall ? box_shape(0.1f, 1, 1) : sphere_shape(0.2f), {0, 0, z});
+    Body &body = add_dynamic_body(scene, shapes[lane % 3], {x, 0, z}, any_turn(random));
     body.angular_velocity = vec3_of(direction(random) * logarithmic(random, 20, 400));
     body.linear_velocity = {0, float(random.uniform(-1, 1) * logarithmic(random, 0.1, 30)), 0};
   }
@@ -257,13 +257,13 @@ Scene past_turning_boxes(uint64_t seed)
     const double z = 10.0 * lane;
     Vec3 size;
     for (float &half : size) half = float(logarithmic(random, 0.02, 0.5));
-    Body &box = add_body(scene, Motion::kinematic, box_shape(size[0], size[1], size[2]), {0, 0, z});
+    Body &box = add_body(scene, BodyType::kinematic, box_shape(size[0], size[1], size[2]), {0, 0, z});
     box.orientation = any_turn(random);
     box.angular_velocity = vec3_of(direction(random) * logarithmic(random, 1, 30));
     const double radius = logarithmic(random, 0.02, 0.3), speed = logarithmic(random, 1, 300);
     const double beside = vector_of(size).norm() + radius + logarithmic(random, 0.001, 0.1);
     const double x = -random.uniform(0, 1) * speed / 60;
-    Body &ball = add_solid(scene, sphere_shape(float(radius)), {x, beside, z});
+    Body &ball = add_dynamic_body(scene, sphere_shape(float(radius)), {x, beside, z});
     ball.linear_velocity = {float(speed), 0, 0};
   }
   return scene;
@@ -280,13 +280,13 @@ Scene past_round_spinners(uint64_t seed, double step)
                  radius = logarithmic(random, 0.05, 1);
     const Shape shapes[] = {sphere_shape(float(around)), cylinder_shape(float(around), float(height)),
                             capsule_shape(float(around), float(height))};
-    Body &round = add_solid(scene, shapes[lane % 3], {0, 0, z}, {0, 0, 0, 1}, 1000);
+    Body &round = add_dynamic_body(scene, shapes[lane % 3], {0, 0, z}, {0, 0, 0, 1}, 1000);
     round.angular_velocity = {0, float(logarithmic(random, 0.3, 30)), 0};
     const double speed = logarithmic(random, 1, 300),
                  start = speed * step * random.uniform(0, 3) + random.uniform(0, 1);
     const double y = lane % 3 == 0 ? 0 : 0.9 * height * random.uniform(-1, 1),
                  beside = around + radius + logarithmic(random, 1e-3, 2e-2);
-    Body &ball = add_solid(scene, sphere_shape(float(radius)), {-start - around - radius, y, z + beside});
+    Body &ball = add_dynamic_body(scene, sphere_shape(float(radius)), {-start - around - radius, y, z + beside});
     ball.linear_velocity = {float(speed), 0, 0};
     ball.angular_velocity = vec3_of(direction(random) * 30.0);
   }
@@ -300,10 +300,10 @@ Scene past_at_every_moment(bool driven, double spin, double speed, double cleara
   Scene scene = bouncy_scene({0, 0, 0}, 0);
   for (int lane = 0; lane < 28; ++lane) {
     const double z = apart * lane, moment = 0.02 + 0.07 * (lane / 2), before = speed * step * (1 + moment);
-    Body &ball = driven ? add_body(scene, Motion::kinematic, sphere_shape(standing), {0, 0, z})
-                        : add_solid(scene, sphere_shape(standing), {0, 0, z}, {0, 0, 0, 1}, 1000);
+    Body &ball = driven ? add_body(scene, BodyType::kinematic, sphere_shape(standing), {0, 0, z})
+                        : add_dynamic_body(scene, sphere_shape(standing), {0, 0, z}, {0, 0, 0, 1}, 1000);
     ball.angular_velocity = {0, 0, float(lane % 2 ? spin : -spin)};
-    Body &body = add_solid(scene, sphere_shape(flying), {-before, standing + flying + clearance, z});
+    Body &body = add_dynamic_body(scene, sphere_shape(flying), {-before, standing + flying + clearance, z});
     body.linear_velocity = {float(speed), 0, 0};
   }
   return scene;

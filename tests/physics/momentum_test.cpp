@@ -22,7 +22,7 @@ Scene collision(uint64_t seed, float friction, float restitution)
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
     const Shape shape = i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size);
-    Body &body = add_body(scene, Motion::dynamic, shape, point_of(place));
+    Body &body = add_body(scene, BodyType::dynamic, shape, point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(-1.5 * place + uniform3(1));
@@ -88,7 +88,7 @@ Scene impact(Random &random, int kind, float friction, float restitution)
   for (int side : {-1, 1}) {
     const bool ball = side < 0 ? kind % 3 == 0 : kind % 3 < 2;
     const Shape shape = ball ? sphere_shape(0.4f) : box_shape(0.5f, 0.3f, 0.4f);
-    Body &body = add_body(scene, Motion::dynamic, shape, point_of(Vector(1.2 * side, 0, 0) + uniform3(0.2)));
+    Body &body = add_body(scene, BodyType::dynamic, shape, point_of(Vector(1.2 * side, 0, 0) + uniform3(0.2)));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
     body.linear_velocity = vec3_of(Vector(-2.0 * side, 0, 0) + uniform3(0.3));

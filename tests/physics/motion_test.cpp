@@ -8,8 +8,8 @@ using namespace tandem::physics_tests;
 TEST_CASE("a kinematic platform carries a box and is not slowed by it", "[physics][sanitizer]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::kinematic, box_shape(3, 0.25f, 3), {0, 0, 0}).linear_velocity = {1, 0, 0.5f};
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.75f, 0}).mass = 1000;
+  add_body(scene, BodyType::kinematic, box_shape(3, 0.25f, 3), {0, 0, 0}).linear_velocity = {1, 0, 0.5f};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.75f, 0}).mass = 1000;
   World world(scene);
   run(world, 120);
   const std::vector<BodyState> now = world.bodies();
@@ -24,8 +24,8 @@ TEST_CASE("a kinematic platform carries a box and is not slowed by it", "[physic
 TEST_CASE("a kinematic box pushes what is in its way", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::kinematic, box_shape(0.5f, 0.5f, 0.5f), {-2, 0, 0}).linear_velocity = {2, 0, 0};
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0}).mass = 50;
+  add_body(scene, BodyType::kinematic, box_shape(0.5f, 0.5f, 0.5f), {-2, 0, 0}).linear_velocity = {2, 0, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0, 0}).mass = 50;
   World world(scene);
   run(world, 120);
   const std::vector<BodyState> now = world.bodies();
@@ -37,8 +37,8 @@ TEST_CASE("a kinematic box pushes what is in its way", "[physics]")
 TEST_CASE("a turning kinematic platform turns what stands on it", "[physics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::kinematic, box_shape(3, 0.25f, 3), {0, 0, 0}).angular_velocity = {0, 1, 0};
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.75f, 0});
+  add_body(scene, BodyType::kinematic, box_shape(3, 0.25f, 3), {0, 0, 0}).angular_velocity = {0, 1, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.75f, 0});
   World world(scene);
   run(world, 120);
   CHECK(world.bodies()[1].angular_velocity[1] == Approx(1).epsilon(0.01));
@@ -55,12 +55,12 @@ TEST_CASE("bodies collide only when both accept the other's group", "[physics]")
   const std::vector<Case> cases{
       {1, 0xffffffffu, true}, {2, 0xffffffffu, false}, {1, 2, false}, {1, 4, true}, {3, 6, true}, {2, 1, false}};
   Scene scene = empty_scene();
-  Body &platform = add_body(scene, Motion::fixed, box_shape(30, 0.5f, 2), {0, -0.5f, 0});
+  Body &platform = add_body(scene, BodyType::fixed, box_shape(30, 0.5f, 2), {0, -0.5f, 0});
   platform.filter_group = 4;
   platform.filter_mask = 1;
   for (const Case &each : cases) {
     Body &ball =
-        add_body(scene, Motion::dynamic, sphere_shape(0.25f), {-10 + 2.0f * float(scene.bodies.size()), 0.3f, 0});
+        add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {-10 + 2.0f * float(scene.bodies.size()), 0.3f, 0});
     ball.filter_group = each.group;
     ball.filter_mask = each.mask;
   }

@@ -1,17 +1,17 @@
 /* Starts that should not be: bodies in one place. They part, and neither fly away nor climb. */
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
 
 namespace {
 
-Scene crowd(const Shape &shape, int n, const Vec3 &gravity = {0, -10, 0})
+Scene dense_cluster(const Shape &shape, int n, const Vec3 &gravity = {0, -10, 0})
 {
   Scene scene = empty_scene(gravity);
   if (gravity[1] != 0) add_ground(scene);
-  for (int i = 0; i < n; ++i) add_body(scene, Motion::dynamic, shape, {0, 0.5f, 0});
+  for (int i = 0; i < n; ++i) add_body(scene, BodyType::dynamic, shape, {0, 0.5f, 0});
   return scene;
 }
 
@@ -34,7 +34,7 @@ Energy energy_of(World &world, size_t first)
 
 /* Rods, cubes and plates, some continuous, that fly through each other among slabs, a third of which turn and a third
  * of which are heavy. */
-Scene fast_crowd(uint64_t seed)
+Scene fast_cluster(uint64_t seed)
 {
   Random random(seed);
   Scene scene = empty_scene({0, 0, 0});
@@ -47,16 +47,16 @@ Scene fast_crowd(uint64_t seed)
     return at;
   };
   for (int i = 0; i < 24; ++i) {
-    const Motion motion = i % 3 == 0 ? Motion::fixed : i % 3 == 1 ? Motion::dynamic : Motion::kinematic;
-    Body &slab = add_solid(scene, box_shape(3, 0.1f, 3), somewhere(), {0, 0, 0, 1}, 5);
-    slab.motion = motion;
-    if (motion == Motion::kinematic) slab.angular_velocity = vec3_of(9 * direction(random));
+    const BodyType motion = i % 3 == 0 ? BodyType::fixed : i % 3 == 1 ? BodyType::dynamic : BodyType::kinematic;
+    Body &slab = add_dynamic_body(scene, box_shape(3, 0.1f, 3), somewhere(), {0, 0, 0, 1}, 5);
+    slab.type = motion;
+    if (motion == BodyType::kinematic) slab.angular_velocity = vec3_of(9 * direction(random));
   }
   const Shape shapes[] = {box_shape(0.5f, 0.02f, 0.02f), box_shape(0.2f, 0.2f, 0.2f), box_shape(0.1f, 0.3f, 0.2f)};
   for (int i = 0; i < 220; ++i) {
     const Vector at = somewhere();
     const Quat turn = any_turn(random);
-    Body &body = add_solid(scene, shapes[i % 3], at, turn, float(logarithmic(random, 0.1, 3)));
+    Body &body = add_dynamic_body(scene, shapes[i % 3], at, turn, float(logarithmic(random, 0.1, 3)));
     body.linear_velocity = vec3_of(logarithmic(random, 10, 120) * direction(random));
     body.angular_velocity = vec3_of(logarithmic(random, 1, 60) * direction(random));
     body.continuous = i % 5 < 2;
@@ -71,7 +71,7 @@ double deepest(World &world) { return world.statistics().max_penetration; }
 TEST_CASE("64 bodies in one place part without flying up or away", "[physics]")
 {
   const Shape shape = GENERATE(box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.5f));
-  World world(crowd(shape, 64));
+  World world(dense_cluster(shape, 64));
   double most = 0;
   for (int i = 0; i < 600; ++i) {
     world.step();
@@ -84,7 +84,7 @@ TEST_CASE("64 bodies in one place part without flying up or away", "[physics]")
 TEST_CASE("bodies in one place in empty space part, keep their momentum and hardly move on", "[physics]")
 {
   const Shape shape = GENERATE(box_shape(0.5f, 0.5f, 0.5f), sphere_shape(0.5f));
-  World world(crowd(shape, 16, {0, 0, 0}));
+  World world(dense_cluster(shape, 16, {0, 0, 0}));
   for (int i = 0; i < 600; ++i) {
     world.step();
     REQUIRE(momentum_of(world).linear.norm() < 1e-3);
@@ -102,7 +102,7 @@ TEST_CASE("bodies that fly through each other gain no speed by friction", "[phys
   CAPTURE(solver);
   for (uint64_t seed = 1; seed <= 6; ++seed) {
     CAPTURE(seed);
-    World world(fast_crowd(seed), settings_for(solver));
+    World world(fast_cluster(seed), settings_for(solver));
     for (int i = 0; i < 20; ++i) {
       world.step();
       REQUIRE(fastest(world) < 120 + 4 * 38);
@@ -113,8 +113,8 @@ TEST_CASE("bodies that fly through each other gain no speed by friction", "[phys
 TEST_CASE("a box deep in a fixed one comes out slowly, at one speed, and stays where it is out", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.7f, 0});
-  add_body(scene, Motion::fixed, box_shape(2, 0.5f, 2), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.7f, 0});
+  add_body(scene, BodyType::fixed, box_shape(2, 0.5f, 2), {0, 0, 0});
   World world(scene);
   for (int i = 0; i < 300; ++i) {
     const double before = world.bodies()[0].position[1];

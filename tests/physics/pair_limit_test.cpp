@@ -17,10 +17,10 @@ namespace {
 constexpr uint32_t spheres = 40, all_pairs = spheres * (spheres - 1) / 2;
 
 /* In one place where `apart` is 0. */
-Scene crowd(double apart)
+Scene dense_cluster(double apart)
 {
   Scene scene = empty_scene({0, 0, 0});
-  for (uint32_t i = 0; i < spheres; ++i) add_body(scene, Motion::dynamic, sphere_shape(0.5f), {apart * i, 0, 0});
+  for (uint32_t i = 0; i < spheres; ++i) add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {apart * i, 0, 0});
   return scene;
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("a step with more pairs than are allowed fails whole with every broadp
   for (const Broadphase broadphase : choices<Broadphase>())
     for (const char *on : {"serial", "tbb:threads=2"}) {
       CAPTURE(broadphase, on);
-      World world(crowd(2), limited(broadphase, all_pairs / 2), Placement{on, {}, false});
+      World world(dense_cluster(2), limited(broadphase, all_pairs / 2), Placement{on, {}, false});
       world.step();
       for (uint32_t body = 0; body < spheres; ++body) world.set_body(body, at(0));
       const uint64_t before = world.state_hash();
@@ -71,7 +71,7 @@ TEST_CASE("a step with more pairs than are allowed fails whole with every broadp
 TEST_CASE("a message names all pairs that need room, or says that it names the least")
 {
   for (const Broadphase broadphase : choices<Broadphase>()) {
-    World world(crowd(0), limited(broadphase, 10), Placement{"serial", {}, false});
+    World world(dense_cluster(0), limited(broadphase, 10), Placement{"serial", {}, false});
     const std::string message = failure_of(world), begin = "step 0: room for ";
     CAPTURE(broadphase, message);
     REQUIRE(message.find(begin) == 0);
@@ -86,13 +86,13 @@ TEST_CASE("as many pairs as are allowed are found, none fewer, and they change n
 {
   for (const Broadphase broadphase : choices<Broadphase>()) {
     CAPTURE(broadphase);
-    World exact(crowd(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}),
-        free(crowd(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
+    World exact(dense_cluster(0.001), limited(broadphase, all_pairs), Placement{"serial", {}, false}),
+        free(dense_cluster(0.001), limited(broadphase, most_pairs), Placement{"serial", {}, false});
     exact.step();
     free.step();
     CHECK(exact.statistics().pairs == all_pairs);
     CHECK(exact.state_hash() == free.state_hash());
-    World one_less(crowd(0.001), limited(broadphase, all_pairs - 1), Placement{"serial", {}, false});
+    World one_less(dense_cluster(0.001), limited(broadphase, all_pairs - 1), Placement{"serial", {}, false});
     CHECK_FALSE(failure_of(one_less).empty());
   }
 }
@@ -114,7 +114,7 @@ struct InRows {
 
 InRows in_rows_by_brute_force()
 {
-  World world(crowd(in_a_row), limited(Broadphase::brute_force, most_pairs), Placement{"serial", {}, false});
+  World world(dense_cluster(in_a_row), limited(Broadphase::brute_force, most_pairs), Placement{"serial", {}, false});
   world.step();
   const uint32_t pairs = world.statistics().pairs;
   exchange_neighbours(world);
@@ -131,14 +131,14 @@ TEST_CASE("a broadphase that keeps its list needs no more room for pairs than ot
   const auto [most, hash] = in_rows_by_brute_force();
   for (const Broadphase broadphase : {Broadphase::sap3, Broadphase::trees, Broadphase::grid}) {
     CAPTURE(broadphase, most);
-    World world(crowd(in_a_row), limited(broadphase, most), Placement{"serial", {}, false});
+    World world(dense_cluster(in_a_row), limited(broadphase, most), Placement{"serial", {}, false});
     CHECK(failure_of(world).empty());
     exchange_neighbours(world);
     CHECK(failure_of(world).empty());
     CHECK(world.statistics().pairs <= most);
     CHECK(world.state_hash() == hash);
   }
-  World free(crowd(in_a_row), limited(Broadphase::sap3, most_pairs), Placement{"serial", {}, false});
+  World free(dense_cluster(in_a_row), limited(Broadphase::sap3, most_pairs), Placement{"serial", {}, false});
   free.step();
   exchange_neighbours(free);
   free.step();
@@ -161,8 +161,8 @@ TEST_CASE("pairs of leaves count against the limit too")
 
 TEST_CASE("a limit of pairs that makes no sense is refused")
 {
-  CHECK_THROWS_AS(World(crowd(2), limited(Broadphase::grid, 0)), InputError);
-  CHECK_THROWS_AS(World(crowd(2), limited(Broadphase::grid, most_pairs + 1)), InputError);
+  CHECK_THROWS_AS(World(dense_cluster(2), limited(Broadphase::grid, 0)), InputError);
+  CHECK_THROWS_AS(World(dense_cluster(2), limited(Broadphase::grid, most_pairs + 1)), InputError);
 }
 
 /* 12 x 256 x 256 words of cube maps a hull: 5,462 of them pass 2^32. */

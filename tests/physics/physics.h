@@ -67,11 +67,11 @@ inline Scene empty_scene(const Vec3 &gravity = {0, -10, 0})
 }
 
 /* A body with a shape of its own; what else it needs is set on the reference, before the next is added. */
-inline Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position)
+inline Body &add_body(Scene &scene, BodyType motion, const Shape &shape, const Point &position)
 {
   scene.shapes.push_back(shape);
   Body body;
-  body.motion = motion;
+  body.type = motion;
   body.shape = uint32_t(scene.shapes.size() - 1);
   body.position = position;
   scene.bodies.push_back(body);
@@ -79,7 +79,7 @@ inline Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Poi
 }
 
 /* All points with y <= 0. */
-inline Body &add_ground(Scene &scene) { return add_body(scene, Motion::fixed, half_space_shape(), {0, 0, 0}); }
+inline Body &add_ground(Scene &scene) { return add_body(scene, BodyType::fixed, half_space_shape(), {0, 0, 0}); }
 
 inline uint32_t add_material(Scene &scene, float friction, float restitution = 0)
 {
@@ -138,7 +138,7 @@ inline Momentum momentum_of(World &world)
   const std::vector<BodyState> states = world.bodies();
   for (size_t i = 0; i < states.size(); ++i) {
     const Body &body = world.scene().bodies[i];
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const Vector linear = double(body.mass) * vector_of(states[i].linear_velocity);
     const Vector orbital = vector_of(states[i].position).cross(linear);
     const Vector spin = spin_momentum(world.scene(), body, states[i]);

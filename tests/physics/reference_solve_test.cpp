@@ -62,7 +62,7 @@ Values solve_by_reference(const Column &column, double step)
   Scene scene = empty_scene();
   add_ground(scene);
   for (int k = 0; k < column.mass.size(); ++k) {
-    Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 0.5f + float(k), 0});
+    Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0.5f + float(k), 0});
     ball.mass = float(column.mass[k]);
     ball.linear_velocity = {0, float(column.speed[k]), 0};
   }

@@ -14,7 +14,7 @@ const Placement in_double{"reference", {}, false};
 std::array<double, 4> tumbled(uint32_t substeps)
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.2f, 0.5f, 0.9f), {0, 0, 0}).angular_velocity = {3, 5, 2};
+  add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.5f, 0.9f), {0, 0, 0}).angular_velocity = {3, 5, 2};
   World world(scene, settings_with(1.0 / 64, substeps), in_double);
   run(world, 32);
   return world.precise_bodies()[0].orientation;
@@ -32,7 +32,7 @@ Scene small_heap()
   Scene scene = empty_scene();
   add_ground(scene);
   for (int i = 0; i < 20; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.4f, 0.3f),
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.4f, 0.3f),
              {0.13f * float(i % 5), 1 + 0.9f * float(i), 0.1f * float(i % 3)});
   return scene;
 }
@@ -42,7 +42,7 @@ Scene small_heap()
 TEST_CASE("reference: a projectile follows the parabola to the rounding of doubles", "[physics][reference]")
 {
   Scene scene = empty_scene({0.5f, -10, 0.25f});
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.2f, 0.3f), {20, 5, 0}).linear_velocity = {3, 12, -4};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.3f), {20, 5, 0}).linear_velocity = {3, 12, -4};
   World world(scene, settings_with(1.0 / 60, 4), in_double);
   const int steps = 240;
   run(world, steps);
@@ -65,7 +65,7 @@ TEST_CASE("reference: spin about a principal axis turns by its angle to the roun
           "[physics][reference]")
 {
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.2f, 0.5f, 0.9f), {0, 0, 0}).angular_velocity = {0, 0, 2};
+  add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.5f, 0.9f), {0, 0, 0}).angular_velocity = {0, 0, 2};
   World world(scene, settings_with(1.0 / 64, 1), in_double);
   run(world, 64);
   const auto q = world.precise_bodies()[0].orientation;

@@ -19,7 +19,7 @@ Scene drop_test()
   for (float e : restitutions) {
     const uint32_t material = add_material(scene, 0.5f, e);
     for (float h : heights)
-      add_body(scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(scene.bodies.size()), radius + h, 0})
+      add_body(scene, BodyType::dynamic, sphere_shape(radius), {2.0f * float(scene.bodies.size()), radius + h, 0})
           .material = material;
   }
   return scene;
@@ -70,8 +70,8 @@ TEST_CASE("an impact below the restitution speed does not bounce", "[physics]")
   Scene scene = empty_scene();
   scene.materials[0].restitution = 0.8f;
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(radius), {0, radius + 0.045f, 0}); /* 0.95 m/s */
-  add_body(scene, Motion::dynamic, sphere_shape(radius), {2, radius + 0.055f, 0}); /* 1.05 m/s */
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, radius + 0.045f, 0}); /* 0.95 m/s */
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {2, radius + 0.055f, 0}); /* 1.05 m/s */
   World world(scene);
   const std::vector<double> rebound = rebound_heights(world, 60);
   CHECK(std::abs(rebound[1]) < 0.001);
@@ -83,7 +83,7 @@ TEST_CASE("a box that lands flat bounces to e^2 of its height and does not turn"
   Scene scene = empty_scene();
   scene.materials[0].restitution = 0.5f;
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(0.4f, radius, 0.3f), {0, radius + 2, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.4f, radius, 0.3f), {0, radius + 2, 0});
   World world(scene);
   const std::vector<double> rebound = rebound_heights(world, 60);
   CHECK(rebound[1] == Approx(0.25 * 2).epsilon(0.01));
@@ -94,8 +94,8 @@ TEST_CASE("two balls exchange their velocities when e is 1", "[physics]")
 {
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 1;
-  add_body(scene, Motion::dynamic, sphere_shape(radius), {-2, 0, 0}).linear_velocity = {3, 0, 0};
-  add_body(scene, Motion::dynamic, sphere_shape(radius), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {-2, 0, 0}).linear_velocity = {3, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, 0, 0});
   World world(scene);
   run(world, 60);
   CHECK(std::abs(world.bodies()[0].linear_velocity[0]) < 1e-5);

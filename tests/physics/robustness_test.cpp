@@ -5,8 +5,8 @@
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
+#include "tests/physics/bodies.h"
 #include "tests/physics/physics.h"
-#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -40,11 +40,11 @@ uint64_t hash_after_poisoning(const std::string &backend, const BodyState &poiso
 }
 
 /* n bodies of one shape in one place, over a ground. */
-Scene crowd(const Shape &shape, int n)
+Scene dense_cluster(const Shape &shape, int n)
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int i = 0; i < n; ++i) add_body(scene, Motion::dynamic, shape, {0, 0.5f, 0});
+  for (int i = 0; i < n; ++i) add_body(scene, BodyType::dynamic, shape, {0, 0.5f, 0});
   return scene;
 }
 
@@ -94,8 +94,9 @@ TEST_CASE("a hundred bodies that are not finite are quarantined in one step, and
 TEST_CASE("thousands of bodies that stop being finite are taken out in few repetitions", "[physics]")
 {
   Scene scene = empty_scene({0, 3e38f, 0});
-  for (int i = 0; i < 3000; ++i) add_solid(scene, sphere_shape(0.5f), {1000.0 * i, 0, 0}).linear_velocity[1] = 3.4e38f;
-  add_solid(scene, sphere_shape(0.5f), {-1000, 0, 0}).gravity_factor = 0;
+  for (int i = 0; i < 3000; ++i)
+    add_dynamic_body(scene, sphere_shape(0.5f), {1000.0 * i, 0, 0}).linear_velocity[1] = 3.4e38f;
+  add_dynamic_body(scene, sphere_shape(0.5f), {-1000, 0, 0}).gravity_factor = 0;
   World world(scene);
   int repetitions = 0;
   world.set_observer([&](const Launch &launch) { repetitions += launch.kernel == Kernel::begin_step; });
@@ -129,7 +130,7 @@ TEST_CASE("a step that asks for another repetition for ever ends with a line, an
 
 TEST_CASE("a body that is not finite is named in a step that also overflows", "[physics]")
 {
-  World world(crowd(sphere_shape(0.4f), 200));
+  World world(dense_cluster(sphere_shape(0.4f), 200));
   BodyState poison = world.bodies()[50];
   poison.linear_velocity[0] = std::numeric_limits<float>::quiet_NaN();
   world.set_body_unchecked(50, poison);
@@ -144,8 +145,8 @@ TEST_CASE("a speed that overflows in a step is caught before it is committed", "
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 2, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {5, 2, 0}).linear_velocity = {3e38f, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 2, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {5, 2, 0}).linear_velocity = {3e38f, 0, 0};
   World world(scene, settings_with(0.1));
   run(world, 60);
   REQUIRE(world.quarantined().size() == 1);
@@ -162,7 +163,7 @@ TEST_CASE("overflow grows the buffers, repeats the step and loses no contact", "
   for (const Broadphase broadphase : {Broadphase::brute_force, Broadphase::sap, Broadphase::grid}) {
     Settings settings;
     settings.broadphase = broadphase;
-    World world(crowd(shape, int(n)), settings);
+    World world(dense_cluster(shape, int(n)), settings);
     world.step();
     const Statistics statistics = world.statistics();
     CHECK(statistics.overflow > 0);

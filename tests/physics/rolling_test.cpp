@@ -31,7 +31,10 @@ Scene balls_on_floor(float rolling, float spinning)
   return scene;
 }
 
-Body &add_ball(Scene &scene, float z) { return add_body(scene, Motion::dynamic, sphere_shape(radius), {0, radius, z}); }
+Body &add_ball(Scene &scene, float z)
+{
+  return add_body(scene, BodyType::dynamic, sphere_shape(radius), {0, radius, z});
+}
 
 const std::vector<Solver> solvers_with_rolling{Solver::soft_step, Solver::pgs, Solver::nncg};
 
@@ -75,9 +78,9 @@ TEST_CASE("a ball stays on a slope below atan of coefficient over radius, and ro
     const double critical = std::atan(coefficient / radius), angles[] = {0.8 * critical, 1.5 * critical};
     for (double angle : angles) {
       const float z = 3.0f * float(scene.bodies.size());
-      Body &ramp = add_body(scene, Motion::fixed, box_shape(20, 0.5f, 1), {0, 0, z});
+      Body &ramp = add_body(scene, BodyType::fixed, box_shape(20, 0.5f, 1), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
-      add_body(scene, Motion::dynamic, sphere_shape(radius),
+      add_body(scene, BodyType::dynamic, sphere_shape(radius),
                point_of((0.5 + radius) * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
     }
     World world(scene, settings_for(solver));

@@ -15,18 +15,18 @@ Scene tiled_floor(double uneven)
 {
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 0;
-  add_body(scene, Motion::dynamic, box_shape(half, half, half), {0, half, 0});
+  add_body(scene, BodyType::dynamic, box_shape(half, half, half), {0, half, 0});
   Random random(3);
   for (int x = -tiles_to_each_side; x <= tiles_to_each_side; ++x)
     for (int z = -tiles_to_each_side; z <= tiles_to_each_side; ++z)
-      add_body(scene, Motion::fixed, box_shape(0.5f, 0.25f, 0.5f),
+      add_body(scene, BodyType::fixed, box_shape(0.5f, 0.25f, 0.5f),
                {float(x), -0.25f + float(random.uniform(0, uneven)), float(z)});
   return scene;
 }
 
 struct Slide {
   double slowest = INFINITY, highest = -INFINITY, aside = 0; /* m/s; m; m */
-  double way = 0;
+  double displacement = 0;
 };
 
 /* Heading and yaw of the box: rad about y, from x. */
@@ -43,7 +43,7 @@ Slide slide(Scene scene, double heading, double yaw, double speed, int steps)
     result.slowest = std::min(result.slowest, vector_of(box.linear_velocity).dot(along));
     result.highest = std::max(result.highest, box.position[1] - double(half));
     result.aside = std::max(result.aside, std::abs(vector_of(box.position).dot(across)));
-    result.way = vector_of(box.position).dot(along);
+    result.displacement = vector_of(box.position).dot(along);
   }
   return result;
 }
@@ -76,7 +76,7 @@ TEST_CASE("a box slides over a seam however slowly", "[physics]")
   const Slide result =
       slide(tiled_floor(0), 0, 0, 0.05, 600); /* half a metre: its front goes over a seam in the middle of the way */
   CHECK(result.slowest > 0.0495);
-  CHECK(result.way == Approx(0.5).margin(0.005));
+  CHECK(result.displacement == Approx(0.5).margin(0.005));
 }
 
 TEST_CASE("a step of three centimetres stops a box", "[physics]")
@@ -86,10 +86,10 @@ TEST_CASE("a step of three centimetres stops a box", "[physics]")
   CAPTURE(heading, speed);
   Scene scene = tiled_floor(0);
   for (Body &body : scene.bodies)
-    if (body.motion == Motion::fixed && std::abs(body.position[0]) > 1.5f) body.position[1] += 0.03f;
+    if (body.type == BodyType::fixed && std::abs(body.position[0]) > 1.5f) body.position[1] += 0.03f;
   const Slide result = slide(scene, heading, 0, speed, speed < 1 ? 600 : 120);
   CHECK(result.slowest < 0.1 * speed);
-  CHECK(result.way < 1.5 - half + 0.01);
+  CHECK(result.displacement < 1.5 - half + 0.01);
   CHECK(result.highest < 0.001 + speed * speed / (2 * gravity)); /* it may tip, and fall back */
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("boxes beside one another and on one another stand, with edges that me
   for (int x = 0; x < 3; ++x)
     for (int y = 0; y < 3; ++y)
       for (int z = 0; z < 3; ++z)
-        add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {float(x), 0.5f + float(y), float(z)});
+        add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {float(x), 0.5f + float(y), float(z)});
   World world(scene);
   run(world, 300);
   for (size_t i = 1; i < scene.bodies.size(); ++i)
@@ -110,9 +110,9 @@ TEST_CASE("boxes beside one another and on one another stand, with edges that me
 TEST_CASE("a box that lies on a ledge of two centimetres stays there", "[physics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 0});
   for (float side : {-1.0f, 1.0f})
-    add_body(scene, Motion::fixed, box_shape(0.5f, 0.5f, 0.5f), {side * 0.98f, -0.5f, 0});
+    add_body(scene, BodyType::fixed, box_shape(0.5f, 0.5f, 0.5f), {side * 0.98f, -0.5f, 0});
   World world(scene);
   run(world, 300);
   CHECK(world.bodies()[0].position[1] > 0.09f);

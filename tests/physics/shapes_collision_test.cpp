@@ -3,7 +3,7 @@
 
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -29,8 +29,8 @@ TEST_CASE("a ball bounces off the end and the side of a capsule and the face of 
   scene.materials[0].restitution = e;
   for (const Target &target : targets) {
     const double x = 3.0 * double(scene.bodies.size());
-    add_solid(scene, target.shape, {x, 0, 0}, target.turn, 2).motion = fixed ? Motion::fixed : Motion::dynamic;
-    add_solid(scene, sphere_shape(0.25f), {x, target.top + 0.25 + 0.731, 0}).linear_velocity = {0, -3, 0};
+    add_dynamic_body(scene, target.shape, {x, 0, 0}, target.turn, 2).type = fixed ? BodyType::fixed : BodyType::dynamic;
+    add_dynamic_body(scene, sphere_shape(0.25f), {x, target.top + 0.25 + 0.731, 0}).linear_velocity = {0, -3, 0};
   }
   World world(scene);
   run(world, 60);
@@ -69,8 +69,8 @@ Scene collision(uint64_t seed, float friction, float restitution)
                             cone_shape(size, 0.8f * size),
                             Shape{ShapeType::capsule, {0.8f * size, 0.5f * size, 0.4f * size}},
                             Shape{ShapeType::cylinder, {0.6f * size, size, 0.9f * size}},
-                            stone(random, 20, 1.3 * size)};
-    Body &body = add_solid(scene, shapes[i % 8], place, random.orientation(), float(random.uniform(0.5, 4)));
+                            random_hull_shape(random, 20, 1.3 * size)};
+    Body &body = add_dynamic_body(scene, shapes[i % 8], place, random.orientation(), float(random.uniform(0.5, 4)));
     body.linear_velocity = vec3_of(-1.5 * place + uniform3(1));
     body.angular_velocity = vec3_of(uniform3(3));
   }
@@ -112,14 +112,14 @@ TEST_CASE("collisions of every shape conserve linear and angular momentum", "[ph
 }
 
 /* What stands in the ground is lifted out of it, by no more than its depth. */
-TEST_CASE("a stone that is dropped comes to rest and never gains energy", "[physics]")
+TEST_CASE("a hull that is dropped comes to rest and never gains energy", "[physics]")
 {
   const int points = GENERATE(6, 12, 32);
   for (uint64_t seed = 1; seed <= 12; ++seed) {
     Random random(seed);
     Scene scene = empty_scene();
     add_ground(scene);
-    add_solid(scene, stone(random, points, 0.4), {0, 1.2, 0}, random.orientation());
+    add_dynamic_body(scene, random_hull_shape(random, points, 0.4), {0, 1.2, 0}, random.orientation());
     World world(scene);
     double energy = mechanical_energy(world), beyond = -INFINITY;
     for (int step = 0; step < 480; ++step) {
@@ -154,7 +154,7 @@ Pile settled(World &world, int steps)
   const std::vector<BodyState> states = world.bodies();
   REQUIRE(all_finite(states));
   for (size_t i = 0; i < states.size(); ++i) {
-    if (world.scene().bodies[i].motion != Motion::dynamic) continue;
+    if (world.scene().bodies[i].type != BodyType::dynamic) continue;
     pile.lowest = std::min(pile.lowest, states[i].position[1]);
     pile.farthest = std::max(pile.farthest, std::hypot(states[i].position[0], states[i].position[2]));
   }

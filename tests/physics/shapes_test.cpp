@@ -4,7 +4,7 @@
 
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -46,8 +46,8 @@ TEST_CASE("cylinders, discs, cones and tapered cylinders stand on their ends", "
   Scene scene = empty_scene();
   add_ground(scene);
   for (const Shape &shape : shapes)
-    add_solid(scene, shape, {2.0 * double(scene.bodies.size()), shape.size[1], 0},
-              turn_about({0, 1, 0}, double(scene.bodies.size())));
+    add_dynamic_body(scene, shape, {2.0 * double(scene.bodies.size()), shape.size[1], 0},
+                     turn_about({0, 1, 0}, double(scene.bodies.size())));
   World world(scene);
   const std::vector<BodyState> start = world.bodies();
   run(world, 600);
@@ -70,7 +70,7 @@ Body &add_leaning(Scene &scene, const Shape &shape, double lean, double azimuth,
 {
   const Vector sideways(std::cos(azimuth), 0, std::sin(azimuth));
   const double height = shape.size[0] * std::sin(lean) + shape.size[1] * std::cos(lean);
-  return add_solid(scene, shape, {x, height, 0}, turn_about(Vector(0, 1, 0).cross(sideways), lean));
+  return add_dynamic_body(scene, shape, {x, height, 0}, turn_about(Vector(0, 1, 0).cross(sideways), lean));
 }
 
 } // namespace
@@ -115,8 +115,8 @@ TEST_CASE("capsules rest on their sides", "[physics]")
     const Eigen::Quaterniond turn(about[3], about[0], about[1], about[2]);
     const auto lay = [&](const Shape &shape, double height, double slope) {
       const Eigen::Quaterniond q = turn * Eigen::AngleAxisd(pi / 2 + slope, Vector(0, 0, 1));
-      add_solid(scene, shape, {3.0 * double(scene.bodies.size()), height, 0},
-                {float(q.x()), float(q.y()), float(q.z()), float(q.w())});
+      add_dynamic_body(scene, shape, {3.0 * double(scene.bodies.size()), height, 0},
+                       {float(q.x()), float(q.y()), float(q.z()), float(q.w())});
     };
     lay(capsule_shape(0.25f, 0.5f), 0.25, 0);
     lay(tapered, 0.25, std::asin(0.1 / 0.8)); /* both of its balls touch */
@@ -139,7 +139,7 @@ TEST_CASE("a coin tossed flat lands flat and stops", "[physics]")
   add_ground(scene);
   const float thin = 0.01f;
   for (double spin : {0.0, 6.0}) {
-    Body &coin = add_solid(scene, cylinder_shape(0.1f, thin), {2.0 * double(scene.bodies.size()), 0.4, 0});
+    Body &coin = add_dynamic_body(scene, cylinder_shape(0.1f, thin), {2.0 * double(scene.bodies.size()), 0.4, 0});
     coin.linear_velocity = {0.5f, 1, 0};
     coin.angular_velocity = {0, float(spin), 0};
   }
@@ -162,9 +162,9 @@ TEST_CASE("a hull that is a box falls, rests and slides as the box does", "[phys
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = float(friction);
   add_ground(scene);
   const Shape shapes[] = {box_shape(0.4f, 0.3f, 0.5f), hull_of_box(0.4f, 0.3f, 0.5f)};
-  for (const Shape &shape : shapes) add_solid(scene, shape, {0, 1.3, 3.0 * double(scene.bodies.size())});
+  for (const Shape &shape : shapes) add_dynamic_body(scene, shape, {0, 1.3, 3.0 * double(scene.bodies.size())});
   for (const Shape &shape : shapes)
-    add_solid(scene, shape, {0, 0.3, 3.0 * double(scene.bodies.size())}).linear_velocity = {float(speed), 0, 0};
+    add_dynamic_body(scene, shape, {0, 0.3, 3.0 * double(scene.bodies.size())}).linear_velocity = {float(speed), 0, 0};
   World world(scene);
   double apart = 0;
   for (int step = 0; step < 120; ++step) {
@@ -186,8 +186,8 @@ TEST_CASE("stacks of five cylinders and of five cubes that are hulls stand", "[p
   Scene scene = empty_scene();
   add_ground(scene);
   for (int level = 0; level < 5; ++level)
-    add_solid(scene, cylinder_shape(0.4f, 0.3f), {0, 0.3 + 0.6 * level, 0}, turn_about({0, 1, 0}, level));
-  for (int level = 0; level < 5; ++level) add_solid(scene, hull_of_box(0.5f, 0.5f, 0.5f), {3, 0.5 + level, 0});
+    add_dynamic_body(scene, cylinder_shape(0.4f, 0.3f), {0, 0.3 + 0.6 * level, 0}, turn_about({0, 1, 0}, level));
+  for (int level = 0; level < 5; ++level) add_dynamic_body(scene, hull_of_box(0.5f, 0.5f, 0.5f), {3, 0.5 + level, 0});
   World world(scene);
   const std::vector<BodyState> start = world.bodies();
   double deepest = 0;
@@ -213,7 +213,7 @@ Scene weeble(double radius, double low, double lean)
   Scene scene = empty_scene();
   scene.materials[0].static_friction = scene.materials[0].dynamic_friction = 2;
   add_ground(scene);
-  Body &body = add_body(scene, Motion::dynamic, sphere_shape(float(radius)),
+  Body &body = add_body(scene, BodyType::dynamic, sphere_shape(float(radius)),
                         {low * std::sin(lean), radius - low * std::cos(lean), 0});
   body.orientation = turn_about({0, 0, 1}, lean);
   body.shape_position = {0, float(low), 0};

@@ -32,7 +32,7 @@ Case sliding_cube()
   Case c{empty_scene(), {}};
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.4f;
   add_ground(c.scene);
-  Body &cube = add_body(c.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f - overlap, 0});
+  Body &cube = add_body(c.scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f - overlap, 0});
   cube.linear_velocity = {2, -1.5f, 1};
   cube.angular_velocity = {0.4f, 3, 0.2f};
   c.manifolds.push_back(box_on_face(c.scene, 0, 1, 0.4));
@@ -48,7 +48,7 @@ Case kicked_tower()
   float height = 0;
   const float sizes[3] = {0.5f, 0.375f, 0.25f}, masses[3] = {1, 5, 0.5f};
   for (int k = 0; k < 3; ++k) {
-    Body &cube = add_body(c.scene, Motion::dynamic, box_shape(sizes[k], sizes[k], sizes[k]),
+    Body &cube = add_body(c.scene, BodyType::dynamic, box_shape(sizes[k], sizes[k], sizes[k]),
                           {0.05f * float(k), height + sizes[k] - overlap, 0});
     cube.mass = masses[k];
     cube.linear_velocity = {0.5f * float(k), -1.0f - 0.5f * float(k), 0.2f * float(k * k)};
@@ -65,12 +65,13 @@ Case ball_in_wedge()
   c.scene.materials[0].static_friction = c.scene.materials[0].dynamic_friction = 0.3f;
   const float radius = 0.5f;
   Body &ball =
-      add_body(c.scene, Motion::dynamic, sphere_shape(radius), {0, (radius - overlap) * float(std::sqrt(2.0)), 0});
+      add_body(c.scene, BodyType::dynamic, sphere_shape(radius), {0, (radius - overlap) * float(std::sqrt(2.0)), 0});
   ball.linear_velocity = {0.3f, -2, 0.5f};
   ball.angular_velocity = {1, 2, -4};
   const Vector center = vector_of(ball.position);
   for (const double side : {-1.0, 1.0}) {
-    add_body(c.scene, Motion::fixed, half_space_shape(), {0, 0, 0}).orientation = turn_about({0, 0, 1}, side * pi / 4);
+    add_body(c.scene, BodyType::fixed, half_space_shape(), {0, 0, 0}).orientation =
+        turn_about({0, 0, 1}, side * pi / 4);
     const Vector normal = axes_of(c.scene.bodies.back().orientation).col(1);
     c.manifolds.push_back(
         {c.scene.bodies.size() - 1, 0, normal, {Vector(center - (radius - 0.5 * overlap) * normal)}, 0.3, {}});
@@ -103,7 +104,7 @@ Scene stack(const std::vector<float> &masses)
   Scene scene = empty_scene();
   add_ground(scene);
   for (size_t k = 0; k < masses.size(); ++k)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f + float(k), 0}).mass = masses[k];
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f + float(k), 0}).mass = masses[k];
   return scene;
 }
 
@@ -216,7 +217,7 @@ TEST_CASE("direct: islands past its limit are left to the iterative rows, and co
 TEST_CASE("direct: a body that is not a number is taken out, and the stack beside it stands", "[physics][direct]")
 {
   Scene scene = stack({1, 1, 1});
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {3, 0.5f, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {3, 0.5f, 0});
   World world(scene, direct());
   run(world, 5);
   BodyState broken = world.bodies()[4];
@@ -233,7 +234,7 @@ TEST_CASE("direct: boxes in one place come apart without flying off", "[physics]
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  for (int k = 0; k < 6; ++k) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.6f, 0});
+  for (int k = 0; k < 6; ++k) add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.6f, 0});
   World world(scene, direct());
   double fastest = 0;
   for (int k = 0; k < 60; ++k) {
@@ -249,7 +250,7 @@ TEST_CASE("direct: boxes in one place come apart without flying off", "[physics]
 TEST_CASE("direct: free fall follows the parabola", "[physics][direct]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 100, 0}).linear_velocity = {1, 2, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 100, 0}).linear_velocity = {1, 2, 0};
   World world(scene, direct());
   run(world, 60);
   CHECK(world.bodies()[0].position[1] == Approx(100 + 2 - 5).epsilon(1e-6));
@@ -266,10 +267,10 @@ TEST_CASE("direct: a box on an incline slips past atan mu, and slides as theory 
     const double angle = std::atan(mu) + degrees * radians;
     const Quat tilt = turn_about({0, 0, 1}, angle);
     const float z = 3.0f * float(angles.size());
-    add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z}).orientation = tilt;
+    add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z}).orientation = tilt;
     const Vector up(-std::sin(angle), std::cos(angle), 0);
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z))).orientation =
-        tilt;
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)))
+        .orientation = tilt;
     angles.push_back(angle);
   }
   World world(scene, direct());
@@ -289,8 +290,8 @@ TEST_CASE("direct: a ball and a box that lands flat bounce to e^2 of their heigh
   Scene scene = empty_scene();
   scene.materials[0].restitution = 0.5f;
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(0.25f), {0, 2.25f, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.4f, 0.25f, 0.3f), {3, 2.25f, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {0, 2.25f, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.4f, 0.25f, 0.3f), {3, 2.25f, 0});
   World world(scene, direct());
   double rebound[2] = {0, 0};
   for (int k = 0; k < 60; ++k) {
@@ -310,7 +311,7 @@ TEST_CASE("direct: the middle ball of three at rest passes on what the first bri
 {
   Scene scene = empty_scene({0, 0, 0});
   scene.materials[0].restitution = 1;
-  for (const float x : {-2.0f, 0.0f, 1.5f}) add_body(scene, Motion::dynamic, sphere_shape(0.25f), {x, 0, 0});
+  for (const float x : {-2.0f, 0.0f, 1.5f}) add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {x, 0, 0});
   scene.bodies[0].linear_velocity = {3, 0, 0};
   World world(scene, direct());
   run(world, 120);
@@ -329,7 +330,7 @@ TEST_CASE("direct: a closed system keeps its momentum and gains no energy", "[ph
   for (int i = 0; i < 8; ++i) {
     const Vector place(1.4 * (i % 2) - 0.7, 1.4 * (i / 2 % 2) - 0.7, 1.4 * (i / 4) - 0.7);
     const float size = float(random.uniform(0.25, 0.4));
-    Body &body = add_body(scene, Motion::dynamic,
+    Body &body = add_body(scene, BodyType::dynamic,
                           i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));

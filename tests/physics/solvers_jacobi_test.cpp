@@ -25,11 +25,11 @@ Scene inclines(const std::vector<double> &coefficients, double beside_the_cone)
       const double angle = std::atan(mu) + side * beside_the_cone;
       const uint32_t material = add_material(scene, float(mu));
       const float z = 2.0f * float(scene.bodies.size());
-      Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
+      Body &ramp = add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
       ramp.material = material;
       const Vector place = 0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z);
-      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(place));
+      Body &box = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(place));
       box.orientation = turn_about({0, 0, 1}, angle);
       box.material = material;
     }
@@ -77,7 +77,7 @@ TEST_CASE("jacobi: a falling block of boxes stays bounded", "[physics]")
 TEST_CASE("jacobi: free fall is exact", "[physics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 100, 0}).linear_velocity = {1, 2, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 100, 0}).linear_velocity = {1, 2, 0};
   World world(scene, jacobi());
   run(world, 60);
   const BodyState state = world.bodies()[0];
@@ -110,7 +110,7 @@ TEST_CASE("jacobi: balls return to e squared of their height", "[physics]")
   const std::vector<float> coefficients = {0.3f, 0.5f, 0.8f, 1.0f};
   for (float e : coefficients) {
     const uint32_t material = add_material(scene, 0.5f, e);
-    Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0});
+    Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0});
     ball.material = material;
   }
   World world(scene, jacobi());

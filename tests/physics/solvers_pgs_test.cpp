@@ -1,4 +1,4 @@
-/* The solvers pgs and nncg: what any solver must do, and that conjugate gradients halve the sweeps. */
+/* The solvers pgs and nncg: what any solver must do, and that conjugate gradients halve the passes. */
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/platform.h"
@@ -38,10 +38,10 @@ void add_inclines(Scene &scene, const std::vector<double> &coefficients, double 
       const double angle = std::atan(mu) + side * beside_the_cone;
       const uint32_t material = add_material(scene, float(mu));
       const float z = 2.0f * float(scene.bodies.size());
-      Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
+      Body &ramp = add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
       ramp.orientation = turn_about({0, 0, 1}, angle);
       ramp.material = material;
-      Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f),
+      Body &box = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f),
                            point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
       box.orientation = turn_about({0, 0, 1}, angle);
       box.material = material;
@@ -61,7 +61,7 @@ Scene collision(float restitution)
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    Body &body = add_body(scene, Motion::dynamic,
+    Body &body = add_body(scene, BodyType::dynamic,
                           i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
@@ -74,7 +74,7 @@ Scene collision(float restitution)
 /* --- the residual, in double and from the definition --- */
 
 /* What one more projected step of each row by itself would change, squared, in joules: 0 where the impulses solve the
- * problem. Every row from the same velocities, unlike the sweeps of the solver. */
+ * problem. Every row from the same velocities, unlike the passes of the solver. */
 class Residual {
 public:
   explicit Residual(World &world) : memory_(world.memory()), settings_(world.settings())
@@ -82,15 +82,15 @@ public:
     const auto counts = memory_.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
     stride_ = counts[CAPACITY_PAIRS];
     count_ = counts[COUNT_CONSTRAINTS];
-    velocity_ = memory_.read<row>(Buffer::solver_velocity, 2 * counts[COUNT_BODIES]);
+    velocity_ = memory_.read<float4>(Buffer::solver_velocity, 2 * counts[COUNT_BODIES]);
     a_ = memory_.read<uint32_t>(Buffer::constraint_a, count_);
     b_ = memory_.read<uint32_t>(Buffer::constraint_b, count_);
     slop_ = memory_.read_reals(Buffer::constraint_slop, count_);
-    normal_ = memory_.read<row>(Buffer::constraint_normal, count_);
-    impulse_ = memory_.read<row>(Buffer::constraint_normal_impulse, count_);
-    friction_ = memory_.read<row>(Buffer::constraint_friction_impulse, count_);
-    center_ = memory_.read<row>(Buffer::constraint_center, 2 * size_t{stride_});
-    points_ = memory_.read<row>(Buffer::constraint_points, 8 * size_t{stride_});
+    normal_ = memory_.read<float4>(Buffer::constraint_normal, count_);
+    impulse_ = memory_.read<float4>(Buffer::constraint_normal_impulse, count_);
+    friction_ = memory_.read<float4>(Buffer::constraint_friction_impulse, count_);
+    center_ = memory_.read<float4>(Buffer::constraint_center, 2 * size_t{stride_});
+    points_ = memory_.read<float4>(Buffer::constraint_points, 8 * size_t{stride_});
   }
 
   double joules() const
@@ -102,11 +102,11 @@ public:
   uint32_t constraints() const { return count_; }
 
 private:
-  static Vector xyz(const row &r) { return {r.x, r.y, r.z}; }
+  static Vector xyz(const float4 &r) { return {r.x, r.y, r.z}; }
 
   Vector slide_at(uint32_t i, const Vector &arm_a, const Vector &arm_b) const
   {
-    const row *a = &velocity_[2 * a_[i]], *b = &velocity_[2 * b_[i]];
+    const float4 *a = &velocity_[2 * a_[i]], *b = &velocity_[2 * b_[i]];
     return xyz(b[0]) + xyz(b[1]).cross(arm_b) - xyz(a[0]) - xyz(a[1]).cross(arm_a);
   }
 
@@ -115,7 +115,7 @@ private:
     const float impulses[] = {impulse_[i].x, impulse_[i].y, impulse_[i].z, impulse_[i].w};
     double sum = 0;
     for (uint32_t k = 0; k < 4; ++k) {
-      const row &point_a = points_[stride_ * k + i], &point_b = points_[stride_ * (k + 4) + i];
+      const float4 &point_a = points_[stride_ * k + i], &point_b = points_[stride_ * (k + 4) + i];
       const double mass = point_b.w, separation = point_a.w, h = double(settings_.step) / settings_.substeps;
       if (mass == 0) continue;
       const double push = std::max(0.2 / h * std::min(separation + slop_[i], 0.0), -double(settings_.push_speed));
@@ -129,7 +129,7 @@ private:
 
   double of_friction(uint32_t i) const
   {
-    const row &center_a = center_[i], &center_b = center_[stride_ + i];
+    const float4 &center_a = center_[i], &center_b = center_[stride_ + i];
     const double mass = center_a.w,
                  limit = normal_[i].w * (double(impulse_[i].x) + impulse_[i].y + impulse_[i].z + impulse_[i].w);
     const Vector n = xyz(normal_[i]), slide = slide_at(i, xyz(center_a), xyz(center_b));
@@ -147,10 +147,10 @@ private:
   uint32_t stride_, count_;
   std::vector<uint32_t> a_, b_;
   std::vector<double> slop_;
-  std::vector<row> velocity_, normal_, impulse_, friction_, center_, points_;
+  std::vector<float4> velocity_, normal_, impulse_, friction_, center_, points_;
 };
 
-/* After so many sweeps of the first step, which has nothing to warm start from: relative to the residual of no
+/* After so many passes of the first step, which has nothing to warm start from: relative to the residual of no
  * impulse. */
 double residual_after(Solver solver, uint32_t sweeps, const Scene &scene)
 {
@@ -173,7 +173,7 @@ TEST_CASE("pgs and nncg: free fall follows the parabola", "[physics]")
 {
   for (const Case &c : cases) {
     Scene scene = empty_scene();
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 20, 0}).linear_velocity = {3, 2, 0};
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 20, 0}).linear_velocity = {3, 2, 0};
     World world(scene, settings_of(c));
     run(world, 60);
     CAPTURE(name_of(c));
@@ -197,7 +197,7 @@ TEST_CASE("pgs and nncg: a stack of ten boxes stands", "[physics]")
     const Statistics statistics = world.statistics();
     INFO(name_of(c) << ": sideways " << sideways << ", sunk " << sunk << ", deepest " << statistics.max_penetration
                     << ", energy " << statistics.kinetic_energy);
-    CHECK(sideways < 0.03); /* points in order lean a stack towards the first: steady, and less with every sweep */
+    CHECK(sideways < 0.03); /* points in order lean a stack towards the first: steady, and less with every pass */
     CHECK(sunk < 0.1);
     CHECK(statistics.max_penetration < 0.02);
     CHECK(statistics.kinetic_energy < 0.01);
@@ -230,7 +230,7 @@ TEST_CASE("pgs and nncg: a block of boxes stays bounded", "[physics]")
 }
 
 /* Planks that tumble among others: effective masses change within a step, and rows that took them from before would
- * double their error with every sweep. */
+ * double their error with every pass. */
 TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweeps", "[physics]")
 {
   for (const Solver solver : {Solver::pgs, Solver::nncg})
@@ -243,7 +243,7 @@ TEST_CASE("pgs and nncg: a pile of all shapes gains no energy however many sweep
         double sum = world.statistics().kinetic_energy;
         const std::vector<BodyState> states = world.bodies();
         for (size_t i = 0; i < states.size(); ++i)
-          if (scene.bodies[i].motion == Motion::dynamic) sum += scene.bodies[i].mass * gravity * states[i].position[1];
+          if (scene.bodies[i].type == BodyType::dynamic) sum += scene.bodies[i].mass * gravity * states[i].position[1];
         return sum;
       };
       const double start = energy();
@@ -284,7 +284,7 @@ TEST_CASE("pgs and nncg: a ball returns to e squared of its height", "[physics]"
     for (float e : {0.3f, 0.7f, 1.0f}) {
       Scene scene = empty_scene();
       add_ground(scene).material = add_material(scene, 0.5f, e);
-      add_body(scene, Motion::dynamic, sphere_shape(0.25f), {0, 2.25f, 0});
+      add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {0, 2.25f, 0});
       World world(scene, settings_of(c));
       double height = 0;
       for (int i = 0; i < 60 && height == 0; ++i) {
@@ -355,9 +355,9 @@ TEST_CASE("pgs and nncg: constraints without a colour are solved too", "[physics
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
+  add_body(scene, BodyType::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 81; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f),
              {0.5f * float(i % 9) - 2, 0.7f, 0.5f * float(i / 9) - 2})
         .mass = 0.5f;
   for (const Case &c : cases) {

@@ -13,9 +13,9 @@ namespace {
 Scene column(int height, float mass_on_top, const Vec3 &offset = {0, 0, 0})
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
+  add_body(scene, BodyType::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
   for (int i = 0; i < height; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]})
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]})
         .mass = i + 1 == height ? mass_on_top : 1.0f;
   return scene;
 }
@@ -47,10 +47,10 @@ Standing stand(const Scene &scene, const Settings &settings, int steps, const st
 void add_incline(Scene &scene, uint32_t material, double angle, float z)
 {
   const Quat tilt = turn_about({0, 0, 1}, angle);
-  Body &ramp = add_body(scene, Motion::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
+  Body &ramp = add_body(scene, BodyType::fixed, box_shape(10, 0.5f, 0.6f), {0, 0, z});
   ramp.orientation = tilt;
   ramp.material = material;
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f),
+  Body &box = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f),
                        point_of(0.65 * Vector(-std::sin(angle), std::cos(angle), 0) + Vector(0, 0, z)));
   box.orientation = tilt;
   box.material = material;
@@ -71,7 +71,7 @@ Drift collide(const Settings &settings, float friction, float restitution)
   for (int i = 0; i < 12; ++i) {
     const Vector place(1.5 * (i % 3 - 1), 1.5 * (i / 3 % 2) - 0.75, 1.5 * (i / 6) - 0.75);
     const float size = float(random.uniform(0.2, 0.4));
-    Body &body = add_body(scene, Motion::dynamic,
+    Body &body = add_body(scene, BodyType::dynamic,
                           i % 2 ? sphere_shape(size) : box_shape(size, 0.7f * size, 1.2f * size), point_of(place));
     body.orientation = random.orientation();
     body.mass = float(random.uniform(0.5, 4));
@@ -139,7 +139,7 @@ TEST_CASE("position solvers: free fall is exact to rounding", "[physics]")
   const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.4f, 0.3f), {0, 100, 0}).linear_velocity = {3, 2, 0};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.4f, 0.3f), {0, 100, 0}).linear_velocity = {3, 2, 0};
   World world(scene, settings_for(solver));
   run(world, 120);
   const BodyState body = world.bodies()[1];
@@ -182,7 +182,7 @@ TEST_CASE("position solvers: a ball bounces to e^2 of its height", "[physics]")
   const std::vector<float> restitutions{0.3f, 0.5f, 0.8f, 1.0f};
   for (float e : restitutions) {
     const uint32_t material = add_material(scene, 0.5f, e);
-    add_body(scene, Motion::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0}).material =
+    add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {2.0f * float(scene.bodies.size()), 2.25f, 0}).material =
         material;
   }
   World world(scene, settings_for(solver));
@@ -237,15 +237,16 @@ TEST_CASE("position solvers: more substeps or iterations, less penetration", "[p
   CHECK(sunk[2] < std::max(0.8 * sunk[1], 1e-4)); /* both have converged, to what warm start and rounding leave */
 }
 
-/* A slab under more boxes than there are colours, for the tail of constraints and for long lists of a body. */
+/* A slab under more boxes than there are colours, for the overflow constraints of constraints and for long lists of a
+ * body. */
 TEST_CASE("position solvers: a body of many neighbours", "[physics]")
 {
   const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
+  add_body(scene, BodyType::dynamic, box_shape(3, 0.25f, 3), {0, 0.25f, 0}).mass = 20;
   for (int i = 0; i < 100; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f),
+    add_body(scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f),
              {0.5f * float(i % 10) - 2.25f, 0.7f, 0.5f * float(i / 10) - 2.25f})
         .mass = 0.5f;
   const Standing standing = stand(scene, settings_for(solver), 60);
@@ -285,7 +286,7 @@ double mechanical_energy(World &world)
   const std::vector<BodyState> bodies = world.bodies();
   double energy = world.statistics().kinetic_energy;
   for (size_t i = 0; i < bodies.size(); ++i)
-    if (world.scene().bodies[i].motion == Motion::dynamic)
+    if (world.scene().bodies[i].type == BodyType::dynamic)
       energy += double(world.scene().bodies[i].mass) * gravity * bodies[i].position[1];
   return energy;
 }

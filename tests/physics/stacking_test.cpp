@@ -1,8 +1,8 @@
 /* Resting contact: stacks stand, piles do not sink, and that far from the origin as well. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
+#include "tests/physics/bodies.h"
 #include "tests/physics/physics.h"
-#include "tests/physics/solids.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -13,9 +13,10 @@ namespace {
 Scene column(int height, const Vec3 &offset)
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
+  add_body(scene, BodyType::fixed, box_shape(5, 1, 5), {offset[0], offset[1] - 1, offset[2]});
   for (int i = 0; i < height; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {offset[0], offset[1] + 0.5f + float(i), offset[2]});
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f),
+             {offset[0], offset[1] + 0.5f + float(i), offset[2]});
   return scene;
 }
 
@@ -27,7 +28,7 @@ Scene log_cabin(int layers, float half)
   for (int layer = 0; layer < layers; ++layer)
     for (double side : {-0.3, 0.3}) {
       const bool across = layer % 2;
-      Body &log = add_body(scene, Motion::dynamic, box_shape(1, half, half),
+      Body &log = add_body(scene, BodyType::dynamic, box_shape(1, half, half),
                            {across ? side : 0, half * (1 + 2.002 * layer), across ? 0 : side});
       log.orientation = turn_about(Vector::UnitY(), across ? pi / 2 : 0);
     }

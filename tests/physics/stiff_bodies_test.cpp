@@ -11,12 +11,12 @@ TEST_CASE("a body whose moments are infinite about two axes turns about the thir
   for (const Solver solver : choices<Solver>()) {
     Scene scene = empty_scene();
     add_ground(scene);
-    Body &tilted = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 1.5, 0});
+    Body &tilted = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 1.5, 0});
     tilted.orientation = turn_about({0, 0, 1}, 0.3);
     tilted.linear_velocity = {1, 0, 0};
-    Body &struck = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {4, 0.5, 0});
+    Body &struck = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {4, 0.5, 0});
     scene.bodies[1].inertia = struck.inertia = {0, 0.2f, 0};
-    add_body(scene, Motion::dynamic, sphere_shape(0.3f), {2.5, 0.5, 0.4}).linear_velocity = {4, 0, 0};
+    add_body(scene, BodyType::dynamic, sphere_shape(0.3f), {2.5, 0.5, 0.4}).linear_velocity = {4, 0, 0};
     World world(scene, settings_for(solver));
     run(world, 120);
     const Matrix stands = axes_of(world.bodies()[1].orientation), turned = axes_of(world.bodies()[2].orientation);
@@ -36,7 +36,8 @@ TEST_CASE("without restitution a body that falls flat stays down, however hard i
       for (double height = 0.5; height < 6; height += 0.73) {
         Scene scene = empty_scene();
         add_ground(scene);
-        Body &body = add_body(scene, Motion::dynamic, box_shape(0.5f, half_height, 0.5f), {0, half_height + height, 0});
+        Body &body =
+            add_body(scene, BodyType::dynamic, box_shape(0.5f, half_height, 0.5f), {0, half_height + height, 0});
         body.infinite_inertia = !turns;
         World world(scene);
         double impact = 0, rebound = 0;

@@ -1,6 +1,6 @@
 /* Triggers: who is reported, from when to when against closed forms, and that nothing is pushed. */
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -24,14 +24,14 @@ TEST_CASE("a ball through a trigger: begin and end in their steps, on the same p
 {
   const Broadphase broadphase = GENERATE(Broadphase::grid, Broadphase::sap, Broadphase::brute_force);
   Scene scene = empty_scene();
-  Body &ball = add_body(scene, Motion::dynamic, sphere_shape(0.2f), {-2, 3, 0.1});
+  Body &ball = add_body(scene, BodyType::dynamic, sphere_shape(0.2f), {-2, 3, 0.1});
   ball.linear_velocity = {4, 0, 0.1f};
   ball.angular_velocity = {3, 1, 0};
   Settings settings = with_events();
   settings.broadphase = broadphase;
   World alone(scene, settings, {"serial", {}});
   const Vector half(0.5, 0.7, 0.6);
-  add_body(scene, Motion::fixed, box_shape(0.5f, 0.7f, 0.6f), {0, 1.5, 0}).trigger = true;
+  add_body(scene, BodyType::fixed, box_shape(0.5f, 0.7f, 0.6f), {0, 1.5, 0}).trigger = true;
   World world(scene, settings, {"serial", {}});
   int overlaps = 0;
   bool overlapped = false;
@@ -69,10 +69,10 @@ TEST_CASE("a body of any shape through a trigger of any shape is in it once, wit
          {sphere_shape(size), box_shape(size, size, size), capsule_shape(0.5f * size, 0.5f * size),
           cylinder_shape(size, 0.5f * size), cone_shape(size, 0.5f * size), hull_of_box(size, size, size)}) {
       const double z = 10.0 * double(scene.bodies.size());
-      Body &zone = add_solid(scene, trigger, {0, 0, z}, turn_about({0.3, 1, 0.2}, 0.7));
-      zone.motion = Motion::fixed;
+      Body &zone = add_dynamic_body(scene, trigger, {0, 0, z}, turn_about({0.3, 1, 0.2}, 0.7));
+      zone.type = BodyType::fixed;
       zone.trigger = true;
-      Body &body = add_solid(scene, moving, {-3.5, 0.05, z + 0.07});
+      Body &body = add_dynamic_body(scene, moving, {-3.5, 0.05, z + 0.07});
       body.linear_velocity = {3, 0, 0};
       body.angular_velocity = {0.2f, 1, 0.5f};
     }
@@ -101,14 +101,14 @@ TEST_CASE("a body of any shape through a trigger of any shape is in it once, wit
 
 TEST_CASE("who meets a trigger: whatever is none itself, where one of the two moves", "[physics][trigger]")
 {
-  const Motion motions[] = {Motion::fixed, Motion::kinematic, Motion::dynamic};
+  const BodyType motions[] = {BodyType::fixed, BodyType::kinematic, BodyType::dynamic};
   struct Case {
-    Motion first, second;
+    BodyType first, second;
     bool first_trigger, second_trigger, half_space;
   };
   std::vector<Case> cases;
-  for (const Motion first : motions)
-    for (const Motion second : motions)
+  for (const BodyType first : motions)
+    for (const BodyType second : motions)
       for (const bool first_trigger : {false, true})
         for (const bool second_trigger : {false, true})
           cases.push_back({first, second, first_trigger, second_trigger, false});
@@ -128,13 +128,13 @@ TEST_CASE("who meets a trigger: whatever is none itself, where one of the two mo
     REQUIRE((event.a % 2 == 0 && event.b == event.a + 1));
     found[event.a / 2] = true;
   }
-  const auto is_dynamic = [](const Case &c) { return c.first == Motion::dynamic || c.second == Motion::dynamic; };
+  const auto is_dynamic = [](const Case &c) { return c.first == BodyType::dynamic || c.second == BodyType::dynamic; };
   size_t solids = 0;
   for (size_t k = 0; k < cases.size(); ++k) {
     const Case &c = cases[k];
     CAPTURE(int(c.first), int(c.second), c.first_trigger, c.second_trigger);
     const bool both = c.first_trigger && c.second_trigger, either = c.first_trigger || c.second_trigger;
-    const bool moves = c.first != Motion::fixed || c.second != Motion::fixed;
+    const bool moves = c.first != BodyType::fixed || c.second != BodyType::fixed;
     CHECK(found[k] == (either ? !both && moves : is_dynamic(c)));
     solids += !either && is_dynamic(c);
   }
@@ -147,10 +147,10 @@ TEST_CASE("a half-space as a trigger: kinematic and dynamic bodies enter it, oth
 {
   Scene scene = empty_scene();
   add_ground(scene).trigger = true;
-  Body &lift = add_body(scene, Motion::kinematic, box_shape(0.5f, 0.5f, 0.5f), {0, 1, 0});
+  Body &lift = add_body(scene, BodyType::kinematic, box_shape(0.5f, 0.5f, 0.5f), {0, 1, 0});
   lift.linear_velocity = {0, -1, 0};
-  add_body(scene, Motion::dynamic, capsule_shape(0.2f, 0.3f), {5, 1, 0});
-  add_body(scene, Motion::kinematic, half_space_shape(), {0, -20, 0}).linear_velocity = {0, 1, 0};
+  add_body(scene, BodyType::dynamic, capsule_shape(0.2f, 0.3f), {5, 1, 0});
+  add_body(scene, BodyType::kinematic, half_space_shape(), {0, -20, 0}).linear_velocity = {0, 1, 0};
   World world(scene, with_events(), {"serial", {}});
   /* The lift's face is there after 0.5 s, 30 steps, give or take a rounding; the capsule falls 0.5 m in 0.316 s, 19
    * steps. */
@@ -173,8 +173,8 @@ TEST_CASE("a half-space as a trigger: kinematic and dynamic bodies enter it, oth
 TEST_CASE("a trigger that falls is reported by what it falls through, and rests on nothing", "[physics][trigger]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, box_shape(2, 0.2f, 2), {0, 0, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0, 1.5, 0}).trigger = true;
+  add_body(scene, BodyType::fixed, box_shape(2, 0.2f, 2), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0, 1.5, 0}).trigger = true;
   World world(scene, with_events(), {"serial", {}});
   std::string history;
   for (int i = 0; i < 60; ++i) {
@@ -193,7 +193,7 @@ TEST_CASE("batches are proven with triggers among them", "[physics][trigger]")
     Scene scene = empty_scene();
     add_ground(scene);
     for (int i = 0; i < 30; ++i) {
-      Body &body = add_body(scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f),
+      Body &body = add_body(scene, BodyType::dynamic, box_shape(0.3f, 0.3f, 0.3f),
                             {0.5 * (i % 3), 0.3 + 0.6 * (i / 6), 0.5 * (i / 3 % 2)});
       body.trigger = i % 5 == 0;
       body.gravity_factor = body.trigger ? 0.0f : 1.0f;

@@ -110,7 +110,7 @@ private:
     for (uint32_t color = 0; color < COLOR_LIMIT; ++color)
       if (const uint32_t size = after[COLOR_START + color + 1] - after[COLOR_START + color])
         table.sizes.push_back(size);
-    table.tail = after[COLOR_START + COLOR_LIMIT + 1] - after[COLOR_START + COLOR_LIMIT];
+    table.overflow = after[COLOR_START + COLOR_LIMIT + 1] - after[COLOR_START + COLOR_LIMIT];
     table.rounds = after[COUNT_ROUNDS];
     table.right = after[COUNT_CONFLICTS] == 0 && after[COUNT_MISBATCHED] == 0;
     return table;
@@ -207,7 +207,7 @@ std::string batch_text(const BatchScene &scene)
                                  scene.steps, scene.bodies, scene.pairs, scene.constraints, size_table(scene));
   Table table({"batcher", "batches", "tail", "fill", "rounds", "ms", "least", "most", "check"});
   for (const BatchTable &t : scene.tables)
-    table.add({t.batcher, fmt::format("{}", t.sizes.size()), fmt::format("{}", t.tail),
+    table.add({t.batcher, fmt::format("{}", t.sizes.size()), fmt::format("{}", t.overflow),
                fmt::format("{:.0f}%", 100 * fill_of(t)), fmt::format("{}", t.rounds),
                fmt::format("{:.3f}", t.milliseconds.median), fmt::format("{:.3f}", t.milliseconds.minimum),
                fmt::format("{:.3f}", t.milliseconds.maximum), t.right ? "right" : "WRONG"});
@@ -224,7 +224,7 @@ Json batch_json(const BatchScene &scene)
         {{"name", t.batcher},
          {"batches", t.sizes.size()},
          {"sizes", t.sizes},
-         {"tail", t.tail},
+         {"tail", t.overflow},
          {"fill", fill_of(t)},
          {"rounds", t.rounds},
          {"ms", {{"median", t.milliseconds.median}, {"min", t.milliseconds.minimum}, {"max", t.milliseconds.maximum}}},

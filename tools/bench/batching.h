@@ -12,8 +12,8 @@ namespace tandem {
 
 struct BatchTable {
   std::string batcher;
-  std::vector<uint32_t> sizes; /* of the batches that are not empty, in order; without the tail */
-  uint32_t tail = 0;
+  std::vector<uint32_t> sizes; /* of the batches that are not empty, in order; without the overflow constraints */
+  uint32_t overflow = 0;
   uint32_t rounds = 0;
   Spread milliseconds; /* from the list of contacts to a colour for each; no sort by colour */
   bool right = false;  /* the check found no conflict and no pair in a wrong number of batches */

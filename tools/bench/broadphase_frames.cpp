@@ -75,7 +75,7 @@ void BroadphaseFrames::upload()
   const Parameters parameters = parameters_of(bodies_.scene, settings_, plan_.features);
   memory_.upload(Buffer::parameters, &parameters, sizeof parameters);
   std::vector<uint32_t> counts(COUNT_TOTAL);
-  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large}))
+  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.unbounded, bodies_.special.large}))
     counts[entry] = value;
   counts[CAPACITY_PAIRS] = plan_.capacity_pairs;
   counts[CAPACITY_CELLS] = plan_.capacity_cells;
@@ -86,7 +86,7 @@ void BroadphaseFrames::upload()
 void BroadphaseFrames::guess_counts()
 {
   plan_.known.fill(plan_.capacity_pairs);
-  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.boundless, bodies_.special.large}))
+  for (const auto &[entry, value] : entries_of({plan_.bodies, bodies_.special.unbounded, bodies_.special.large}))
     plan_.known[entry] = value;
   plan_.known[COUNT_CELLS_PLUS_ONE] = plan_.capacity_cells + 1;
 }
@@ -106,8 +106,8 @@ double BroadphaseFrames::run(uint32_t frame)
 
 void BroadphaseFrames::move_bodies(uint32_t frame)
 {
-  const std::vector<row> places = bodies_.places_at(frame);
-  memory_.upload(Buffer::body_position, places.data(), places.size() * sizeof(row));
+  const std::vector<float4> places = bodies_.places_at(frame);
+  memory_.upload(Buffer::body_position, places.data(), places.size() * sizeof(float4));
 }
 
 double BroadphaseFrames::find_pairs()

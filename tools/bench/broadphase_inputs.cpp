@@ -68,7 +68,7 @@ Scene pile(uint32_t bodies)
 {
   Random random(2);
   Scene scene = without_gravity();
-  add_body(scene, add_shape(scene, box_shape(400, 400, 400)), {0, -400, 0}).motion = Motion::fixed;
+  add_body(scene, add_shape(scene, box_shape(400, 400, 400)), {0, -400, 0}).type = BodyType::fixed;
   const uint32_t box = add_shape(scene, box_shape(1, 1, 1));
   const auto side = uint32_t(cube_side(bodies - 1));
   for (uint32_t i = 0; i + 1 < bodies; ++i) {
@@ -131,7 +131,7 @@ Scene standing(uint32_t bodies)
     const uint32_t shape = random.below(variants);
     Body &body = add_body(scene, shape, region.place(random));
     if (i % 100 == 0) set_moving(body, random);
-    else body.motion = Motion::fixed;
+    else body.type = BodyType::fixed;
   }
   return scene;
 }
@@ -168,16 +168,16 @@ MovingBodies::MovingBodies(const BroadphaseInput &input, uint32_t bodies)
     : scene(input.scene(bodies)), special(specialise(scene, Settings{}))
 {}
 
-std::vector<row> MovingBodies::places_at(uint32_t frame) const
+std::vector<float4> MovingBodies::places_at(uint32_t frame) const
 {
   const double seconds = frame * double(Settings{}.step);
-  std::vector<row> rows;
+  std::vector<float4> rows;
   rows.reserve(2 * scene.bodies.size());
   for (uint32_t index : special.order) {
     const Body &body = scene.bodies[index];
     Point at = body.position;
     for (size_t axis = 0; axis < 3; ++axis) at[axis] += seconds * double(body.linear_velocity[axis]);
-    const std::array<row, 2> place = place_of(at);
+    const std::array<float4, 2> place = double_float3_of(at);
     rows.insert(rows.end(), place.begin(), place.end());
   }
   return rows;

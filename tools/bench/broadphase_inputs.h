@@ -36,7 +36,7 @@ struct MovingBodies {
   MovingBodies(const BroadphaseInput &input, uint32_t bodies);
 
   /* Rows of body_position: every body `frame` steps along its velocity. */
-  std::vector<row> places_at(uint32_t frame) const;
+  std::vector<float4> places_at(uint32_t frame) const;
 
   Scene scene;
   Specialisation special;

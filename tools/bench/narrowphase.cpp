@@ -30,7 +30,7 @@ namespace {
 using scene_builders::add_body;
 
 constexpr int narrowphase_repetitions = 9;
-constexpr uint32_t variants = 16;                            /* sizes and stones of each shape */
+constexpr uint32_t variants = 16;                            /* sizes and hulls of each shape */
 constexpr double cell = 4, deepest = 0.02, farthest = 0.015; /* m; contacts are made 0.02 ahead */
 
 /* --- shapes --------------------------------------------------------------------------------------------- */
@@ -117,7 +117,7 @@ public:
   convex of(uint32_t body, vec3 offset) const
   {
     const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(),     face_starts_.data(),
-                                corners_.data(), edges_.data(),    strips_.data(),     links_.data(),
+                                corners_.data(), edges_.data(),    chunks_.data(),     links_.data(),
                                 nullptr,         nullptr,          SUPPORT_BRUTE_FORCE};
     return load_convex(shapes_.data(), convexes_.data(), poses_.data(), orientations_.data(), tables, offset,
                        {index_[body], index_[body], INDEX_NONE});
@@ -137,10 +137,10 @@ private:
 
   World world_;
   std::vector<uint32_t> index_;
-  std::vector<row> shapes_ = all<row>(Buffer::body_shape), poses_ = all<row>(Buffer::body_shape_pose),
-                   orientations_ = all<row>(Buffer::body_orientation);
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane),
-                   strips_ = all<row>(Buffer::hull_strip);
+  std::vector<float4> shapes_ = all<float4>(Buffer::body_shape), poses_ = all<float4>(Buffer::body_shape_pose),
+                      orientations_ = all<float4>(Buffer::body_orientation);
+  std::vector<float4> vertices_ = all<float4>(Buffer::hull_vertex), planes_ = all<float4>(Buffer::hull_plane),
+                      chunks_ = all<float4>(Buffer::hull_chunk);
   std::vector<uint32_t> convexes_ = all<uint32_t>(Buffer::body_convex), headers_ = all<uint32_t>(Buffer::hull_header);
   std::vector<uint32_t> face_starts_ = all<uint32_t>(Buffer::hull_face_start),
                         corners_ = all<uint32_t>(Buffer::hull_corner);

@@ -23,7 +23,7 @@ Scene boxes_in_a_cube(uint32_t boxes, double side)
   scene.shapes = {box_shape(0.5f, 0.5f, 0.5f)};
   scene.bodies.resize(boxes);
   for (Body &body : scene.bodies) {
-    body.motion = Motion::fixed;
+    body.type = BodyType::fixed;
     body.position = {random.uniform(0, side), random.uniform(0, side), random.uniform(0, side)};
     body.orientation = random.orientation();
   }
@@ -70,7 +70,7 @@ std::vector<RayTime> time_rays(World &world, const std::string &structure, const
   RayTime nearest{structure, "nearest"}, blocked{structure, "blocked"}, making{structure, "making"};
   std::vector<double> near, block, make;
   world.cast_rays(asked); /* builds the kernels */
-  world.find_blocked_rays(asked);
+  world.cast_rays_any(asked);
   world.set_profiling(true);
   for (int k = 0; k < repetitions; ++k) {
     touch(world);
@@ -80,8 +80,8 @@ std::vector<RayTime> time_rays(World &world, const std::string &structure, const
     make.push_back(others);
     nearest.hits = static_cast<uint64_t>(
         std::count_if(hits.begin(), hits.end(), [](const RayHit &hit) { return hit.body != no_body; }));
-    const std::vector<bool> found = world.find_blocked_rays(asked);
-    block.push_back(spent(world, Kernel::find_blocked_rays).first);
+    const std::vector<bool> found = world.cast_rays_any(asked);
+    block.push_back(spent(world, Kernel::cast_rays_any).first);
     blocked.hits = static_cast<uint64_t>(std::count(found.begin(), found.end(), true));
   }
   nearest.milliseconds = spread_of(near);

@@ -42,7 +42,7 @@ public:
   hull_tables of(uint32_t support) const
   {
     return {headers_.data(), vertices_.data(), planes_.data(), starts_.data(), corners_.data(), edges_.data(),
-            strips_.data(),  links_.data(),    nullptr,        nullptr,        support};
+            chunks_.data(),  links_.data(),    nullptr,        nullptr,        support};
   }
 
 private:
@@ -66,8 +66,8 @@ private:
   }
 
   World world_;
-  std::vector<row> vertices_ = all<row>(Buffer::hull_vertex), planes_ = all<row>(Buffer::hull_plane),
-                   strips_ = all<row>(Buffer::hull_strip);
+  std::vector<float4> vertices_ = all<float4>(Buffer::hull_vertex), planes_ = all<float4>(Buffer::hull_plane),
+                      chunks_ = all<float4>(Buffer::hull_chunk);
   std::vector<uint32_t> headers_ = all<uint32_t>(Buffer::hull_header), starts_ = all<uint32_t>(Buffer::hull_face_start);
   std::vector<uint32_t> corners_ = all<uint32_t>(Buffer::hull_corner), edges_ = all<uint32_t>(Buffer::hull_edge),
                         links_ = all<uint32_t>(Buffer::hull_link);

@@ -42,10 +42,10 @@ struct Request {
 };
 
 struct BodyBounds {
-  row lower, upper;
+  float4 lower, upper;
 };
 
-btVector3 vector_of(const row &r) { return {r.x, r.y, r.z}; }
+btVector3 vector_of(const float4 &r) { return {r.x, r.y, r.z}; }
 
 class BulletFrames {
 public:
@@ -53,7 +53,7 @@ public:
   {
     for (size_t k = 0; k < bounds.size(); ++k) {
       const Body &body = moving.scene.bodies[moving.special.order[k]];
-      const bool fixed = body.motion == Motion::fixed;
+      const bool fixed = body.type == BodyType::fixed;
       const int group = fixed ? btBroadphaseProxy::StaticFilter : btBroadphaseProxy::DefaultFilter;
       const int mask =
           fixed ? btBroadphaseProxy::AllFilter ^ btBroadphaseProxy::StaticFilter : btBroadphaseProxy::AllFilter;

@@ -69,8 +69,8 @@ void print_solution(const ContactProblemOptions &options, const std::string &bac
   print_history(solution.history);
   fmt::print("{} {} sweeps, {:.3f} ms; relative residuals: natural map {:.3e}, Fischer-Burmeister {:.3e}; cone "
              "violation {:.3e} N s\n",
-             solution.converged ? "converged in" : "NOT converged after", solution.sweeps, solution.milliseconds,
-             solution.residuals.natural, solution.residuals.fischer_burmeister, solution.residuals.cone_violation);
+             solution.converged ? "converged in" : "NOT converged after", solution.iterations, solution.milliseconds,
+             solution.residuals.natural_map, solution.residuals.fischer_burmeister, solution.residuals.cone_violation);
 }
 
 Json solution_json(const ContactProblemOptions &options, const std::string &backend, const ContactProblem &problem,
@@ -82,8 +82,8 @@ Json solution_json(const ContactProblemOptions &options, const std::string &back
           {"backend", backend},
           {"tolerance", real_number("--tolerance", options.tolerance)},
           {"converged", solution.converged},
-          {"sweeps", solution.sweeps},
-          {"residual", solution.residuals.natural},
+          {"sweeps", solution.iterations},
+          {"residual", solution.residuals.natural_map},
           {"ms", solution.milliseconds},
           {"fischer_burmeister", solution.residuals.fischer_burmeister},
           {"cone_violation", solution.residuals.cone_violation},
@@ -98,8 +98,8 @@ void require_finite(const ContactSolution &solution, const ContactProblemOptions
   const auto all_finite = [&](const std::array<double, 3> &impulse) {
     return std::all_of(impulse.begin(), impulse.end(), finite);
   };
-  const auto &[natural, fischer_burmeister, cone_violation] = solution.residuals;
-  if (finite(natural) && finite(fischer_burmeister) && finite(cone_violation) &&
+  const auto &[uint_lanes, fischer_burmeister, cone_violation] = solution.residuals;
+  if (finite(uint_lanes) && finite(fischer_burmeister) && finite(cone_violation) &&
       std::all_of(solution.impulse.begin(), solution.impulse.end(), all_finite))
     return;
   throw InputError(fmt::format(

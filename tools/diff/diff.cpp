@@ -67,19 +67,19 @@ Buffer buffer_named(const std::string &name)
   throw InputError(fmt::format("--plant: no buffer '{}'; `tandem plan SCENE` lists them", name));
 }
 
-Tamper planted(const std::string &text, size_t world, std::string &missing)
+FaultInjector fault_injector(const std::string &text, size_t world, std::string &missing)
 {
   if (text.empty()) return {};
   const std::vector<std::string> parts = split(text, ':');
   if (parts.size() < 3 || parts.size() > 4)
     throw InputError(fmt::format("--plant '{}': use KERNEL:BUFFER:NUMBER[:STEP]", text));
-  PlantedError error;
+  InjectedFault error;
   error.world = world;
   error.kernel = kernel_named(parts[0]);
   error.buffer = buffer_named(parts[1]);
   error.scalar = whole_number("--plant, number", parts[2], 0, uint64_t{1} << 40);
   if (parts.size() == 4) error.step = whole_number("--plant, step", parts[3], 0, 1'000'000'000);
-  return plant(error, &missing);
+  return inject_fault(error, &missing);
 }
 
 /* The scene text may hold characters that a shell would take apart. */
@@ -117,9 +117,9 @@ Json difference_json(const Difference &difference, const Scene &scene, const Sce
   Json json = {
       {"step", difference.step}, {"kernel", text_or_null(kernel_name(difference))}, {"launch", difference.launch}};
   json["buffer"] = difference.buffer ? Json(row_of(*difference.buffer).name) : Json(nullptr);
-  json["element"] = difference.place.element;
-  json["item"] = difference.place.item;
-  json["field"] = text_or_null(difference.place.field);
+  json["element"] = difference.location.element;
+  json["item"] = difference.location.item;
+  json["field"] = text_or_null(difference.location.field);
   json["values"] = Json::array();
   for (int side = 0; side < 2; ++side)
     json["values"].push_back({{"backend", difference.backends[side]},
@@ -161,10 +161,10 @@ std::string bodies_text(const Difference &difference, const Scene &scene)
 
 void print_place(const Difference &difference, const Scene &scene)
 {
-  const BufferPlace &place = difference.place;
+  const BufferLocation &location = difference.location;
   Table table({"buffer", row_of(*difference.buffer).name}, false);
-  table.add({"element", fmt::format("{} (item {})", place.element, place.item)});
-  table.add({"field", place.field});
+  table.add({"element", fmt::format("{} (item {})", location.element, location.item)});
+  table.add({"field", location.field});
   if (!difference.bodies.empty())
     table.add({difference.bodies.size() == 1 ? "body" : "bodies", bodies_text(difference, scene)});
   for (int side = 0; side < 2; ++side)
@@ -207,7 +207,7 @@ int execute(const DiffOptions &options)
     throw InputError(fmt::format("--between {}: name at least two backends", options.between));
   request.steps = options.scene.steps();
   std::string not_planted;
-  request.tamper = planted(options.plant, request.backends.size() - 1, not_planted);
+  request.inject_fault = fault_injector(options.plant, request.backends.size() - 1, not_planted);
   DistinctFiles files;
   options.json.check(files);
   const Scene scene = options.scene.scene(files);

@@ -123,7 +123,7 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
   out << "{\"" << program.name << "\",\n" << literal(without_comments(program.headers.str())) << ",{\n";
   size_t entries = 0;
   for (const embed::KernelRow &row : rows)
-    if (row.stage == program.stage && row.form != "HOST") {
+    if (row.stage == program.stage && row.execution != "HOST") {
       const std::string entry = embed::entry_of(row, list);
       readable << '\n' << entry;
       out << "{\"" << row.name << "\",\n" << literal(entry) << "},\n";

@@ -48,7 +48,7 @@ std::string entry_of(const KernelRow &row, const std::string &list)
     arguments.push_back(passed(argument));
   }
   parameters.push_back("RANGE");
-  const bool is_group = row.form == "GROUP";
+  const bool is_group = row.execution == "GROUP";
   if (is_group) arguments.push_back("local_memory");
   arguments.push_back(is_group ? "GROUP_NUMBER" : "i");
 

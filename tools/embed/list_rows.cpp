@@ -147,9 +147,9 @@ public:
     for (const Call &argument : calls_in(call.arguments[5]))
       if (argument.name == "LOCAL_MEMORY") row.local_words = argument.arguments.at(0);
       else row.arguments.push_back(argument_from(argument));
-    if ((row.form == "GROUP") == row.local_words.empty())
+    if ((row.execution == "GROUP") == row.local_words.empty())
       throw std::runtime_error("kernel " + row.name +
-                               ": LOCAL_MEMORY belongs to each kernel of form GROUP, and to no other");
+                               ": LOCAL_MEMORY belongs to each kernel of execution GROUP, and to no other");
     return row;
   }
 

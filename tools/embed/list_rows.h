@@ -23,7 +23,7 @@ struct FunctionArgument {
 };
 
 struct KernelRow {
-  std::string name, stage, form;
+  std::string name, stage, execution;
   std::vector<FunctionArgument> arguments;
   std::string local_words; /* of a GROUP kernel: the size of its local memory */
   int line;                /* of kernels.def, from 1 */

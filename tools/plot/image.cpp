@@ -22,12 +22,12 @@ Vector plus(const Vector &a, const Vector &b, double t = 1)
 {
   return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
 }
-double inner(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector outer(const Vector &a, const Vector &b)
+double dot3(const Vector &a, const Vector &b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross3(const Vector &a, const Vector &b)
 {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vector unit(const Vector &v) { return plus({0, 0, 0}, v, 1 / std::sqrt(inner(v, v))); }
+Vector unit(const Vector &v) { return plus({0, 0, 0}, v, 1 / std::sqrt(dot3(v, v))); }
 Vector mixed(const Vector &a, const Vector &b, double t) { return plus(plus({0, 0, 0}, a, 1 - t), b, t); }
 Vector vector_of(const Vec3 &v) { return {double{v[0]}, double{v[1]}, double{v[2]}}; }
 Vec3 vec3_of(const Vector &v) { return {float(v[0]), float(v[1]), float(v[2])}; }
@@ -46,8 +46,8 @@ struct Frame {
   explicit Frame(const Camera &camera)
   {
     forward = unit(plus(camera.target, camera.eye, -1));
-    right = unit(outer(forward, {0, 1, 0}));
-    up = outer(right, forward);
+    right = unit(cross3(forward, {0, 1, 0}));
+    up = cross3(right, forward);
     scale = std::tan(camera.view * M_PI / 360);
   }
   Vector through(const Camera &camera, double x, double y) const
@@ -77,7 +77,7 @@ Vector sky(const Vector &direction)
 Vector color_of(const Scene &scene, const RayHit &hit, double distance)
 {
   const Body &body = scene.bodies[hit.body];
-  if (body.motion != Motion::fixed) return body_colors[(hit.body * 2654435761u >> 8) % std::size(body_colors)];
+  if (body.type != BodyType::fixed) return body_colors[(hit.body * 2654435761u >> 8) % std::size(body_colors)];
   const double squares = std::floor(hit.point[0]) + std::floor(hit.point[1] + 0.5) + std::floor(hit.point[2]);
   const double contrast = 0.12 / (1 + distance * distance / 1600);
   return plus({0, 0, 0}, ground_color, 1 - (std::fmod(std::abs(squares), 2) < 0.5 ? 0 : contrast));
@@ -85,7 +85,7 @@ Vector color_of(const Scene &scene, const RayHit &hit, double distance)
 
 Vector lit(const Vector &color, const Vector &normal, bool in_shadow)
 {
-  const double direct = in_shadow ? 0 : std::max(0.0, inner(normal, to_light)), above = 0.5 + 0.5 * normal[1];
+  const double direct = in_shadow ? 0 : std::max(0.0, dot3(normal, to_light)), above = 0.5 + 0.5 * normal[1];
   return plus({0, 0, 0}, color, 0.25 + 0.2 * above + 0.6 * direct);
 }
 
@@ -96,19 +96,20 @@ std::vector<Vector> colors_along(World &world, const std::vector<Ray> &rays)
   std::vector<Ray> toward_light;
   for (size_t k = 0; k < rays.size(); ++k) {
     if (hits[k].body == no_body) continue;
-    const Vector way = plus(hits[k].point, rays[k].origin, -1);
-    toward_light.push_back(
-        ray_along(plus(hits[k].point, vector_of(hits[k].normal), 1e-4 * std::sqrt(inner(way, way)) + 1e-4), to_light));
+    const Vector displacement = plus(hits[k].point, rays[k].origin, -1);
+    toward_light.push_back(ray_along(
+        plus(hits[k].point, vector_of(hits[k].normal), 1e-4 * std::sqrt(dot3(displacement, displacement)) + 1e-4),
+        to_light));
   }
-  const std::vector<bool> blocked = world.find_blocked_rays(toward_light);
+  const std::vector<bool> blocked = world.cast_rays_any(toward_light);
   std::vector<Vector> colors;
   size_t next = 0;
   for (size_t k = 0; k < rays.size(); ++k)
     if (hits[k].body == no_body) colors.push_back(sky(vector_of(rays[k].direction)));
     else {
-      const Vector way = plus(hits[k].point, rays[k].origin, -1);
-      colors.push_back(lit(color_of(world.scene(), hits[k], std::sqrt(inner(way, way))), vector_of(hits[k].normal),
-                           blocked[next++]));
+      const Vector displacement = plus(hits[k].point, rays[k].origin, -1);
+      colors.push_back(lit(color_of(world.scene(), hits[k], std::sqrt(dot3(displacement, displacement))),
+                           vector_of(hits[k].normal), blocked[next++]));
     }
   return colors;
 }
@@ -119,7 +120,7 @@ std::vector<uint32_t> edges_of(const std::vector<Vector> &colors, const Camera &
   std::vector<uint32_t> edges;
   const auto differ = [&](size_t i, size_t j) {
     const Vector d = plus(colors[i], colors[j], -1);
-    return inner(d, d) > 0.002;
+    return dot3(d, d) > 0.002;
   };
   for (uint32_t y = 0; y < camera.height; ++y)
     for (uint32_t x = 0; x < camera.width; ++x) {
@@ -178,7 +179,7 @@ Camera camera_for(World &world, uint32_t width, uint32_t height)
   camera.target = plus(plus({0, 0, 0}, low, 0.5), high, 0.5);
   const Vector size = plus(high, low, -1);
   const double narrow = std::min(1.0, double(width) / height),
-               distance = 0.46 * std::sqrt(inner(size, size)) / (std::tan(camera.view * M_PI / 360) * narrow);
+               distance = 0.46 * std::sqrt(dot3(size, size)) / (std::tan(camera.view * M_PI / 360) * narrow);
   camera.eye = plus(camera.target, unit({0.55, 0.42, 1.0}), std::max(distance, 0.1));
   return camera;
 }
@@ -207,8 +208,8 @@ Camera camera_from(const std::string &text, uint32_t width, uint32_t height)
     std::copy_n(numbers.begin(), 3, camera.eye.begin());
     std::copy_n(numbers.begin() + 3, 3, camera.target.begin());
   }
-  const Vector way = plus(camera.target, camera.eye, -1);
-  if (numbers.size() != 6 || std::hypot(way[0], way[2]) < 1e-9 * (1 + std::abs(way[1])))
+  const Vector displacement = plus(camera.target, camera.eye, -1);
+  if (numbers.size() != 6 || std::hypot(displacement[0], displacement[2]) < 1e-9 * (1 + std::abs(displacement[1])))
     throw InputError(
         fmt::format("--camera '{}': use EX,EY,EZ,TX,TY,TZ: from where to where, not straight up or down", text));
   return camera;

@@ -191,7 +191,7 @@ void collect_rounding(Report &report)
   request.steps = report.request.quick ? 60 : 120;
   request.every = report.request.quick ? 30 : 20;
   const Scene scene = load_scene(rounding.scene);
-  rounding.near_table = measure_rounding(scene, request);
+  rounding.candidate_table = measure_rounding(scene, request);
   rounding.far_table = measure_rounding(moved(scene, rounding.far), request);
 }
 
@@ -227,11 +227,11 @@ std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double un
   for (Run &run : runs) run.front = false;
   for (const size_t i : pareto_front(points)) runs[i].front = true;
   std::vector<Pick> picks;
-  for (const double wished : sensible_wishes(points, most_picks)) {
-    const auto run = cheapest_within(points, wished);
-    if (wished < uncertainty || !run) continue;
+  for (const double target_error : sensible_wishes(points, most_picks)) {
+    const auto run = cheapest_within(points, target_error);
+    if (target_error < uncertainty || !run) continue;
     if (!picks.empty() && picks.back().run == *run) picks.pop_back(); /* the same setting keeps a finer error too */
-    picks.push_back({wished, *run});
+    picks.push_back({target_error, *run});
   }
   return picks;
 }
@@ -246,8 +246,8 @@ std::string pick_sentence(const std::vector<Run> &runs, const std::vector<Pick> 
     const std::string choice =
         fmt::format("{} with {} ({:.3g} ms for 1/60 s)", run.solver, short_text(run.settings), run.cost());
     sentence += k == 0 ? fmt::format("For {} {} of at most {} take {}", article_of(name.label), name.label,
-                                     amount_text(picks[k].wished, name.unit), choice)
-                       : fmt::format("; for {} {}", amount_text(picks[k].wished, name.unit), choice);
+                                     amount_text(picks[k].target_error, name.unit), choice)
+                       : fmt::format("; for {} {}", amount_text(picks[k].target_error, name.unit), choice);
   }
   return sentence + ".";
 }

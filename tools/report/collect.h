@@ -24,7 +24,7 @@ struct ReportRequest {
 
 /* The setting to take for a wished error. */
 struct Pick {
-  double wished;
+  double target_error;
   size_t run;
 };
 
@@ -62,7 +62,7 @@ struct ContactCurve {
 struct RoundingReport {
   std::string scene;
   double far; /* m: the second table is of the scene moved so far along x */
-  RoundingTable near_table, far_table;
+  RoundingTable candidate_table, far_table;
 };
 
 struct Report {

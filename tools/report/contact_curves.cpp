@@ -19,13 +19,13 @@ constexpr size_t most_points = 60;
 ContactCurve curve_of(const std::string &problem, const std::string &solver, const ContactSolution &solution)
 {
   ContactCurve curve{problem, solver, {}};
-  const double sweeps = static_cast<double>(solution.history.size());
+  const double iterations = static_cast<double>(solution.history.size());
   size_t next = 0;
   for (size_t k = 0; k < solution.history.size(); ++k) {
     if (k < next && k + 1 < solution.history.size()) continue;
     const double done = static_cast<double>(k + 1);
     curve.points.push_back(
-        {solution.milliseconds * done / sweeps, solution.history[k], fmt::format("{} sweeps", k + 1)});
+        {solution.milliseconds * done / iterations, solution.history[k], fmt::format("{} sweeps", k + 1)});
     next = k + 1 + solution.history.size() / most_points;
   }
   return curve;

@@ -72,7 +72,7 @@ Json picks_json(const SceneReport &scene)
   Json list = Json::array();
   for (const BackendRuns &each : scene.backends) {
     Json picks = Json::array();
-    for (const Pick &pick : each.picks) picks.push_back({{"wished", pick.wished}, {"run", pick.run}});
+    for (const Pick &pick : each.picks) picks.push_back({{"wished", pick.target_error}, {"run", pick.run}});
     list.push_back({{"backend", each.backend},
                     {"sentence", pick_sentence(each.runs, each.picks, scene.metric)},
                     {"picks", picks}});
@@ -192,7 +192,7 @@ Json report_json(const Report &report)
           {"rounding",
            {{"scene", report.rounding.scene},
             {"far", report.rounding.far},
-            {"near", rounding_json(report.rounding.near_table)},
+            {"near", rounding_json(report.rounding.candidate_table)},
             {"moved", rounding_json(report.rounding.far_table)}}}};
 }
 

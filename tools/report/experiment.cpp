@@ -23,7 +23,7 @@ Array minus(const Array &a, const Array &b) { return {a[0] - b[0], a[1] - b[1], 
 bool only_gravity_acts(const Scene &scene)
 {
   return std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body &body) { return body.motion == Motion::dynamic; });
+                     [](const Body &body) { return body.type == BodyType::dynamic; });
 }
 
 /* A quarter of the steps of a frame of 1/30 s at least: 1/30 s itself is a whole number of every step in the grids. */

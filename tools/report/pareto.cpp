@@ -30,10 +30,10 @@ std::vector<size_t> pareto_front(const std::vector<Tradeoff> &points)
   return front;
 }
 
-std::optional<size_t> cheapest_within(const std::vector<Tradeoff> &points, double wished)
+std::optional<size_t> cheapest_within(const std::vector<Tradeoff> &points, double target_error)
 {
   for (const size_t i : pareto_front(points))
-    if (points[i].error <= wished) return i;
+    if (points[i].error <= target_error) return i;
   return std::nullopt;
 }
 

@@ -15,8 +15,8 @@ struct Tradeoff {
  * first. Points that are not finite never stand on the front. */
 std::vector<size_t> pareto_front(const std::vector<Tradeoff> &points);
 
-/* The cheapest point whose error is at most `wished`; nothing if none is. */
-std::optional<size_t> cheapest_within(const std::vector<Tradeoff> &points, double wished);
+/* The cheapest point whose error is at most `target_error`; nothing if none is. */
+std::optional<size_t> cheapest_within(const std::vector<Tradeoff> &points, double target_error);
 
 /* Errors that a reader may wish for: powers of ten that the points can keep, from the coarsest that still needs a
  * choice to the finest, at most `most` of them. Empty if no point is finite. */

@@ -201,7 +201,7 @@ void add_summary(Page &page, const Report &report)
     for (const BackendRuns &each : scene.backends)
       for (const Pick &pick : each.picks) {
         const Run &run = each.runs[pick.run];
-        table.rows.push_back({scene.source->name, each.backend, axis_text(scene.metric), pick.wished, run.solver,
+        table.rows.push_back({scene.source->name, each.backend, axis_text(scene.metric), pick.target_error, run.solver,
                               short_text(run.settings), run.error(scene.metric), run.cost()});
       }
   page.table(table);
@@ -248,11 +248,11 @@ void add_rounding(Page &page, const RoundingReport &rounding)
       "are differences of large ones have few digits left, which the ulps show and the absolute error does not.",
       rounding.scene, rounding.far / 1000));
   const auto moved = rows_by_key(rounding.far_table);
-  PageTable table{fmt::format("{} launches", rounding.near_table.launches),
+  PageTable table{fmt::format("{} launches", rounding.candidate_table.launches),
                   {"kernel", "buffer", "field", "numbers", "median ulps", "99.9% ulps", "max ulps",
                    "max ulps of the field", "max relative", "max absolute", "moved: median ulps", "moved: max ulps",
                    "moved: max absolute"}};
-  for (const RoundingRow &row : rounding.near_table.rows) {
+  for (const RoundingRow &row : rounding.candidate_table.rows) {
     const auto far = moved.find({row.kernel, row.buffer, row.field});
     const RoundingRow *other = far == moved.end() ? nullptr : far->second;
     table.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, row.field, double(row.numbers),
@@ -265,7 +265,7 @@ void add_rounding(Page &page, const RoundingReport &rounding)
                       {"kernel", "buffer", "numbers", "differing", "moved: differing"}};
   std::map<std::pair<Kernel, Buffer>, double> far;
   for (const DecisionRow &row : rounding.far_table.decisions) far[{row.kernel, row.buffer}] = double(row.differing);
-  for (const DecisionRow &row : rounding.near_table.decisions)
+  for (const DecisionRow &row : rounding.candidate_table.decisions)
     decisions.rows.push_back({row_of(row.kernel).name, row_of(row.buffer).name, double(row.numbers),
                               double(row.differing),
                               far.contains({row.kernel, row.buffer}) ? far[{row.kernel, row.buffer}] : NAN});

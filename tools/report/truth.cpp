@@ -27,7 +27,7 @@ std::vector<PreciseBodies> run_reference(const Scene &scene, double duration, ui
 double nudge(Scene &scene)
 {
   for (Body &body : scene.bodies) {
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const double before = body.position[0];
     body.position[0] += least_nudge;
     return body.position[0] - before;

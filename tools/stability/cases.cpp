@@ -28,11 +28,11 @@ Scene empty_scene(const Vec3 &gravity)
   return scene;
 }
 
-Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position, float mass)
+Body &add_body(Scene &scene, BodyType motion, const Shape &shape, const Point &position, float mass)
 {
   scene.shapes.push_back(shape);
   Body body;
-  body.motion = motion;
+  body.type = motion;
   body.shape = uint32_t(scene.shapes.size() - 1);
   body.position = position;
   body.mass = mass;
@@ -40,7 +40,7 @@ Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &pos
   return scene.bodies.back();
 }
 
-Body &add_ground(Scene &scene) { return add_body(scene, Motion::fixed, half_space_shape(), {0, 0, 0}); }
+Body &add_ground(Scene &scene) { return add_body(scene, BodyType::fixed, half_space_shape(), {0, 0, 0}); }
 
 uint32_t add_material(Scene &scene, float friction, float restitution)
 {
@@ -56,7 +56,7 @@ Scene column_of(const std::vector<float> &masses)
   Scene scene = empty_scene();
   add_ground(scene);
   for (size_t i = 0; i < masses.size(); ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, masses[i]);
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, masses[i]);
   return scene;
 }
 
@@ -105,7 +105,7 @@ void add_standing(Trial &trial, const Standing &bounds)
   trial.checks.push_back(check("deepest contact", "m", bound(bounds.depth, depth_from_rounding), penetration()));
   trial.checks.push_back(check("largest tilt", "rad", bound(bounds.tilt, turn_from_rounding), tilt(trial.scene)));
   trial.checks.push_back(
-      check("farthest sideways", "m", bound(bounds.sideways, way_from_rounding), sideways(trial.scene)));
+      check("farthest sideways", "m", bound(bounds.sideways, distance_from_rounding), sideways(trial.scene)));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bound(bounds.speed, speed_from_rounding), speed())));
 }
 
@@ -127,7 +127,7 @@ double reach_of(const Scene &scene)
 {
   double reach = 0;
   for (const Body &body : scene.bodies)
-    if (body.motion == Motion::dynamic)
+    if (body.type == BodyType::dynamic)
       reach = std::max(reach, vector_of(body.position).lpNorm<Eigen::Infinity>() + half_extent(scene, body, true));
   return reach;
 }
@@ -136,7 +136,7 @@ double smallest_half_extent(const Scene &scene)
 {
   double smallest = HUGE_VAL;
   for (const Body &body : scene.bodies)
-    if (body.motion == Motion::dynamic) smallest = std::min(smallest, half_extent(scene, body, false));
+    if (body.type == BodyType::dynamic) smallest = std::min(smallest, half_extent(scene, body, false));
   return smallest;
 }
 
@@ -164,7 +164,7 @@ Bound turn_from_rounding(const Trial &trial)
           substeps_of(trial), reach_of(trial.scene), smallest_half_extent(trial.scene), stands));
 }
 
-Bound way_from_rounding(const Trial &trial)
+Bound distance_from_rounding(const Trial &trial)
 {
   const double reach = reach_of(trial.scene);
   return Bound::from_rounding(std::min(stands, turn_by_rounding(trial) * reach),
@@ -183,7 +183,7 @@ Bound energy_from_rounding(const Trial &trial)
 {
   double mass = 0, energy = 0;
   for (const Body &body : trial.scene.bodies) {
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const BodyState state{body.position, body.orientation, body.linear_velocity, body.angular_velocity};
     mass += double(body.mass);
     energy += kinetic_energy(trial.scene, body, state) +

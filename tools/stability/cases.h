@@ -28,7 +28,7 @@ void add_misses_cases(std::vector<Case> &cases);
 
 Scene empty_scene(const Vec3 &gravity = {0, -10, 0});
 /* A body with a shape of its own; what else it needs is set on the reference, before the next is added. */
-Body &add_body(Scene &scene, Motion motion, const Shape &shape, const Point &position, float mass = 1);
+Body &add_body(Scene &scene, BodyType motion, const Shape &shape, const Point &position, float mass = 1);
 Body &add_ground(Scene &scene); /* all points with y <= 0 */
 uint32_t add_material(Scene &scene, float friction, float restitution = 0);
 
@@ -57,10 +57,10 @@ void add_standing(Trial &trial, const Standing &bounds);
  * scene, steps and settings are set: L is how far from the origin a body reaches, N and the substep h are those of the
  * documented settings, if any. */
 
-Bound depth_from_rounding(const Trial &trial); /* m: L 2^-23 */
-Bound turn_from_rounding(const Trial &trial);  /* rad: N L 2^-23 over the smallest half extent, and at most 0.05 */
-Bound way_from_rounding(const Trial &trial);   /* m: that turn at a height of L, and at most 0.05 */
-Bound speed_from_rounding(const Trial &trial); /* m/s: L 2^-23 in a substep */
+Bound depth_from_rounding(const Trial &trial);    /* m: L 2^-23 */
+Bound turn_from_rounding(const Trial &trial);     /* rad: N L 2^-23 over the smallest half extent, and at most 0.05 */
+Bound distance_from_rounding(const Trial &trial); /* m: that turn at a height of L, and at most 0.05 */
+Bound speed_from_rounding(const Trial &trial);    /* m/s: L 2^-23 in a substep */
 /* J/kg: N 2^-23 of the energy that the scene starts with, its bodies lifted from y = 0. */
 Bound energy_from_rounding(const Trial &trial);
 

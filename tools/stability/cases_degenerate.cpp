@@ -15,7 +15,7 @@ Trial one_place_trial(const Shape &shape, int n, Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 120));
   add_ground(trial.scene);
   const int used = length == Length::brief ? 12 : length == Length::quick ? n / 5 : n;
-  for (int i = 0; i < used; ++i) add_body(trial.scene, Motion::dynamic, shape, {0, 0.5f, 0});
+  for (int i = 0; i < used; ++i) add_body(trial.scene, BodyType::dynamic, shape, {0, 0.5f, 0});
   trial.every = 5;
   const double bound = length == Length::full ? 20 : 10; /* fewer have less to part */
   trial.checks.push_back(check("gain of energy", "J/kg", bound, energy_gain()));
@@ -29,15 +29,15 @@ Trial overlap_trial(Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 600, 600));
   add_ground(trial.scene);
   const Shape cube = box_shape(0.5f, 0.5f, 0.5f);
-  add_body(trial.scene, Motion::dynamic, cube, {0, 0.5f, 0});
-  add_body(trial.scene, Motion::dynamic, cube, {0.1f, 0.5f, 0});
-  add_body(trial.scene, Motion::dynamic, cube, {5, -0.3f, 0});
-  add_body(trial.scene, Motion::dynamic, box_shape(1, 1, 1), {10, 1, 0});
-  add_body(trial.scene, Motion::dynamic, box_shape(0.2f, 0.2f, 0.2f), {10.2f, 1.1f, 0.1f});
-  add_body(trial.scene, Motion::fixed, box_shape(1, 1, 1), {15, 1, 0});
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.3f), {15.1f, 1.5f, 0.2f});
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.5f), {20, 0.5f, 0});
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.5f), {20, 0.5f, 0});
+  add_body(trial.scene, BodyType::dynamic, cube, {0, 0.5f, 0});
+  add_body(trial.scene, BodyType::dynamic, cube, {0.1f, 0.5f, 0});
+  add_body(trial.scene, BodyType::dynamic, cube, {5, -0.3f, 0});
+  add_body(trial.scene, BodyType::dynamic, box_shape(1, 1, 1), {10, 1, 0});
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.2f, 0.2f, 0.2f), {10.2f, 1.1f, 0.1f});
+  add_body(trial.scene, BodyType::fixed, box_shape(1, 1, 1), {15, 1, 0});
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.3f), {15.1f, 1.5f, 0.2f});
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.5f), {20, 0.5f, 0});
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.5f), {20, 0.5f, 0});
   trial.checks.push_back(check("fastest", "m/s", 6, speed()));
   trial.checks.push_back(at_end(check("deepest contact at the end", "m", 0.02, penetration())));
   return trial;
@@ -48,7 +48,7 @@ Trial overlap_weightless_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
   for (int i = 0; i < 8; ++i)
-    add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f),
+    add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f),
              {0.1f * float(i % 2), 0.1f * float(i / 2 % 2), 0.1f * float(i / 4)});
   trial.checks.push_back(check("fastest", "m/s", 1, speed()));
   trial.checks.push_back(at_end(check("deepest contact at the end", "m", depth_from_rounding(trial), penetration())));
@@ -61,7 +61,7 @@ Trial many_on_one_trial(Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
   add_ground(trial.scene);
   const float half = 0.15f * float(side) / 2;
-  add_body(trial.scene, Motion::dynamic, box_shape(half, 0.5f, half), {0, 0.5f, 0}, float(side * side));
+  add_body(trial.scene, BodyType::dynamic, box_shape(half, 0.5f, half), {0, 0.5f, 0}, float(side * side));
   trial.scene.shapes.push_back(box_shape(0.05f, 0.05f, 0.05f));
   for (int i = 0; i < side * side; ++i) {
     Body body;
@@ -83,7 +83,7 @@ Trial coplanar_trial(Length length)
   add_ground(trial.scene);
   for (int layer = 0; layer < 2; ++layer)
     for (int i = 0; i < side * side; ++i)
-      add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.125f, 0.5f),
+      add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.125f, 0.5f),
                {float(i % side), 0.125f + 0.25f * float(layer), float(i / side)});
   add_standing(trial, {1e-3, {}, {}, {}});
   return trial;
@@ -94,8 +94,8 @@ Trial seams_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 240, 240));
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 0;
-  for (int i = 0; i < 24; ++i) add_body(trial.scene, Motion::fixed, box_shape(0.5f, 0.25f, 1), {float(i), -0.25f, 0});
-  add_body(trial.scene, Motion::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0.25f, 0.3f, 0}).linear_velocity = {5, 0, 0};
+  for (int i = 0; i < 24; ++i) add_body(trial.scene, BodyType::fixed, box_shape(0.5f, 0.25f, 1), {float(i), -0.25f, 0});
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.3f, 0.3f, 0.3f), {0.25f, 0.3f, 0}).linear_velocity = {5, 0, 0};
   trial.checks.push_back(check("loss of speed", "m/s", 2e-3, [](const Moment &moment) {
     return std::abs(5 - double(moment.bodies[24].linear_velocity[0]));
   }));

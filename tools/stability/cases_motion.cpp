@@ -15,7 +15,7 @@ Trial flight_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
   const Vector start(0, 30, 0), speed(3, 12, -4);
-  Body &body = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.2f, 0.3f), point_of(start));
+  Body &body = add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.3f), point_of(start));
   body.linear_velocity = vec3_of(speed);
   body.angular_velocity = {1, 2, 3};
   trial.checks.push_back(check("distance from the parabola", "m", 3e-4, distance_from_path(0, [=](double t) -> Vector {
@@ -49,7 +49,7 @@ Trial restitution_trial(Length length)
   for (float e : {0.3f, 0.5f, 0.8f, 1.0f}) {
     const uint32_t material = add_material(trial.scene, 0.5f, e);
     for (float h : {0.5f, 1.0f, 2.03f, 4.1f, 7.77f}) {
-      add_body(trial.scene, Motion::dynamic, sphere_shape(radius), {2.0f * float(expected.size()), radius + h, 0})
+      add_body(trial.scene, BodyType::dynamic, sphere_shape(radius), {2.0f * float(expected.size()), radius + h, 0})
           .material = material;
       expected.push_back(double(e) * e * h);
     }
@@ -62,7 +62,8 @@ Trial elastic_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 1200, 1200));
   add_ground(trial.scene);
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.25f), {0, 2.25f, 0}).material = add_material(trial.scene, 0, 1);
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.25f), {0, 2.25f, 0}).material =
+      add_material(trial.scene, 0, 1);
   const double energy = g * 2;
   const Figure gain = energy_gain(); /* the centre lies a radius above the ground */
   trial.checks.push_back(check("drift of energy", "", 1.5e-5,
@@ -78,7 +79,7 @@ Trial closed_system_trial(Length length)
   for (int i = 0; i < 64; ++i) {
     const Vector place(2.0 * (i % 4) - 3, 2.0 * (i / 4 % 4) - 3, 2.0 * (i / 16) - 3);
     const Shape shape = i % 2 ? sphere_shape(0.5f) : box_shape(0.5f, 0.3f, 0.4f);
-    Body &body = add_body(trial.scene, Motion::dynamic, shape, point_of(place), float(random.uniform(0.5, 5)));
+    Body &body = add_body(trial.scene, BodyType::dynamic, shape, point_of(place), float(random.uniform(0.5, 5)));
     body.orientation = random.orientation();
     body.linear_velocity =
         vec3_of(-1.5 * place + Vector{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
@@ -94,11 +95,11 @@ Trial closed_system_trial(Length length)
 void add_incline(Scene &scene, uint32_t material, double angle, double z)
 {
   const Quat turn = turn_about({0, 0, 1}, angle);
-  Body &ramp = add_body(scene, Motion::fixed, box_shape(20, 0.5f, 0.6f), {0, 0, float(z)});
+  Body &ramp = add_body(scene, BodyType::fixed, box_shape(20, 0.5f, 0.6f), {0, 0, float(z)});
   ramp.orientation = turn;
   ramp.material = material;
   const Vector up(-std::sin(angle), std::cos(angle), 0);
-  Body &box = add_body(scene, Motion::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)));
+  Body &box = add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.15f, 0.5f), point_of(0.65 * up + Vector(0, 0, z)));
   box.orientation = turn;
   box.material = material;
 }
@@ -167,8 +168,8 @@ Trial incline_trial(Length length)
     double worst = 0;
     for (size_t i = 0; i < pull.size(); ++i) {
       const double slid = (vector_of(moment.bodies[2 * i + 1].position) - start[2 * i + 1]).norm(),
-                   way = 0.5 * pull[i] * moment.time * moment.time;
-      worst = std::max(worst, std::abs(slid - way) / std::max(way, 1e-3));
+                   displacement = 0.5 * pull[i] * moment.time * moment.time;
+      worst = std::max(worst, std::abs(slid - displacement) / std::max(displacement, 1e-3));
     }
     return worst;
   })));
@@ -188,14 +189,14 @@ Trial stop_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
   add_ground(trial.scene);
-  std::vector<double> way;
+  std::vector<double> displacement;
   double bound = 0;
   for (double mu : {0.2, 0.4, 0.6, 0.8, 1.0})
     for (double speed : {2.0, 5.0}) {
-      Body &box =
-          add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.1f, 0.5f), {0, 0.1f, 2.0f * float(way.size())});
+      Body &box = add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.1f, 0.5f),
+                           {0, 0.1f, 2.0f * float(displacement.size())});
       box.linear_velocity = {float(speed), 0, 0};
-      way.push_back(speed * speed / (2 * mu * g));
+      displacement.push_back(speed * speed / (2 * mu * g));
       bound = std::max(bound, stopping_error(mu, speed));
       box.material = 0;
       trial.scene.bodies.back().material = add_material(trial.scene, float(mu));
@@ -203,12 +204,13 @@ Trial stop_trial(Length length)
   trial.scene.materials[0].static_friction = trial.scene.materials[0].dynamic_friction = 1; /* geometric mean, so ... */
   for (size_t i = 1; i < trial.scene.materials.size(); ++i)
     trial.scene.materials[i].friction_combine = Combine::minimum; /* ... mu itself */
-  trial.checks.push_back(at_end(check("largest error of the way to rest", "", bound, [way](const Moment &moment) {
-    double worst = 0;
-    for (size_t i = 0; i < way.size(); ++i)
-      worst = std::max(worst, std::abs(double(moment.bodies[i + 1].position[0]) / way[i] - 1));
-    return worst;
-  })));
+  trial.checks.push_back(
+      at_end(check("largest error of the way to rest", "", bound, [displacement](const Moment &moment) {
+        double worst = 0;
+        for (size_t i = 0; i < displacement.size(); ++i)
+          worst = std::max(worst, std::abs(double(moment.bodies[i + 1].position[0]) / displacement[i] - 1));
+        return worst;
+      })));
   return trial;
 }
 
@@ -218,7 +220,7 @@ Trial rolling_trial(Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
   add_ground(trial.scene);
   const double v0 = 7;
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.5f), {0, 0.5f, 0}).linear_velocity = {float(v0), 0, 0};
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0.5f, 0}).linear_velocity = {float(v0), 0, 0};
   trial.checks.push_back(at_end(check("error of the rolling speed", "", 1e-5, [v0](const Moment &moment) {
     return std::abs(double(moment.bodies[1].linear_velocity[0]) / (5.0 / 7.0 * v0) - 1);
   })));
@@ -243,8 +245,8 @@ Figure beyond(uint32_t body, double x)
 Trial thin_wall_trial(const Shape &shape, double speed, Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 120, 120));
-  add_body(trial.scene, Motion::fixed, box_shape(0.005f, 2, 2), {0, 0, 0});
-  add_body(trial.scene, Motion::dynamic, shape, {-7.3f, 0.1f, 0.2f}).linear_velocity = {float(speed), 0, 0};
+  add_body(trial.scene, BodyType::fixed, box_shape(0.005f, 2, 2), {0, 0, 0});
+  add_body(trial.scene, BodyType::dynamic, shape, {-7.3f, 0.1f, 0.2f}).linear_velocity = {float(speed), 0, 0};
   trial.checks.push_back(check("got beyond the wall by", "m", 0, beyond(1, 0)));
   return trial;
 }
@@ -254,8 +256,8 @@ Trial bullet_trial(Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
   add_ground(trial.scene);
   for (int i = 0; i < 5; ++i)
-    add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, 10);
-  add_body(trial.scene, Motion::dynamic, sphere_shape(0.05f), {-9, 2.6f, 0}, 0.1f).linear_velocity = {300, 0, 0};
+    add_body(trial.scene, BodyType::dynamic, box_shape(0.1f, 0.5f, 0.5f), {0, 0.5f + float(i), 0}, 10);
+  add_body(trial.scene, BodyType::dynamic, sphere_shape(0.05f), {-9, 2.6f, 0}, 0.1f).linear_velocity = {300, 0, 0};
   trial.checks.push_back(check("bullet past the box it hit by", "m", 0, [](const Moment &moment) {
     return std::max(0.0, double(moment.bodies[6].position[0]) - double(moment.bodies[3].position[0]));
   }));

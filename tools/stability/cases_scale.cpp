@@ -15,14 +15,14 @@ Trial sizes_trial(Length length)
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
   add_ground(trial.scene);
   trial.documented = with_substeps(32);
-  add_body(trial.scene, Motion::dynamic, box_shape(500, 500, 500), {-600, 500, 0}, 1e9f);
+  add_body(trial.scene, BodyType::dynamic, box_shape(500, 500, 500), {-600, 500, 0}, 1e9f);
   for (int i = 0; i < 3; ++i)
-    add_body(trial.scene, Motion::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
+    add_body(trial.scene, BodyType::dynamic, box_shape(5e-4f, 5e-4f, 5e-4f), {0, 5e-4f + 1e-3f * float(i), 0}, 1e-6f);
   trial.checks.push_back(check("small cubes moved by", "m", 3e-5, [start = trial.scene.bodies](const Moment &moment) {
     double worst = 0;
     for (size_t i = 2; i < start.size(); ++i) {
-      const double way = (vector_of(moment.bodies[i].position) - vector_of(start[i].position)).norm();
-      worst = way > worst || std::isnan(way) ? way : worst;
+      const double displacement = (vector_of(moment.bodies[i].position) - vector_of(start[i].position)).norm();
+      worst = displacement > worst || std::isnan(displacement) ? displacement : worst;
     }
     return worst;
   }));
@@ -48,7 +48,7 @@ Case size_case(const std::string &name, double edge, double gravity)
             add_ground(trial.scene);
             if (edge < 0.01) trial.documented = with_substeps(32);
             for (int i = 0; i < 5; ++i)
-              add_body(trial.scene, Motion::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)),
+              add_body(trial.scene, BodyType::dynamic, box_shape(float(edge / 2), float(edge / 2), float(edge / 2)),
                        {0, float(edge * (i + 0.5)), 0}, float(1000 * edge * edge * edge));
             const double sink = sink_of_five(trial.documented.value_or(trial.settings));
             trial.checks.push_back(
@@ -62,10 +62,10 @@ Trial masses_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 600, 600));
   add_ground(trial.scene);
-  add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0}, 1e9f);
-  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0, 1.1f, 0}, 1e-6f);
-  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.6f, 0.1f, 0}, 1e-6f);
-  add_body(trial.scene, Motion::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.8f, 0.1f, 0}, 1e-6f);
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0}, 1e9f);
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0, 1.1f, 0}, 1e-6f);
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.6f, 0.1f, 0}, 1e-6f);
+  add_body(trial.scene, BodyType::dynamic, box_shape(0.1f, 0.1f, 0.1f), {0.8f, 0.1f, 0}, 1e-6f);
   add_standing(trial, {});
   return trial;
 }
@@ -76,11 +76,11 @@ Scene yard(double x)
 {
   Scene scene = empty_scene();
   const auto at = [x](double dx, double y, double z) { return Point{x + dx, y, z}; };
-  add_body(scene, Motion::fixed, box_shape(32, 1, 8), at(0, -1, 0));
-  for (int i = 0; i < 5; ++i) add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0, 0.5 + i, 0));
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.25f, 0.5f), at(-8, 0.25, 3)).linear_velocity = {5, 0, 0};
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(-8, 0.5, -3)).linear_velocity = {3, 0, 0};
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), at(4, 3.5, -3));
+  add_body(scene, BodyType::fixed, box_shape(32, 1, 8), at(0, -1, 0));
+  for (int i = 0; i < 5; ++i) add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), at(0, 0.5 + i, 0));
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.25f, 0.5f), at(-8, 0.25, 3)).linear_velocity = {5, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), at(-8, 0.5, -3)).linear_velocity = {3, 0, 0};
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), at(4, 3.5, -3));
   return scene;
 }
 

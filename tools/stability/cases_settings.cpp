@@ -17,7 +17,7 @@ std::vector<float> equal(int n) { return std::vector<float>(size_t(n), 1.0f); }
 Scene column_and_ball()
 {
   Scene scene = column_of(equal(5));
-  add_body(scene, Motion::dynamic, sphere_shape(0.25f), {3, 2.25f, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.25f), {3, 2.25f, 0});
   return scene;
 }
 
@@ -32,7 +32,7 @@ void watch_ball_and_column(Trial &trial, const AtEnd &bounds)
   };
   trial.checks.push_back(
       at_end(check("deepest contact at the end", "m", bound(bounds.depth, depth_from_rounding), penetration())));
-  trial.checks.push_back(check("farthest sideways", "m", way_from_rounding(trial), sideways(trial.scene)));
+  trial.checks.push_back(check("farthest sideways", "m", distance_from_rounding(trial), sideways(trial.scene)));
   trial.checks.push_back(check("gain of energy", "J/kg", bound(bounds.gain, energy_from_rounding), energy_gain()));
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bound(bounds.speed, speed_from_rounding), speed())));
 }
@@ -104,8 +104,8 @@ Figure difference_with(const Scene &scene, float hertz)
     const std::vector<BodyState> like = (*twin)->bodies();
     double worst = 0;
     for (size_t i = 0; i < like.size(); ++i) {
-      const double way = (vector_of(moment.bodies[i].position) - vector_of(like[i].position)).norm();
-      if (std::isnan(way) || way > worst) worst = way;
+      const double displacement = (vector_of(moment.bodies[i].position) - vector_of(like[i].position)).norm();
+      if (std::isnan(displacement) || displacement > worst) worst = displacement;
     }
     return worst;
   };

@@ -13,7 +13,7 @@ namespace {
 Trial rod_trial(int axis, double speed, double energy, Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
-  Body &rod = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.02f, 0.02f), {0, 0, 0});
+  Body &rod = add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.02f, 0.02f), {0, 0, 0});
   for (int k = 0; k < 3; ++k) rod.angular_velocity[size_t(k)] = float(k == axis ? speed : 0.01 * speed);
   trial.checks.push_back(check("drift of angular momentum", "", 4e-3, spin_momentum_drift(0)));
   trial.checks.push_back(check("drift of energy", "", energy, spin_energy_drift(0)));
@@ -29,7 +29,7 @@ Trial flip_trial(double speed, const FlipBounds &bounds, Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 1800, 1800));
   const double slant = 0.02;
-  Body &plate = add_body(trial.scene, Motion::dynamic, box_shape(0.5f, 0.3f, 0.1f), {0, 0, 0});
+  Body &plate = add_body(trial.scene, BodyType::dynamic, box_shape(0.5f, 0.3f, 0.1f), {0, 0, 0});
   plate.angular_velocity = {float(speed * slant), float(speed), 0};
   const double interval = flip_interval(moments_of(trial.scene, plate), vector_of(plate.angular_velocity));
   trial.checks.push_back(at_end(check("error of the time between flips", "", bounds.time, flip_error(0, interval))));

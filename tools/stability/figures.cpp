@@ -23,7 +23,7 @@ Figure largest(std::function<double(const Moment &, size_t body)> of)
     double worst = 0;
     const std::vector<Body> &bodies = moment.scene().bodies;
     for (size_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i].motion == Motion::dynamic) worst = larger(worst, of(moment, i));
+      if (bodies[i].type == BodyType::dynamic) worst = larger(worst, of(moment, i));
     return worst;
   };
 }
@@ -50,7 +50,7 @@ Momentum momentum_of(const Moment &moment)
   Momentum sum;
   for (size_t i = 0; i < moment.bodies.size(); ++i) {
     const Body &body = moment.scene().bodies[i];
-    if (body.motion != Motion::dynamic) continue;
+    if (body.type != BodyType::dynamic) continue;
     const BodyState &state = moment.bodies[i];
     const Vector linear = double(body.mass) * vector_of(state.linear_velocity);
     const Vector orbital = vector_of(state.position).cross(linear), spin = spin_momentum(moment.scene(), body, state);
@@ -65,7 +65,7 @@ Momentum momentum_of(const Moment &moment)
 double moving_mass(const Scene &scene)
 {
   double sum = 0;
-  for (const Body &body : scene.bodies) sum += body.motion == Motion::dynamic ? double(body.mass) : 0.0;
+  for (const Body &body : scene.bodies) sum += body.type == BodyType::dynamic ? double(body.mass) : 0.0;
   return sum;
 }
 
@@ -103,7 +103,7 @@ Vector spin_momentum(const Scene &scene, const Body &body, const BodyState &stat
 
 double kinetic_energy(const Scene &scene, const Body &body, const BodyState &state)
 {
-  if (body.motion != Motion::dynamic) return 0;
+  if (body.type != BodyType::dynamic) return 0;
   return 0.5 * double(body.mass) * vector_of(state.linear_velocity).squaredNorm() +
          0.5 * vector_of(state.angular_velocity).dot(spin_momentum(scene, body, state));
 }
@@ -114,7 +114,7 @@ double mechanical_energy(const Moment &moment)
   const Vector gravity = vector_of(moment.scene().gravity);
   for (size_t i = 0; i < moment.bodies.size(); ++i) {
     const Body &body = moment.scene().bodies[i];
-    if (body.motion == Motion::dynamic)
+    if (body.type == BodyType::dynamic)
       potential -= double(body.mass) * double(body.gravity_factor) * gravity.dot(vector_of(moment.bodies[i].position));
   }
   return potential + total_kinetic(moment);
@@ -141,9 +141,9 @@ Figure moved(const Scene &scene, bool vertical_too)
   std::vector<Vector> start;
   for (const Body &body : scene.bodies) start.push_back(vector_of(body.position));
   return largest([start, vertical_too](const Moment &moment, size_t i) {
-    Vector way = vector_of(moment.bodies[i].position) - start[i];
-    if (!vertical_too && std::isfinite(way.y())) way.y() = 0;
-    return way.norm();
+    Vector displacement = vector_of(moment.bodies[i].position) - start[i];
+    if (!vertical_too && std::isfinite(displacement.y())) displacement.y() = 0;
+    return displacement.norm();
   });
 }
 

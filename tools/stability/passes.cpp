@@ -39,7 +39,7 @@ Shape sheet_shape()
 void add_cube_below(Scene &scene, const Quat &turn, const Vector &corner, double z)
 {
   const Vector top = axes_of(turn) * corner;
-  add_body(scene, Motion::fixed, box_shape(0.5f, 0.5f, 0.5f), {-top.x(), -top.y(), z - top.z()}).orientation = turn;
+  add_body(scene, BodyType::fixed, box_shape(0.5f, 0.5f, 0.5f), {-top.x(), -top.y(), z - top.z()}).orientation = turn;
 }
 
 /* A bar that turns freely at 100 rad/s, one of its tips at the top at the moment `passes`. */
@@ -47,8 +47,8 @@ void add_rotor(Scene &scene, double z, double passes)
 {
   const float half = 0.5f, thick = 0.02f;
   const double spin = 100, tip = std::atan2(double(thick), double(half));
-  Body &rotor =
-      add_body(scene, Motion::dynamic, box_shape(half, thick, 0.05f), {0, -std::hypot(double(half), double(thick)), z});
+  Body &rotor = add_body(scene, BodyType::dynamic, box_shape(half, thick, 0.05f),
+                         {0, -std::hypot(double(half), double(thick)), z});
   rotor.orientation = turn_about({0, 0, 1}, std::remainder(pi / 2 - tip - spin * passes, 2 * pi));
   rotor.angular_velocity = {0, 0, float(spin)};
 }
@@ -60,7 +60,7 @@ void add_obstacle(Scene &scene, Obstacle obstacle, double z, double passes)
   case Obstacle::corner:
     return add_cube_below(scene, turn_about(Vector(1, 1, 1).cross(Vector(0, 1, 0)), std::acos(1 / std::sqrt(3.0))),
                           {0.5, 0.5, 0.5}, z);
-  case Obstacle::mesh_edge: add_body(scene, Motion::fixed, roof_shape(), {0, 0, z}); return;
+  case Obstacle::mesh_edge: add_body(scene, BodyType::fixed, roof_shape(), {0, 0, z}); return;
   case Obstacle::rotor: return add_rotor(scene, z, passes);
   }
 }
@@ -78,7 +78,7 @@ double time_to_pass(double speed, size_t row)
 void add_mover(Scene &scene, const Mover &mover, const Vector &lowest, double speed)
 {
   const Vector centre = lowest - lowest_point(mover);
-  Body &body = add_body(scene, Motion::dynamic, mover.shape, point_of(centre));
+  Body &body = add_body(scene, BodyType::dynamic, mover.shape, point_of(centre));
   body.orientation = mover.orientation;
   body.linear_velocity = {float(speed), 0, 0};
 }
@@ -138,7 +138,7 @@ Passes hits_on_wall(const Mover &mover, bool mesh, const std::vector<double> &sp
   for (double speed : speeds) {
     const double z = lane_width * (double(passes.lanes.size()) - 2), when = time_to_pass(speed, 0);
     const size_t body = passes.scene.bodies.size();
-    add_body(passes.scene, Motion::fixed, mesh ? sheet_shape() : box_shape(0.005f, 2, 2), {0, 0, z});
+    add_body(passes.scene, BodyType::fixed, mesh ? sheet_shape() : box_shape(0.005f, 2, 2), {0, 0, z});
     add_mover(passes.scene, mover, {-speed * when, 0, z}, speed);
     passes.lanes.push_back({0, speed, when, body, body + 1});
   }

@@ -126,7 +126,7 @@ std::vector<size_t> drawing_order(const std::vector<Body> &bodies, const std::ve
 {
   std::vector<size_t> fixed, moving;
   for (size_t i = 0; i < bodies.size(); ++i)
-    if (drawable(states[i])) (bodies[i].motion == Motion::dynamic ? moving : fixed).push_back(i);
+    if (drawable(states[i])) (bodies[i].type == BodyType::dynamic ? moving : fixed).push_back(i);
   std::vector<size_t> order = fixed;
   const size_t stride = (moving.size() + most_drawn - 1) / most_drawn;
   for (size_t i = 0; i < moving.size(); i += std::max<size_t>(1, stride)) order.push_back(moving[i]);
@@ -149,27 +149,27 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
 {
   Window tight;
   const auto first =
-      std::find_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
+      std::find_if(start.begin(), start.end(), [](const Body &body) { return body.type == BodyType::dynamic; });
   if (first == start.end()) return tight;
   tight.origin = {first->position[0], 0, first->position[2]};
   tight.left = tight.bottom = HUGE_VAL;
   tight.right = tight.top = -HUGE_VAL;
   const std::vector<BodyState> before = states_of(start);
   for (size_t i = 0; i < start.size(); ++i)
-    if (start[i].motion == Motion::dynamic) widen(tight, shapes[start[i].shape], start[i], before[i]);
+    if (start[i].type == BodyType::dynamic) widen(tight, shapes[start[i].shape], start[i], before[i]);
   Window wide = tight;
   for (size_t i = 0; i < end.size(); ++i)
-    if (start[i].motion == Motion::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], start[i], end[i]);
+    if (start[i].type == BodyType::dynamic && drawable(end[i])) widen(wide, shapes[start[i].shape], start[i], end[i]);
   const auto moving =
-      std::count_if(start.begin(), start.end(), [](const Body &body) { return body.motion == Motion::dynamic; });
-  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), room = 0.05 * size,
+      std::count_if(start.begin(), start.end(), [](const Body &body) { return body.type == BodyType::dynamic; });
+  const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), margin = 0.05 * size,
                least_height = 0.3 * size, least_width = 0.1 * size;
   const double most_wide = moving <= 5 ? 10 * size : size; /* few bodies travel far, seen by their own size */
-  wide.left = std::max(wide.left, tight.left - most_wide) - room;
-  wide.right = std::min(wide.right, tight.right + most_wide) + room;
+  wide.left = std::max(wide.left, tight.left - most_wide) - margin;
+  wide.right = std::min(wide.right, tight.right + most_wide) + margin;
   if (wide.right - wide.left < least_width) wide.left -= 0.5 * least_width, wide.right += 0.5 * least_width;
-  wide.bottom = std::max(wide.bottom, tight.bottom - 0.3 * size) - room;
-  wide.top = std::max(std::min(wide.top, tight.top + most_wide) + room, wide.bottom + least_height);
+  wide.bottom = std::max(wide.bottom, tight.bottom - 0.3 * size) - margin;
+  wide.top = std::max(std::min(wide.top, tight.top + most_wide) + margin, wide.bottom + least_height);
   return wide;
 }
 
@@ -183,7 +183,7 @@ std::string svg_of(const std::vector<Shape> &shapes, const std::vector<Body> &bo
   for (size_t i : drawing_order(bodies, states)) {
     const Shape &shape = shapes[bodies[i].shape];
     if (shape.type != ShapeType::half_space)
-      svg += drawing_of(shape, bodies[i], states[i], frame, bodies[i].motion == Motion::dynamic ? "moving" : "fixed");
+      svg += drawing_of(shape, bodies[i], states[i], frame, bodies[i].type == BodyType::dynamic ? "moving" : "fixed");
     else {
       const double y = (window.top - double(states[i].position[1])) * frame.scale;
       svg += fmt::format("<line class=\"ground\" x1=\"0\" x2=\"{:.0f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>\n", frame.width(),

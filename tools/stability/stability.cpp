@@ -101,7 +101,7 @@ std::string verdict(const stability::Outcome &outcome)
 void check_backend(const Placement &placement)
 {
   Scene scene = stability::empty_scene();
-  stability::add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 0, 0});
+  stability::add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0, 0});
   World(scene, {}, placement).step();
 }
 

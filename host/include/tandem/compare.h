@@ -5,8 +5,8 @@
  * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
  * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
  * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
- * two buffers side by side. Two numbers that are both NaN count as the same (host/verify/buffer_place.h): a body that
- * stops being finite is taken out at the end of the step on every backend.
+ * two buffers side by side. Two numbers that are both NaN count as the same (host/verify/buffer_location.h): a body
+ * that stops being finite is taken out at the end of the step on every backend.
  */
 #pragma once
 
@@ -22,11 +22,11 @@
 namespace tandem {
 
 /* Changes memory after a launch on one of the worlds: how tests prove that a difference is found. */
-using Tamper = std::function<void(size_t world, uint64_t step, World &, const Launch &)>;
+using FaultInjector = std::function<void(size_t world, uint64_t step, World &, const Launch &)>;
 
 /* A change of one number by the least possible, after the first launch of `kernel` in `step` on `world`.
  * `scalar` counts in scalars of the buffer. */
-struct PlantedError {
+struct InjectedFault {
   size_t world = 1; /* index into ComparisonRequest::backends */
   Kernel kernel{};
   uint64_t step = 0;
@@ -34,20 +34,20 @@ struct PlantedError {
   size_t scalar = 0;
 };
 /* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the
- * tamper. */
-TANDEM_API Tamper plant(const PlantedError &error, std::string *missing = nullptr);
+ * inject_fault. */
+TANDEM_API FaultInjector inject_fault(const InjectedFault &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
   Settings settings{};
   Placement placement{};             /* `on` is replaced by each of the backends */
   std::vector<std::string> backends{}; /* two or more; the first is the reference */
   uint64_t steps = 1;
-  Tamper tamper{};                                 /* optional */
+  FaultInjector inject_fault{};                                 /* optional */
   std::function<void(uint64_t done)> after_step{}; /* optional: progress */
 };
 
 /* What one number inside a buffer means. */
-struct BufferPlace {
+struct BufferLocation {
   size_t element;    /* index of the row, real, uint or ulong in the buffer */
   size_t item;       /* body, pair, constraint, cell, ... */
   uint32_t part;     /* which record row or plane of the item */
@@ -67,7 +67,7 @@ struct Difference {
   std::optional<Kernel> kernel;
   std::optional<Buffer> buffer;
   size_t scalar = 0; /* index of the number in the buffer, in scalars */
-  BufferPlace place{};
+  BufferLocation location{};
   BufferValue values[2];
   std::optional<uint64_t> ulps;
   uint64_t differing = 0;       /* numbers of this buffer that differ */

@@ -33,7 +33,7 @@ enum class StepPoint : uint8_t {
   contacts,    /* manifolds are final: a kernel may drop or change them before they become constraints */
   constraints, /* constraints stand in the order of their colours */
   forces,      /* in each substep, before gravity: what is added to solver_velocity is pushed along */
-  solved,      /* solver_velocity and solver_delta are the step's result, not checked yet */
+  solved,      /* solver_velocity and solver_delta_pose are the step's result, not checked yet */
   commit       /* the step is whole; STATE and CACHE buffers of the module are written from their previous_ sides */
 };
 

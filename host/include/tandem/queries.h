@@ -1,5 +1,5 @@
-/* queries.h - what a World can be asked between two steps: rays, boxes and sweeps, by the batch; see World::cast_rays
- * and those after it.
+/* queries.h - what a World can be asked between two steps: rays, boxes and shape casts, by the batch; see
+ * World::cast_rays and those after it.
  *
  * Which structure of the broadphase answers changes no bit of an answer. Of bodies hit at one place the one of the
  * lower index counts as nearest. A query and a body must accept each other's groups, as two bodies must. Quarantined
@@ -41,7 +41,7 @@ struct QueryHit {
 };
 
 using RayHit = QueryHit;
-using SweepHit = QueryHit;
+using ShapeCastHit = QueryHit;
 
 /* A box along the axes of the world, and where it goes. */
 struct QueryBox {

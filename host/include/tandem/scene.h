@@ -32,7 +32,7 @@ struct Material {
   float spinning_friction = 0.0f; /* m, >= 0: the same about the normal */
 };
 
-enum class Motion : uint32_t {
+enum class BodyType : uint32_t {
   fixed = 0,     /* never moves */
   kinematic = 1, /* moves with its given velocities, infinitely heavy */
   dynamic = 2
@@ -40,7 +40,7 @@ enum class Motion : uint32_t {
 
 struct Body {
   std::string name;
-  Motion motion = Motion::dynamic;
+  BodyType type = BodyType::dynamic;
   bool trigger = false;         /* is touched and reported (World::contact_events), but neither pushes nor is pushed */
   uint32_t shape = 0;           /* index into Scene::shapes */
   uint32_t material = 0;        /* index into Scene::materials */

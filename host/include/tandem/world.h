@@ -107,17 +107,17 @@ public:
   std::vector<PairEvent> pair_events();
   /* Queries of the present state, by the batch, where the stage `queries` is placed (sweeps of shapes: `sweeps`); they
    * change nothing. Answers in the order of the questions, with the same bits on every backend. InputError as
-   * check_rays, check_boxes, check_sweep. */
+   * check_rays, check_boxes, check_shape_casts. */
   std::vector<RayHit> cast_rays(std::span<const Ray> rays);
   /* Whether each hits anything at all: cheaper, as it stops at the first body that it finds. */
-  std::vector<bool> find_blocked_rays(std::span<const Ray> rays);
+  std::vector<bool> cast_rays_any(std::span<const Ray> rays);
   /* Every body that each hits, sorted by (fraction, body). */
-  std::vector<std::vector<RayHit>> cast_rays_through(std::span<const Ray> rays);
+  std::vector<std::vector<RayHit>> cast_rays_all(std::span<const Ray> rays);
   /* Every body whose box a box touches, where it stands or on its way; sorted by (fraction, body). */
-  std::vector<std::vector<BoxHit>> sweep_boxes(std::span<const QueryBox> boxes);
+  std::vector<std::vector<BoxHit>> cast_boxes(std::span<const QueryBox> boxes);
   /* A convex shape along straight ways from its poses, without turning: where it first touches a body. */
-  std::vector<SweepHit> sweep(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements,
-                              const QueryFilter &filter = {});
+  std::vector<ShapeCastHit> cast_shapes(const Shape &shape, std::span<const Pose> poses,
+                                        std::span<const Vec3> displacements, const QueryFilter &filter = {});
 
   /* Modules of Settings::extensions, between steps: a kernel over the items of its row, and the module's buffers.
    * InputError names the kernel or buffer where it is of no such module, or where the bytes do not fit; a buffer of

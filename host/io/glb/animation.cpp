@@ -199,8 +199,8 @@ bool same_pose(const FramePose &a, const FramePose &b)
 uint32_t color_of(const Scene &scene, size_t index)
 {
   const Body &body = scene.bodies[index];
-  if (body.motion == Motion::fixed) return 0;
-  if (body.motion == Motion::kinematic) return 1;
+  if (body.type == BodyType::fixed) return 0;
+  if (body.type == BodyType::kinematic) return 1;
   constexpr auto moving_colors = uint32_t(palette.size()) - first_moving_color;
   /* By material where there are several; otherwise by number, so that neighbours differ. */
   uint32_t key = scene.materials.size() > 1 ? body.material : uint32_t(index);
@@ -222,7 +222,7 @@ void collect_bodies(const Scene &scene, Recording &r)
                         scale_of(shape, reach),
                         at->second,
                         {body.shape_position, normalized(body.shape_orientation)}});
-    if (body.motion == Motion::fixed) continue;
+    if (body.type == BodyType::fixed) continue;
     r.moving.push_back(uint32_t(i));
     r.last.push_back(r.bodies.back().rest);
   }

@@ -162,7 +162,7 @@ void GltfBodies::add(const BodyNodes &nodes)
   Body body;
   body.name = document_.node(node).name;
   if (body.name.empty()) body.name = fmt::format("node {}", node);
-  body.motion = Motion::fixed;
+  body.type = BodyType::fixed;
   body.trigger = nodes.trigger;
   if (nodes.colliders.empty()) place_ghost(nodes, body);
   else if (nodes.colliders.size() == 1) place_alone(nodes, body);

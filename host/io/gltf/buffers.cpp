@@ -192,8 +192,10 @@ GltfElements GltfBuffers::elements_of(uint32_t index, const JsonValue &asks)
   const size_t element = size_t(tinygltf::GetNumComponentsInType(uint32_t(accessor.type))) *
                          size_t(tinygltf::GetComponentSizeInBytes(uint32_t(accessor.componentType)));
   const bool view_inside = view.byteOffset <= bytes.size() && view.byteLength <= bytes.size() - view.byteOffset;
-  const size_t room = view_inside && accessor.byteOffset <= view.byteLength ? view.byteLength - accessor.byteOffset : 0;
-  if (stride < element || element > room || accessor.count == 0 || accessor.count - 1 > (room - element) / stride)
+  const size_t remaining =
+      view_inside && accessor.byteOffset <= view.byteLength ? view.byteLength - accessor.byteOffset : 0;
+  if (stride < element || element > remaining || accessor.count == 0 ||
+      accessor.count - 1 > (remaining - element) / stride)
     asks.fail(fmt::format("accessor {} of the mesh, {} elements, lies outside its buffer", index, accessor.count));
   elements.bytes = bytes.data() + view.byteOffset + accessor.byteOffset;
   elements.count = accessor.count;

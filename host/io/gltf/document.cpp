@@ -47,8 +47,8 @@ Chunks chunks_of(const std::string &bytes, const std::string &where)
   Chunks chunks;
   size_t number = 0;
   for (size_t at = 12; at < end; ++number) {
-    const size_t room = end - at;
-    if (room < 8 || number_at(bytes, at) > room - 8) fail("a chunk ends behind the file");
+    const size_t remaining = end - at;
+    if (remaining < 8 || number_at(bytes, at) > remaining - 8) fail("a chunk ends behind the file");
     const uint32_t length = number_at(bytes, at), type = number_at(bytes, at + 4);
     if ((number == 0) != (type == json_chunk)) fail("its first chunk, and that one alone, must be the JSON");
     if (number == 0) chunks.json = without_padding(bytes.substr(at + 8, length));

@@ -136,7 +136,7 @@ void read_gltf_motion(const JsonValue &motion, const Transform &world, const Sce
   if (!kinematic || has_volume(scene.shapes[body.shape]))
     require_volume(motion, [&] { move_to_mass(scene, center, axes, body); });
   else if (center) move_frame(body, *center, Rotation{node[0], node[1], node[2], node[3]});
-  body.motion = kinematic ? Motion::kinematic : Motion::dynamic;
+  body.type = kinematic ? BodyType::kinematic : BodyType::dynamic;
   if (kinematic) {
     body.infinite_inertia = false;
     return;

@@ -21,7 +21,7 @@ using tandem::written; /* beside those of this file */
 constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
 constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
 
-std::span<const char *const> names_of(Motion) { return motion_names; }
+std::span<const char *const> names_of(BodyType) { return motion_names; }
 std::span<const char *const> names_of(Combine) { return combine_names; }
 
 template <typename Field> void each_field(const Material *, Field &&field)
@@ -39,7 +39,7 @@ template <typename Field> void each_field(const Material *, Field &&field)
 template <typename Field> void each_field(const Body *, Field &&field)
 {
   field("name", &Body::name);
-  field("motion", &Body::motion);
+  field("motion", &Body::type);
   field("shape", &Body::shape);
   field("material", &Body::material);
   field("position", &Body::position);
@@ -128,7 +128,7 @@ void take_densities(const JsonValue &bodies, Scene &scene, const std::string &wh
   if (given.empty()) return;
   Scene sound =
       scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
-  for (size_t i : given) sound.bodies[i].motion = std::min(sound.bodies[i].motion, Motion::kinematic);
+  for (size_t i : given) sound.bodies[i].type = std::min(sound.bodies[i].type, BodyType::kinematic);
   validate(sound, where);
   for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
 }

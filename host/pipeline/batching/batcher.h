@@ -1,6 +1,6 @@
 /* batcher.h - the ways to batch contacts, one small file each: what `--batching NAME` picks.
  *
- * A batcher launches kernels that give each touching pair a colour: pair_color below COLOR_LIMIT, or COLOR_TAIL. It
+ * A batcher launches kernels that give each touching pair a colour: pair_color below COLOR_LIMIT, or COLOR_OVERFLOW. It
  * finds them at COLOR_NONE, the colours in use at each body cleared (but for those kept from the last step, if it asked
  * for them) and bids cleared. It leaves COUNT_UNCOLORED at 0, or too few rounds were launched and the step runs again
  * with more. Sorting by colour, and all that comes after, is the same for every batcher (host/pipeline/step.cpp).

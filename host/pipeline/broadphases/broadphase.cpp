@@ -20,10 +20,11 @@ std::span<const BroadphaseRow> broadphase_rows()
       {Broadphase::brute_force, "brute-force", "every body against every one before it: the oracle",
        find_pairs_by_brute_force, QUERY_EVERY_BODY},
       {Broadphase::sap, "sap", "sort, sweep and prune along the axis of largest variance, in windows of local memory",
-       find_pairs_by_sweep},
-      {Broadphase::sap_pca, "sap-pca", "the same along the principal direction", find_pairs_by_principal_sweep},
+       find_pairs_by_sweep_and_prune},
+      {Broadphase::sap_pca, "sap-pca", "the same along the principal direction",
+       find_pairs_by_principal_sweep_and_prune},
       {Broadphase::sap_plain, "sap-plain", "the sweep before it was optimised, one work-item a body",
-       find_pairs_by_plain_sweep},
+       find_pairs_by_plain_sweep_and_prune},
       {Broadphase::sap3, "sap3",
        "incremental sweep and prune along three axes: only ends that changed their places are looked at",
        find_pairs_incrementally},
@@ -35,7 +36,7 @@ std::span<const BroadphaseRow> broadphase_rows()
       {Broadphase::bvh_history, "bvh-history", "the same, walked by history flags, two bits a level",
        find_pairs_by_history},
       {Broadphase::trees, "trees",
-       "a moving and a standing tree of boxes with room to move in, and pairs that are kept until a body leaves its "
+       "a dynamic and a static tree of boxes with a margin to move in, and pairs that are kept until a body leaves its "
        "box",
        find_pairs_in_trees},
       {Broadphase::automatic, "auto", "as the scene suggests", nullptr},
@@ -59,7 +60,7 @@ void find_extent(StepLaunches &step, bool hybrid)
 {
   step.run(Kernel::extent_tiles);
   step.run(Kernel::extent_whole);
-  step.run(Kernel::lay_out, {hybrid ? 1u : 0u});
+  step.run(Kernel::compute_grid_layout, {hybrid ? 1u : 0u});
 }
 
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity)

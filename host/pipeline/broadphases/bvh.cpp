@@ -1,6 +1,6 @@
 /* bvh.cpp - a hierarchy of boxes over the bodies along a curve, walked by every body (shared/broadphase/hierarchy.h).
  * Its order is kept from step to step and its boxes are made anew, until too many bodies have left the places they were
- * filed under. */
+ * inserted with. */
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
 #include "shared/body_codes.h"
@@ -11,7 +11,7 @@ namespace {
 
 void find_pairs_by(StepLaunches &step, uint32_t walk)
 {
-  step.run(Kernel::count_strays);
+  step.run(Kernel::count_escaped);
   build_hierarchy(step, true);
   step.run(Kernel::hierarchy_count, {walk});
   step.scan_pairs(Buffer::pair_start);
@@ -22,7 +22,7 @@ void find_pairs_by(StepLaunches &step, uint32_t walk)
 
 void link_leaves(StepLaunches &step, Buffer boxes)
 {
-  step.run_at_most(Kernel::file_leaves, step.plan().bodies, {}, {boxes});
+  step.run_at_most(Kernel::insert_leaves, step.plan().bodies, {}, {boxes});
   step.run_at_most(Kernel::link_nodes, step.plan().bodies);
 }
 
@@ -46,7 +46,7 @@ void build_hierarchy(StepLaunches &step, bool keep)
   step.run(Kernel::plan_hierarchy, {keep ? 1u : 0u});
   find_extent(step);
   step.run_at_most(Kernel::curve_keys, bodies);
-  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_FILED, bodies, 0, CURVE_BITS);
+  step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_INSERTED, bodies, 0, CURVE_BITS);
   link_leaves(step, Buffer::bounds);
   raise_boxes(step, Buffer::bounds);
 }

@@ -43,7 +43,7 @@ void find_pairs_in_half_the_cells(StepLaunches &step)
 {
   sort_into_cells(step);
   step.run(Kernel::symmetric_count);
-  step.scan_pairs(Buffer::sweep_start);
+  step.scan_pairs(Buffer::key_start);
   step.run(Kernel::symmetric_write);
   pairs_from_keys(step);
 }

@@ -21,7 +21,7 @@ void find_pairs_in_hybrid(StepLaunches &step)
   step.sort(Buffer::sort_key, Buffer::sort_value, COUNT_BOUNDED, bodies, 0, std::bit_width(step.plan().capacity_cells));
   step.run_at_most(Kernel::grid_cells, step.plan().capacity_cells + 1, {COUNT_BOUNDED});
   step.run(Kernel::small_count);
-  step.run(Kernel::join_finds);
+  step.run(Kernel::join_neighbors);
   step.scan_pairs(Buffer::share_start, COUNT_HALVES);
   step.run(Kernel::large_write);
   step.run(Kernel::small_write);

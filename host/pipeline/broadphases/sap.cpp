@@ -1,5 +1,5 @@
-/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep.h) and as it ends
- * (sweep_window.h). */
+/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep_and_prune.h) and as it
+ * ends (sweep_window.h). */
 #include "host/pipeline/broadphases/broadphase.h"
 
 namespace tandem {
@@ -27,16 +27,16 @@ void sweep_in_windows(StepLaunches &step, uint32_t principal)
 
 } // namespace
 
-void find_pairs_by_plain_sweep(StepLaunches &step)
+void find_pairs_by_plain_sweep_and_prune(StepLaunches &step)
 {
   sort_along_axis(step, 0);
   step.run(Kernel::sweep_count);
-  step.scan_pairs(Buffer::sweep_start);
+  step.scan_pairs(Buffer::key_start);
   step.run(Kernel::sweep_write);
   pairs_from_keys(step);
 }
 
-void find_pairs_by_sweep(StepLaunches &step) { sweep_in_windows(step, 0); }
-void find_pairs_by_principal_sweep(StepLaunches &step) { sweep_in_windows(step, 1); }
+void find_pairs_by_sweep_and_prune(StepLaunches &step) { sweep_in_windows(step, 0); }
+void find_pairs_by_principal_sweep_and_prune(StepLaunches &step) { sweep_in_windows(step, 1); }
 
 } // namespace tandem

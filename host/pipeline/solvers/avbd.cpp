@@ -1,7 +1,7 @@
 /* avbd.cpp - augmented vertex block descent, coloured by bodies; see shared/solve/avbd.h. */
 #include <algorithm>
 
-#include "host/pipeline/incidence.h"
+#include "host/pipeline/body_constraints.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 
@@ -43,7 +43,7 @@ void launch_iteration(StepLaunches &step, uint32_t colors)
 
 void launch_avbd(StepLaunches &step)
 {
-  list_incidences(step.launcher(), step.plan(), 0);
+  list_body_constraints(step.launcher(), step.plan(), 0);
   color_bodies(step);
   step.run(Kernel::avbd_prepare);
   const uint32_t colors = body_colors(step.plan());
@@ -56,9 +56,9 @@ void launch_avbd(StepLaunches &step)
     solve_rolling(step);
   }
   if (!step.has(FEATURE_RESTITUTION)) return;
-  MassSplit tail = MassSplit::tail_of(step);
-  tail.prepare();
-  apply_restitution(step, tail);
+  MassSplit overflow = MassSplit::overflow_of(step);
+  overflow.prepare();
+  apply_restitution(step, overflow);
 }
 
 void commit_avbd(StepLaunches &step)

@@ -10,22 +10,22 @@
 namespace tandem {
 namespace {
 
-void launch_pass(StepLaunches &step, MassSplit &tail, uint32_t pass)
+void launch_pass(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
   step.for_each_color(Kernel::solve_contacts, {pass});
-  tail.solve(pass, tail_iterations);
+  overflow.solve(pass, overflow_iterations);
 }
 
-void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_direct_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
   step.begin_substep(substep);
-  warm_start_contacts(step, tail);
-  for (uint32_t iteration = 0; iteration < step.settings().iterations * tail.turns(); ++iteration)
-    launch_pass(step, tail, PASS_BIASED);
+  warm_start_contacts(step, overflow);
+  for (uint32_t iteration = 0; iteration < step.settings().iterations * overflow.turns(); ++iteration)
+    launch_pass(step, overflow, PASS_BIASED);
   step.run(Kernel::solve_islands, {PASS_BIASED});
   solve_rolling(step);
   step.run(Kernel::integrate_positions);
-  launch_pass(step, tail, PASS_LAST);
+  launch_pass(step, overflow, PASS_LAST);
   step.run(Kernel::solve_islands, {PASS_LAST});
   solve_rolling(step);
 }
@@ -34,10 +34,11 @@ void launch_direct_substep(StepLaunches &step, MassSplit &tail, uint32_t substep
 
 void launch_direct(StepLaunches &step)
 {
-  MassSplit tail = MassSplit::tail_of(step);
-  tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_direct_substep(step, tail, substep);
-  apply_restitution(step, tail);
+  MassSplit overflow = MassSplit::overflow_of(step);
+  overflow.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
+    launch_direct_substep(step, overflow, substep);
+  apply_restitution(step, overflow);
   if (step.has(FEATURE_RESTITUTION)) step.run(Kernel::solve_islands, {PASS_BOUNCING});
 }
 

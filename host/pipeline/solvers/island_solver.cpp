@@ -24,7 +24,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
 constexpr double rounding = 1e-13; /* of the sums that make a speed */
-constexpr int rounds = 4, newton_limit = 16, first_sweeps = 32;
+constexpr int rounds = 4, newton_limit = 16, first_iterations = 32;
 /* Where plain Newton stalls: much compliance about what is known, which is easy, then less and less (proximal point
  * method). */
 constexpr double softened[] = {1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
@@ -98,7 +98,7 @@ public:
       if (result_.converged) break;
       if (residual(x) > result_.residual) x = best_;
       if (round > 0) soften(x);
-      sweep(x, first_sweeps << round);
+      iterate(x, first_iterations << round);
     }
     std::copy_n(best_.data(), n_, problem_.impulse.begin());
     return result_;
@@ -147,7 +147,7 @@ private:
     return 2 / (a + b + std::sqrt((a - b) * (a - b) + 4 * mixed * mixed));
   }
 
-  static double pressure(const ManifoldRows &m, const Vector &x)
+  static double normal_impulse_sum(const ManifoldRows &m, const Vector &x)
   {
     double sum = 0;
     for (uint32_t k = 0; k < m.normals; ++k) sum += x[m.first + k];
@@ -176,7 +176,7 @@ private:
   {
     for (const ManifoldRows &m : problem_.manifolds) {
       for (uint32_t k = 0; k < m.normals; ++k) x[m.first + k] = std::max(x[m.first + k], 0.0);
-      const double limit = m.friction * pressure(m, x);
+      const double limit = m.friction * normal_impulse_sum(m, x);
       if (m.slides) project_tangent(limit, x[tangent(m)], x[tangent(m) + 1]);
       if (m.twists) x[twist(m)] = std::clamp(x[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
     }
@@ -189,7 +189,7 @@ private:
     map_ = x - step_.cwiseProduct(speed_);
     for (const ManifoldRows &m : problem_.manifolds) {
       for (uint32_t k = 0; k < m.normals; ++k) map_[m.first + k] = std::max(map_[m.first + k], 0.0);
-      const double limit = m.friction * pressure(m, x);
+      const double limit = m.friction * normal_impulse_sum(m, x);
       if (m.slides) project_tangent(limit, map_[tangent(m)], map_[tangent(m) + 1]);
       if (m.twists) map_[twist(m)] = std::clamp(map_[twist(m)], -limit * m.twist_radius, limit * m.twist_radius);
     }
@@ -247,7 +247,7 @@ private:
         if (x[i] - step_[i] * speed_[i] > 0) derivative_.row(i) = step_[i] * matrix_.row(i);
         else derivative_(i, i) = 1;
       }
-      const double limit = m.friction * pressure(m, x);
+      const double limit = m.friction * normal_impulse_sum(m, x);
       if (m.slides) linearise_tangent(m, limit, x);
       if (m.twists) linearise_twist(m, limit * m.twist_radius, x);
     }
@@ -370,13 +370,13 @@ private:
     for (Eigen::Index k = reach(i).first; k < reach(i).last; ++k) speed_[k] += matrix_(i, k) * change;
   }
 
-  void sweep_manifold(const ManifoldRows &m, Vector &x)
+  void solve_manifold(const ManifoldRows &m, Vector &x)
   {
     for (uint32_t k = 0; k < m.normals; ++k) {
       const Eigen::Index i = m.first + k;
       move(x, i, std::max(x[i] - step_[i] * speed_[i], 0.0));
     }
-    const double limit = m.friction * pressure(m, x);
+    const double limit = m.friction * normal_impulse_sum(m, x);
     if (m.slides) {
       const Eigen::Index t = tangent(m);
       double first = x[t] - step_[t] * speed_[t], second = x[t + 1] - step_[t] * speed_[t + 1];
@@ -389,7 +389,7 @@ private:
     move(x, i, std::clamp(x[i] - step_[i] * speed_[i], -limit * m.twist_radius, limit * m.twist_radius));
   }
 
-  void sweep(Vector &x, int count)
+  void iterate(Vector &x, int count)
   {
     admit(x);
     for (int k = 0; k < count; ++k) {
@@ -397,8 +397,8 @@ private:
         if (keep_if_better(x)) return;
         evaluate_speeds(x); /* anew: changes would add up their rounding */
       }
-      for (const ManifoldRows &m : problem_.manifolds) sweep_manifold(m, x);
-      ++result_.sweeps;
+      for (const ManifoldRows &m : problem_.manifolds) solve_manifold(m, x);
+      ++result_.iterations;
     }
     keep_if_better(x);
   }

@@ -7,7 +7,7 @@
  *   twist    |x| <= friction * twist_radius * (the same sum), opposed to w where it slips
  *
  * Semismooth Newton on the natural map (Alart and Curnier, 1991; survey: Acary, Bremond and Huber, "On solving contact
- * problems with Coulomb friction", 2018), and sweeps of nonsmooth Gauss-Seidel (Jean, 1999) where it stalls.
+ * problems with Coulomb friction", 2018), and passes of nonsmooth Gauss-Seidel (Jean, 1999) where it stalls.
  */
 #pragma once
 
@@ -35,7 +35,7 @@ struct IslandProblem {
 struct IslandResult {
   bool converged = false;
   double residual = 0; /* m/s: largest speed by which a row misses its law (natural map over its step) */
-  uint32_t newton_steps = 0, sweeps = 0;
+  uint32_t newton_steps = 0, iterations = 0;
 };
 
 /* Rows yield by a millionth of their own response to what their impulse differs from the guess. Converged: the residual

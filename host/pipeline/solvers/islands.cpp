@@ -29,25 +29,25 @@ namespace {
 
 using namespace in_double;
 
-std::vector<row> read_rows(Memory &memory, Buffer buffer, size_t count, size_t first = 0)
+std::vector<float4> read_rows(Memory &memory, Buffer buffer, size_t count, size_t first = 0)
 {
   const std::vector<double> reals = memory.read_reals(buffer, 4 * count, 4 * first);
-  std::vector<row> rows(count);
-  std::memcpy(static_cast<void *>(rows.data()), reals.data(), count * sizeof(row));
+  std::vector<float4> rows(count);
+  std::memcpy(static_cast<void *>(rows.data()), reals.data(), count * sizeof(float4));
   return rows;
 }
 
-void write_rows(Memory &memory, Buffer buffer, const std::vector<row> &rows, size_t first = 0)
+void write_rows(Memory &memory, Buffer buffer, const std::vector<float4> &rows, size_t first = 0)
 {
   memory.write_reals(buffer, reinterpret_cast<const double *>(rows.data()), 4 * rows.size(), 4 * first);
 }
 
 /* Planes `stride` apart on the device, `count` apart here. */
-std::vector<row> read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride)
+std::vector<float4> read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride)
 {
-  std::vector<row> all;
+  std::vector<float4> all;
   for (size_t plane = 0; plane < planes; ++plane) {
-    const std::vector<row> one = read_rows(memory, buffer, count, plane * stride);
+    const std::vector<float4> one = read_rows(memory, buffer, count, plane * stride);
     all.insert(all.end(), one.begin(), one.end());
   }
   return all;
@@ -76,10 +76,10 @@ struct Rows {
         friction_impulse(read_rows(memory, Buffer::constraint_friction_impulse, count)),
         velocity(read_rows(memory, Buffer::solver_velocity, 2 * size_t{counts[COUNT_BODIES]})),
         inertia(read_rows(memory, Buffer::solver_inertia, velocity.size())),
-        delta(read_rows(memory, Buffer::solver_delta, velocity.size()))
+        delta(read_rows(memory, Buffer::solver_delta_pose, velocity.size()))
   {
     slop = memory.read_reals(Buffer::constraint_slop, count);
-    if (bounces()) bounce = read_planes(memory, Buffer::constraint_bounce, 2, count, stride);
+    if (bounces()) restitution = read_planes(memory, Buffer::constraint_restitution, 2, count, stride);
   }
 
   bool bounces() const { return HAS_FEATURE(&parameters, RESTITUTION); }
@@ -91,13 +91,14 @@ struct Rows {
     write_rows(memory, Buffer::constraint_normal_impulse, normal_impulse);
     write_rows(memory, Buffer::constraint_friction_impulse, friction_impulse);
     write_rows(memory, Buffer::solver_velocity, velocity);
-    if (bounces()) write_rows(memory, Buffer::constraint_bounce, {bounce.begin() + count, bounce.end()}, stride);
+    if (bounces())
+      write_rows(memory, Buffer::constraint_restitution, {restitution.begin() + count, restitution.end()}, stride);
   }
 
   uint32_t count, stride;
   Parameters parameters;
   std::vector<uint32_t> a, b;
-  std::vector<row> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, bounce;
+  std::vector<float4> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
   std::vector<double> slop; /* or that it is deep: slop_or_deep */
 };
 
@@ -170,10 +171,10 @@ std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32
 
 /* --- rows of a constraint -------------------------------------------------------------------------- */
 
-/* speed = direction . (v_b - v_a) + turn_b . w_b - turn_a . w_a */
+/* speed = direction . (v_b - v_a) + r_cross_n_b . w_b - r_cross_n_a . w_a */
 struct Row {
   uint32_t a, b;
-  vec3 direction, turn_a, turn_b;
+  vec3 direction, r_cross_n_a, r_cross_n_b;
   double *impulse; /* where it is kept */
 };
 
@@ -207,7 +208,7 @@ public:
 
 private:
   void add_constraint(uint32_t i);
-  void add_normals(uint32_t i, const contact &c, const support &s, const drift &moved);
+  void add_normals(uint32_t i, const contact &c, const normal_rows &s, const delta_pose &moved);
   void add_friction(uint32_t i, const contact &c, arm_shift shift);
   void add_row(const Row &row, double bias);
   bool normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const;
@@ -224,8 +225,8 @@ private:
   IslandProblem problem_;
 };
 
-double *component_of(row &r, uint32_t k) { return k == 0 ? &r.x : k == 1 ? &r.y : k == 2 ? &r.z : &r.w; }
-double value_of(const row &r, uint32_t k) { return k == 0 ? r.x : k == 1 ? r.y : k == 2 ? r.z : r.w; }
+double *component_of(float4 &r, uint32_t k) { return k == 0 ? &r.x : k == 1 ? &r.y : k == 2 ? &r.z : &r.w; }
+double value_of(const float4 &r, uint32_t k) { return k == 0 ? r.x : k == 1 ? r.y : k == 2 ? r.z : r.w; }
 
 void Island::add_row(const Row &row, double bias)
 {
@@ -238,10 +239,11 @@ void Island::add_constraint(uint32_t i)
 {
   const contact c = load_contact({rows_.a.data(), rows_.b.data(), rows_.normal.data()}, rows_.velocity.data(),
                                  rows_.inertia.data(), i);
-  const drift moved = load_drift(rows_.delta.data(), c);
+  const delta_pose moved = load_delta_pose(rows_.delta.data(), c);
   const arm_shift shift = shift_of_contact(c, moved.translation);
-  const row old = rows_.normal_impulse[i];
-  const support s = load_support(rows_.points.data(), rows_.count, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
+  const float4 old = rows_.normal_impulse[i];
+  const normal_rows s =
+      load_normal_rows(rows_.points.data(), rows_.count, c, shift, make_vec4(old.x, old.y, old.z, old.w), i);
   ManifoldRows manifold;
   manifold.first = static_cast<uint32_t>(list_.size());
   add_normals(i, c, s, moved);
@@ -270,44 +272,45 @@ bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, 
   }
   bias = ahead ? separation * p.inverse_substep : 0.0;
   if (pass_ == PASS_BOUNCING) {
-    const double wished = value_of(rows_.bounce[i], k);
-    const double highest = value_of(rows_.bounce[rows_.count + i], k);
-    if (wished >= 0 && highest > 0) {
-      bias = -wished;
+    const double target_velocity = value_of(rows_.restitution[i], k);
+    const double highest = value_of(rows_.restitution[rows_.count + i], k);
+    if (target_velocity >= 0 && highest > 0) {
+      bias = -target_velocity;
       return true;
     }
   }
   return !(ahead && old == 0);
 }
 
-void Island::add_normals(uint32_t i, const contact &c, const support &s, const drift &moved)
+void Island::add_normals(uint32_t i, const contact &c, const normal_rows &s, const delta_pose &moved)
 {
-  const double rate = softness_of(&rows_.parameters, c).rate, closed = inner(c.normal, moved.translation);
+  const double rate = softness_of(&rows_.parameters, c).rate, closed = dot3(c.normal, moved.translation);
   for (uint32_t k = 0; k < 4; ++k) {
     if (!(s.mass[k] > 0)) continue;
     const double separation = rows_.points[size_t{rows_.count} * k + i].w + closed +
-                              (inner(s.turn_b[k], moved.rotation_b) - inner(s.turn_a[k], moved.rotation_a));
+                              (dot3(s.r_cross_n_b[k], moved.rotation_b) - dot3(s.r_cross_n_a[k], moved.rotation_a));
     double bias = 0;
     if (normal_row(i, k, separation, rate, bias))
-      add_row({c.a, c.b, c.normal, s.turn_a[k], s.turn_b[k], component_of(rows_.normal_impulse[i], k)}, bias);
+      add_row({c.a, c.b, c.normal, s.r_cross_n_a[k], s.r_cross_n_b[k], component_of(rows_.normal_impulse[i], k)}, bias);
   }
 }
 
 void Island::add_friction(uint32_t i, const contact &c, arm_shift shift)
 {
-  const vec3 arm_a = add(xyz(load_row(rows_.center.data(), i)), shift.a),
-             arm_b = add(xyz(load_row(rows_.center.data(), rows_.count + i)), shift.b);
+  const vec3 arm_a = add(xyz(load_float4(rows_.center.data(), i)), shift.a),
+             arm_b = add(xyz(load_float4(rows_.center.data(), rows_.count + i)), shift.b);
   const tangents t = tangents_of(c.normal);
-  row &kept = rows_.friction_impulse[i];
-  add_row({c.a, c.b, t.first, outer(arm_a, t.first), outer(arm_b, t.first), &kept.x}, 0);
-  add_row({c.a, c.b, t.second, outer(arm_a, t.second), outer(arm_b, t.second), &kept.y}, 0);
+  float4 &kept = rows_.friction_impulse[i];
+  add_row({c.a, c.b, t.first, cross3(arm_a, t.first), cross3(arm_b, t.first), &kept.x}, 0);
+  add_row({c.a, c.b, t.second, cross3(arm_a, t.second), cross3(arm_b, t.second), &kept.y}, 0);
 }
 
 double Island::speed_of(const Row &r) const
 {
-  const motion one = load_motion(rows_.velocity.data(), r.a), other = load_motion(rows_.velocity.data(), r.b);
-  return inner(r.direction, subtract(other.linear, one.linear)) + inner(r.turn_b, other.angular) -
-         inner(r.turn_a, one.angular);
+  const spatial_velocity one = load_velocity(rows_.velocity.data(), r.a),
+                         other = load_velocity(rows_.velocity.data(), r.b);
+  return dot3(r.direction, subtract(other.linear, one.linear)) + dot3(r.r_cross_n_b, other.angular) -
+         dot3(r.r_cross_n_a, one.angular);
 }
 
 /* W and the speeds without any impulse: those of now less what the present impulses give. */
@@ -319,13 +322,13 @@ void Island::assemble()
     for (const bool second : {false, true}) {
       const uint32_t body = second ? list_[r].b : list_[r].a;
       if (!rows_.moves(body)) continue;
-      const vec3 turn =
-          symmetric_times(load_inertia(rows_.inertia.data(), body), second ? list_[r].turn_b : list_[r].turn_a);
+      const vec3 turn = symmetric_times(load_inertia(rows_.inertia.data(), body),
+                                        second ? list_[r].r_cross_n_b : list_[r].r_cross_n_a);
       for (size_t s = r; s < n; ++s) {
         if (list_[s].a != body && list_[s].b != body) continue;
         const bool other = list_[s].b == body;
-        const double value = rows_.velocity[2 * body].w * inner(list_[r].direction, list_[s].direction) +
-                             inner(turn, other ? list_[s].turn_b : list_[s].turn_a);
+        const double value = rows_.velocity[2 * body].w * dot3(list_[r].direction, list_[s].direction) +
+                             dot3(turn, other ? list_[s].r_cross_n_b : list_[s].r_cross_n_a);
         problem_.matrix[r * n + s] += other == second ? value : -value;
       }
     }
@@ -340,10 +343,10 @@ void Island::assemble()
 void Island::push(uint32_t body, const vec3 &direction, const vec3 &turn, double impulse)
 {
   if (!rows_.moves(body)) return;
-  motion m = load_motion(rows_.velocity.data(), body);
+  spatial_velocity m = load_velocity(rows_.velocity.data(), body);
   m.linear = add_scaled(m.linear, direction, m.inverse_mass * impulse);
   m.angular = add_scaled(m.angular, symmetric_times(load_inertia(rows_.inertia.data(), body), turn), impulse);
-  store_motion(rows_.velocity.data(), body, m);
+  store_velocity(rows_.velocity.data(), body, m);
 }
 
 void Island::apply()
@@ -352,8 +355,8 @@ void Island::apply()
     const double change = problem_.impulse[r] - *list_[r].impulse;
     if (change == 0) continue;
     *list_[r].impulse = problem_.impulse[r];
-    push(list_[r].a, list_[r].direction, list_[r].turn_a, -change);
-    push(list_[r].b, list_[r].direction, list_[r].turn_b, change);
+    push(list_[r].a, list_[r].direction, list_[r].r_cross_n_a, -change);
+    push(list_[r].b, list_[r].direction, list_[r].r_cross_n_b, change);
   }
 }
 
@@ -362,7 +365,7 @@ void Island::note_highest()
 {
   for (uint32_t i : constraints_)
     for (uint32_t k = 0; k < 4; ++k) {
-      double *const highest = component_of(rows_.bounce[rows_.count + i], k);
+      double *const highest = component_of(rows_.restitution[rows_.count + i], k);
       *highest = std::max(*highest, value_of(rows_.normal_impulse[i], k));
     }
 }

@@ -19,8 +19,8 @@ namespace tandem {
 
 constexpr uint32_t most_island_points = 96;
 
-/* A stage of form HOST; the value of its launch is the pass (shared/solve/pass.h). Islands run in parallel; each is
- * solved by one task, so the result does not depend on threads. */
+/* A kernel of execution HOST; the value of its launch is the pass (shared/solve/pass.h). Islands run in parallel; each
+ * is solved by one task, so the result does not depend on threads. */
 void solve_islands(const Launch &launch, Memory &memory);
 
 } // namespace tandem

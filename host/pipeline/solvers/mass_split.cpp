@@ -1,7 +1,7 @@
 /* mass_split.cpp - see mass_split.h. */
 #include "host/pipeline/solvers/mass_split.h"
 
-#include "host/pipeline/incidence.h"
+#include "host/pipeline/body_constraints.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
 
@@ -15,9 +15,9 @@ constexpr uint32_t restitution_rounds = 8;
 void MassSplit::prepare()
 {
   if (!launched_) return;
-  list_incidences(step_.launcher(), step_.plan(), first_color_);
-  step_.run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::split_supports});
-  run_rows(Kernel::split_supports);
+  list_body_constraints(step_.launcher(), step_.plan(), first_color_);
+  step_.run_range(Kernel::fill, COUNT_ZERO, COUNT_BODIES, {0}, {Buffer::split_static_constraints});
+  run_rows(Kernel::split_count_static);
   run_rows(Kernel::split_masses);
 }
 
@@ -51,28 +51,28 @@ void MassSplit::run_rows(Kernel kernel, const Values &values)
   step_.run_range(kernel, COLOR_START + first_color_, COUNT_CONSTRAINTS, values);
 }
 
-/* A body of more constraints than there are colours has a tail. */
+/* A body of more constraints than there are colours has overflow constraints. */
 void MassSplit::join_parts()
 {
   const bool trees = step_.plan().colors > COLOR_LIMIT;
   if (trees)
     for (Kernel kernel : {Kernel::split_sum, Kernel::split_join})
-      step_.run_range(kernel, COUNT_ZERO, incidence_count(first_color_));
+      step_.run_range(kernel, COUNT_ZERO, body_constraint_count(first_color_));
   step_.run(Kernel::split_apply, {trees ? 1u : 0u});
 }
 
-void warm_start_contacts(StepLaunches &step, MassSplit &tail)
+void warm_start_contacts(StepLaunches &step, MassSplit &overflow)
 {
   step.for_each_color(Kernel::warm_start);
-  tail.warm_start();
+  overflow.warm_start();
   warm_start_rolling(step);
 }
 
-void apply_restitution(StepLaunches &step, MassSplit &tail)
+void apply_restitution(StepLaunches &step, MassSplit &overflow)
 {
   if (!step.has(FEATURE_RESTITUTION)) return;
   step.for_each_color(Kernel::apply_restitution);
-  tail.apply_restitution();
+  overflow.apply_restitution();
 }
 
 } // namespace tandem

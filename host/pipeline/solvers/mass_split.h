@@ -1,11 +1,12 @@
 /* mass_split.h - passes over constraints that are solved all at once; see shared/solve/mass_split.h.
  *
- * The solver `jacobi` solves every constraint so, the others those of the tail, after the last colour of each pass:
+ * The solver `jacobi` solves every constraint so, the others their overflow constraints, after the last colour of each
+ * pass:
  *
- *   MassSplit tail = MassSplit::tail_of(step);   nothing is launched where every constraint has a colour
- *   tail.prepare();                              once a step
+ *   MassSplit overflow = MassSplit::overflow_of(step);   nothing is launched where every constraint has a colour
+ *   overflow.prepare();                              once a step
  *   step.for_each_color(Kernel::warm_start);
- *   tail.warm_start();
+ *   overflow.warm_start();
  */
 #pragma once
 
@@ -13,17 +14,17 @@
 
 namespace tandem {
 
-/* Passes over the tail after each over the colours. */
-constexpr uint32_t tail_iterations = 4;
+/* Passes over the overflow constraints after each over the colours. */
+constexpr uint32_t overflow_iterations = 4;
 
 class MassSplit {
 public:
   static MassSplit all_of(StepLaunches &step) { return {step, 0, true}; }
-  static MassSplit tail_of(StepLaunches &step) { return {step, COLOR_TAIL, step.plan().colors > COLOR_LIMIT}; }
+  static MassSplit overflow_of(StepLaunches &step) { return {step, COLOR_OVERFLOW, step.plan().colors > COLOR_LIMIT}; }
 
-  /* How often colours and tail shall take turns in an iteration. What rests on a body of many contacts is spread over
-   * both, and one turn leaves them at odds: 200 kg of boxes on a slab of 20 kg then jitter for ever, at twice the
-   * depth. */
+  /* How often colours and overflow constraints shall take turns in an iteration. What rests on a body of many contacts
+   * is spread over both, and one turn leaves them at odds: 200 kg of boxes on a slab of 20 kg then jitter for ever, at
+   * twice the depth. */
   uint32_t turns() const { return launched_ ? 2 : 1; }
 
   /* Lists and masses; before any other pass. */

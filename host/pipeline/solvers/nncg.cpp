@@ -1,4 +1,4 @@
-/* nncg.cpp - conjugate gradients over the sweeps of pgs; see shared/solve/nncg.h. */
+/* nncg.cpp - conjugate gradients over the passes of pgs; see shared/solve/nncg.h. */
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
@@ -7,9 +7,9 @@
 namespace tandem {
 namespace {
 
-/* Of constraints that have a colour: those of the tail are accelerated in a way of their own
+/* Of constraints that have a colour: overflow constraints are accelerated in a way of their own
  * (shared/solve/mass_split.h). */
-constexpr uint32_t colored = COLOR_START + COLOR_TAIL;
+constexpr uint32_t colored = COLOR_START + COLOR_OVERFLOW;
 
 void go_on_along_direction(StepLaunches &step, bool first)
 {
@@ -20,35 +20,36 @@ void go_on_along_direction(StepLaunches &step, bool first)
   step.for_each_color(Kernel::nncg_advance);
 }
 
-/* The last sweep is not followed by a direction, so the impulses end within their cones. */
-void launch_sweeps(StepLaunches &step, MassSplit &tail, uint32_t pass)
+/* The last pass is not followed by a direction, so the impulses end within their cones. */
+void launch_passes(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
-  const uint32_t sweeps = step.settings().iterations;
-  if (sweeps > 1) step.run_range(Kernel::nncg_begin, COUNT_ZERO, colored);
-  for (uint32_t sweep = 0; sweep < sweeps; ++sweep) {
-    launch_pgs_sweep(step, tail, pass);
-    if (sweep + 1 < sweeps) go_on_along_direction(step, sweep == 0);
+  const uint32_t iterations = step.settings().iterations;
+  if (iterations > 1) step.run_range(Kernel::nncg_begin, COUNT_ZERO, colored);
+  for (uint32_t iteration = 0; iteration < iterations; ++iteration) {
+    launch_pgs_pass(step, overflow, pass);
+    if (iteration + 1 < iterations) go_on_along_direction(step, iteration == 0);
   }
 }
 
-void launch_nncg_substep(StepLaunches &step, MassSplit &tail, uint32_t substep)
+void launch_nncg_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
   step.begin_substep(substep);
-  warm_start_contacts(step, tail);
-  launch_sweeps(step, tail, PASS_BIASED);
+  warm_start_contacts(step, overflow);
+  launch_passes(step, overflow, PASS_BIASED);
   step.run(Kernel::integrate_positions);
   step.run(Kernel::pgs_masses);
-  launch_sweeps(step, tail, PASS_LAST);
+  launch_passes(step, overflow, PASS_LAST);
 }
 
 } // namespace
 
 void launch_nncg(StepLaunches &step)
 {
-  MassSplit tail = MassSplit::tail_of(step);
-  tail.prepare();
-  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_nncg_substep(step, tail, substep);
-  apply_restitution(step, tail);
+  MassSplit overflow = MassSplit::overflow_of(step);
+  overflow.prepare();
+  for (uint32_t substep = 0; substep < step.settings().substeps; ++substep)
+    launch_nncg_substep(step, overflow, substep);
+  apply_restitution(step, overflow);
 }
 
 } // namespace tandem

@@ -2,7 +2,7 @@
  * makes.
  *
  * A solver runs between prepare_contacts, which makes the constraints, and check_bodies, and leaves solver_velocity,
- * solver_delta and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
+ * solver_delta_pose and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
  * constraint_friction_impulse, for the next step's warm start. Each is one small file here over row kernels of
  * shared/solve/. */
 #pragma once
@@ -37,12 +37,12 @@ void launch_direct(StepLaunches &step);
 
 class MassSplit;
 
-/* What several solvers launch: the impulses of the last step or substep, applied once more; one sweep of pgs, friction
+/* What several solvers launch: the impulses of the last step or substep, applied once more; one pass of pgs, friction
  * after all normals (pass: of shared/solve/pass.h); restitution and the torques of rolling friction, nothing in a scene
  * without. */
-void warm_start_contacts(StepLaunches &step, MassSplit &tail);
-void launch_pgs_sweep(StepLaunches &step, MassSplit &tail, uint32_t pass);
-void apply_restitution(StepLaunches &step, MassSplit &tail);
+void warm_start_contacts(StepLaunches &step, MassSplit &overflow);
+void launch_pgs_pass(StepLaunches &step, MassSplit &overflow, uint32_t pass);
+void apply_restitution(StepLaunches &step, MassSplit &overflow);
 void warm_start_rolling(StepLaunches &step);
 void solve_rolling(StepLaunches &step);
 

@@ -16,10 +16,10 @@ void launch_xpbd_substep(StepLaunches &step, uint32_t substep)
   step.begin_substep(substep);
   warm_start_rolling(step);
   for (uint32_t iteration = 0; iteration < step.settings().iterations; ++iteration)
-    step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_tail, {iteration == 0});
+    step.for_each_color(Kernel::xpbd_positions, Kernel::xpbd_positions_overflow, {iteration == 0});
   step.run(Kernel::integrate_positions);
   for (uint32_t pass = 0; pass < velocity_passes(step); ++pass)
-    step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_tail);
+    step.for_each_color(Kernel::xpbd_velocities, Kernel::xpbd_velocities_overflow);
   solve_rolling(step);
 }
 
@@ -30,9 +30,9 @@ void launch_xpbd(StepLaunches &step)
   step.run(Kernel::xpbd_prepare);
   for (uint32_t substep = 0; substep < step.settings().substeps; ++substep) launch_xpbd_substep(step, substep);
   if (!step.has(FEATURE_RESTITUTION)) return;
-  MassSplit tail = MassSplit::tail_of(step);
-  tail.prepare();
-  apply_restitution(step, tail);
+  MassSplit overflow = MassSplit::overflow_of(step);
+  overflow.prepare();
+  apply_restitution(step, overflow);
 }
 
 void commit_xpbd(StepLaunches &step)

@@ -5,7 +5,7 @@
 
 namespace tandem {
 
-void Backend::run_host_stage(const Launch &launch, Memory &)
+void Backend::run_cpu_kernel(const Launch &launch, Memory &)
 {
   throw std::logic_error(std::string("kernel ") + row_of(launch.kernel).name + " runs on the host alone, not on " +
                          name());

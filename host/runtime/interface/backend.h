@@ -43,9 +43,9 @@ public:
   virtual void prepare(Features features, const std::vector<Kernel> &kernels) = 0;
   /* counts: the handle of Buffer::counts in this backend's storage. May return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
-  /* The same for a kernel of form HOST, which takes its buffers itself. Only the backend of host/pipeline/host_stages.h
-   * has them. */
-  virtual void run_host_stage(const Launch &launch, Memory &memory);
+  /* The same for a kernel of execution HOST, which takes its buffers itself. Only the backend of
+   * host/pipeline/cpu_kernels.h has them. */
+  virtual void run_cpu_kernel(const Launch &launch, Memory &memory);
   virtual void finish() = 0; /* waits for all work given so far */
 
   /* Work-item order of the CPU backends, for tests. */

@@ -56,7 +56,7 @@ const char *name_of(Stage stage)
 size_t size_of(Element element)
 {
   switch (element) {
-  case Element::row: return sizeof(row);
+  case Element::float4: return sizeof(float4);
   case Element::real: return sizeof(memory_real);
   case Element::uint: return sizeof(uint);
   case Element::ulong: return sizeof(ulong);

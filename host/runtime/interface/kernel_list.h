@@ -19,13 +19,13 @@
 namespace tandem {
 
 enum class Kernel : uint16_t {
-#define KERNEL(name, stage, form, items, feature, arguments) name,
+#define KERNEL(name, stage, execution, items, feature, arguments) name,
 #include "shared/kernels.def"
 #undef KERNEL
 };
 
 constexpr size_t kernel_count = 0
-#define KERNEL(name, stage, form, items, feature, arguments) +1
+#define KERNEL(name, stage, execution, items, feature, arguments) +1
 #include "shared/kernels.def"
 #undef KERNEL
     ;
@@ -44,7 +44,7 @@ constexpr size_t buffer_count = 0
     ;
 #undef BUFFER
 
-enum class Form : uint8_t { item, lanes, group, host };
+enum class Execution : uint8_t { item, lanes, group, host };
 enum class Access : uint8_t { in, out, inout };
 enum class Stage : uint8_t {
 #define STAGE(name) name,
@@ -68,7 +68,7 @@ enum class Capacity : uint8_t {
   HULL_FACES,
   HULL_CORNERS,
   HULL_EDGES,
-  HULL_STRIPS,
+  HULL_CHUNKS,
   HULL_LINKS,
   TREES,
   TREE_NODES,
@@ -85,7 +85,7 @@ enum class Capacity : uint8_t {
   CELLS,
   LEAVES,
   LEAF_TILES,
-  NEAR_PAIRS,
+  CANDIDATE_PAIRS,
   TILES,
   SORTABLE,
   SORT_HISTOGRAM,
@@ -93,7 +93,7 @@ enum class Capacity : uint8_t {
   REDUCE_PARTIAL
 };
 
-enum class Element : uint8_t { row, real, uint, ulong, Parameters };
+enum class Element : uint8_t { float4, real, uint, ulong, Parameters };
 
 /* How long the contents of a buffer matter: buffers.def says what each word means. */
 enum class Lifetime : uint8_t { SCENE, STATE, CACHE, KEPT, SCRATCH };
@@ -110,7 +110,7 @@ constexpr uint32_t items_given = 0xffffffffu; /* the launch names both ends of t
 struct KernelRow {
   const char *name;
   Stage stage;
-  Form form;
+  Execution execution;
   uint32_t items;   /* entry of counts that ends the range, or items_given */
   Features feature; /* 0: always */
   std::span<const Argument> arguments;

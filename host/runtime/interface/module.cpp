@@ -53,8 +53,8 @@ void check(const ModuleLists &lists, const Registry &known)
     refuse(lists, "there is no room for it: " + std::to_string(most_modules) + " modules and " +
                       std::to_string(most_rows) + " rows of each kind are the most");
   for (const KernelRow &row : lists.kernels)
-    if (row.form == Form::host)
-      refuse(lists, std::string("kernel '") + row.name + "' is of form HOST, which the pipeline's own are alone");
+    if (row.execution == Execution::host)
+      refuse(lists, std::string("kernel '") + row.name + "' is of execution HOST, which the pipeline's own are alone");
   for (const BufferRow &row : lists.buffers)
     if (row.capacity == Capacity::NOTHING && (row.lifetime == Lifetime::STATE || row.lifetime == Lifetime::CACHE))
       refuse(lists, std::string("buffer '") + row.name + "' has capacity NOTHING, so its lifetime is SCENE or KEPT");

@@ -96,7 +96,7 @@ public:
     BuiltKernel &built = current_->kernels[index_of(launch.kernel)];
     set_arguments(built, row_of(launch.kernel), launch, bound, counts);
     const size_t group_size = group_size_for(built, launch.expected);
-    const size_t global_size = group_count(row_of(launch.kernel).form, launch.expected, group_size) * group_size;
+    const size_t global_size = group_count(row_of(launch.kernel).execution, launch.expected, group_size) * group_size;
     cl_event event = nullptr;
     const cl_int code = code_of(faults::Site::launch, [&] {
       return clEnqueueNDRangeKernel(context_.queue(), built.kernel(), 1, nullptr, &global_size, &group_size, 0, nullptr,
@@ -169,7 +169,9 @@ private:
     try {
       fail_where_a_test_wants(faults::Site::build, "clCreateKernel");
       cl::Kernel created(program, row.name);
-      const size_t wanted = group_size_ ? group_size_ : row.form == Form::group ? items_per_tile : items_per_group;
+      const size_t wanted = group_size_                         ? group_size_
+                            : row.execution == Execution::group ? items_per_tile
+                                                                : items_per_group;
       const size_t most = created.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(context_.device);
       built.group_size = std::min(wanted, most);
       built.widest_group = !group_size_ && takes_large_groups(row) ? std::min(items_at_most, most) : built.group_size;
@@ -197,7 +199,7 @@ private:
   bool takes_large_groups(const KernelRow &row) const
   {
     const bool gains = row.stage == Stage::narrowphase || row.stage == Stage::batching || row.stage == Stage::parallel;
-    return context_.info.type == "GPU" && row.form == Form::item && gains;
+    return context_.info.type == "GPU" && row.execution == Execution::item && gains;
   }
 
   /* As large as leaves every unit of the device a group. */
@@ -208,11 +210,11 @@ private:
     return size;
   }
 
-  static size_t group_count(Form form, uint32_t expected, size_t group_size)
+  static size_t group_count(Execution execution, uint32_t expected, size_t group_size)
   {
     const size_t items = std::max<size_t>(expected, 1);
-    return form == Form::group ? (items + TILE - 1) / TILE
-                               : (std::min(items, most_items) + group_size - 1) / group_size;
+    return execution == Execution::group ? (items + TILE - 1) / TILE
+                                         : (std::min(items, most_items) + group_size - 1) / group_size;
   }
 
   void set_arguments(BuiltKernel &built, const KernelRow &row, const Launch &launch,

@@ -28,7 +28,7 @@ std::string complaint(const std::string &spec)
 Vector vector(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 
 /* How far two convex solids reach into each other along the axis: the smallest over the axes is the depth. */
-struct Solid {
+struct BodyShape {
   ShapeType type;
   Vector centre, size;
   Eigen::Matrix3d axes;
@@ -41,36 +41,36 @@ struct Solid {
   double bounding_radius() const { return type == ShapeType::sphere ? size[0] : size.norm(); }
 };
 
-Solid solid(const Scene &scene, const Body &body)
+BodyShape body_shape(const Scene &scene, const Body &body)
 {
   const Shape &shape = scene.shapes[body.shape];
   Eigen::Quaterniond q(body.orientation[3], body.orientation[0], body.orientation[1], body.orientation[2]);
   return {shape.type, Vector(body.position[0], body.position[1], body.position[2]), vector(shape.size),
-          q.toRotationMatrix(), body.motion == Motion::dynamic};
+          q.toRotationMatrix(), body.type == BodyType::dynamic};
 }
 
-std::vector<Vector> candidate_axes(const Solid &a, const Solid &b)
+std::vector<Vector> candidate_axes(const BodyShape &a, const BodyShape &b)
 {
   std::vector<Vector> axes;
   if (a.type == ShapeType::sphere && b.type == ShapeType::sphere) return {b.centre - a.centre};
-  for (const Solid *s : {&a, &b})
+  for (const BodyShape *s : {&a, &b})
     if (s->type == ShapeType::box)
       for (int i = 0; i < 3; ++i) axes.push_back(s->axes.col(i));
   if (a.type == ShapeType::box && b.type == ShapeType::box) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) axes.push_back(a.axes.col(i).cross(b.axes.col(j)));
   } else { /* to the point of the box nearest to the sphere's centre */
-    const Solid &box = a.type == ShapeType::box ? a : b, &ball = a.type == ShapeType::box ? b : a;
+    const BodyShape &box = a.type == ShapeType::box ? a : b, &ball = a.type == ShapeType::box ? b : a;
     Vector local = box.axes.transpose() * (ball.centre - box.centre);
     axes.push_back(box.axes * (local - local.cwiseMax(-box.size).cwiseMin(box.size)));
   }
   return axes;
 }
 
-double overlap(const Solid &a, const Solid &b)
+double overlap(const BodyShape &a, const BodyShape &b)
 {
   if (a.type == ShapeType::half_space || b.type == ShapeType::half_space) {
-    const Solid &space = a.type == ShapeType::half_space ? a : b, &other = a.type == ShapeType::half_space ? b : a;
+    const BodyShape &space = a.type == ShapeType::half_space ? a : b, &other = a.type == ShapeType::half_space ? b : a;
     Vector normal = space.axes.col(1);
     return other.reach(normal) - normal.dot(other.centre - space.centre);
   }
@@ -87,12 +87,13 @@ double overlap(const Solid &a, const Solid &b)
 
 double deepest_overlap(const Scene &scene)
 {
-  std::vector<Solid> solids;
-  for (const Body &body : scene.bodies) solids.push_back(solid(scene, body));
+  std::vector<BodyShape> body_shapes;
+  for (const Body &body : scene.bodies) body_shapes.push_back(body_shape(scene, body));
   double deepest = -1e30;
-  for (size_t i = 0; i < solids.size(); ++i)
-    for (size_t j = i + 1; j < solids.size(); ++j)
-      if (solids[i].moves || solids[j].moves) deepest = std::max(deepest, overlap(solids[i], solids[j]));
+  for (size_t i = 0; i < body_shapes.size(); ++i)
+    for (size_t j = i + 1; j < body_shapes.size(); ++j)
+      if (body_shapes[i].moves || body_shapes[j].moves)
+        deepest = std::max(deepest, overlap(body_shapes[i], body_shapes[j]));
   return deepest;
 }
 
@@ -112,14 +113,14 @@ uint64_t hash_of(const Scene &scene)
 
 TEST_CASE("the overlap oracle knows boxes, balls and planes")
 {
-  Solid box{ShapeType::box, {0, 0, 0}, {1, 1, 1}, Eigen::Matrix3d::Identity(), true}, other = box;
+  BodyShape box{ShapeType::box, {0, 0, 0}, {1, 1, 1}, Eigen::Matrix3d::Identity(), true}, other = box;
   other.centre = {1.9, 0, 0};
   CHECK(overlap(box, other) == Approx(0.1));
   other.centre = {1.9, 1, 2.2};
   CHECK(overlap(box, other) == Approx(-0.2));
-  Solid ball{ShapeType::sphere, {1.5, 1.5, 0}, {0.5, 0.5, 0.5}, Eigen::Matrix3d::Identity(), true};
+  BodyShape ball{ShapeType::sphere, {1.5, 1.5, 0}, {0.5, 0.5, 0.5}, Eigen::Matrix3d::Identity(), true};
   CHECK(overlap(box, ball) == Approx(0.5 - std::sqrt(0.5)));
-  Solid plane{ShapeType::half_space, {0, 0, 0}, {0, 0, 0}, Eigen::Matrix3d::Identity(), false};
+  BodyShape plane{ShapeType::half_space, {0, 0, 0}, {0, 0, 0}, Eigen::Matrix3d::Identity(), false};
   ball.centre = {7, 0.4, 7};
   CHECK(overlap(plane, ball) == Approx(0.1));
 }
@@ -130,7 +131,7 @@ TEST_CASE("box-grid stands as published")
   Scene scene = load_scene("box-grid:nx=5,ny=4,nz=3");
   REQUIRE(scene.bodies.size() == size_t(1 + nx * ny * nz));
   const Body &ground = scene.bodies[0];
-  CHECK(ground.motion == Motion::fixed);
+  CHECK(ground.type == BodyType::fixed);
   CHECK(scene.shapes[ground.shape].size == Vec3{400, 400, 400});
   CHECK(ground.position == Point{0, -400, 0});
   CHECK(scene.gravity == Vec3{0, -10, 0});
@@ -144,7 +145,7 @@ TEST_CASE("box-grid stands as published")
         CHECK(body.position[1] == 1 + 2 * j);
         CHECK(body.position[2] == Approx(shift + (k - 1) * 2.2));
         CHECK(body.mass == 1);
-        CHECK(body.motion == Motion::dynamic);
+        CHECK(body.type == BodyType::dynamic);
         CHECK(scene.shapes[body.shape].size == Vec3{1, 1, 1});
       }
   Material standard;

@@ -22,7 +22,7 @@ AxisAlignedBox random_box(Random &random, double reach, double size)
   return box;
 }
 
-std::vector<AxisAlignedBox> soup(size_t count, uint64_t seed, double size)
+std::vector<AxisAlignedBox> random_boxes(size_t count, uint64_t seed, double size)
 {
   Random random(seed);
   std::vector<AxisAlignedBox> boxes;
@@ -134,14 +134,14 @@ std::string refusal(const std::vector<AxisAlignedBox> &boxes)
 TEST_CASE("bvh: queries of random boxes find what brute force finds", "[sanitizer]")
 {
   for (size_t count : {1, 2, 3, 5, 17, 64, 65, 100, 1000}) {
-    check_queries(soup(count, count, 1), 40);
-    check_queries(soup(count, count, 8), 20);
+    check_queries(random_boxes(count, count, 1), 40);
+    check_queries(random_boxes(count, count, 8), 20);
   }
 }
 
 TEST_CASE("bvh: a hundred thousand boxes")
 {
-  const std::vector<AxisAlignedBox> boxes = soup(100000, 5, 0.2);
+  const std::vector<AxisAlignedBox> boxes = random_boxes(100000, 5, 0.2);
   check_queries(boxes, 5);
   const Bvh bvh = build_bvh(boxes, "test");
   CHECK(bvh.depth <= 25);
@@ -152,7 +152,7 @@ TEST_CASE("bvh: boxes all in one place, flat, in a line, or very long", "[saniti
 {
   check_queries(std::vector<AxisAlignedBox>(300, {{1, 2, 3}, {2, 3, 4}}), 10);
   check_queries(std::vector<AxisAlignedBox>(300, {{1, 2, 3}, {1, 2, 3}}), 10);
-  std::vector<AxisAlignedBox> flat = soup(300, 1, 1), line = flat, longish = flat;
+  std::vector<AxisAlignedBox> flat = random_boxes(300, 1, 1), line = flat, longish = flat;
   for (size_t i = 0; i < flat.size(); ++i) {
     flat[i].lower[1] = flat[i].upper[1] = 0.3f;
     line[i] = {{float(i), 0, 0}, {float(i), 0, 0}};
@@ -220,7 +220,7 @@ TEST_CASE("bvh: a quantised box contains the box, and no smaller one of 16 bits 
 
 TEST_CASE("bvh: quantised boxes are hardly larger: by less than two steps and the roundings of floats")
 {
-  const std::vector<AxisAlignedBox> boxes = soup(1000, 3, 1);
+  const std::vector<AxisAlignedBox> boxes = random_boxes(1000, 3, 1);
   const Bvh bvh = checked_bvh(boxes);
   for (const BvhNode &node : bvh.nodes) {
     if (!is_leaf(node)) continue;

@@ -6,7 +6,7 @@
 #include "host/scene/hull_buffers.h"
 #include "shared/platform.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -18,12 +18,12 @@ Scene hulls()
 {
   Random random(4);
   Scene scene = empty_scene();
-  add_solid(scene, stone(random, 30, 1), {0, 0, 0});
+  add_dynamic_body(scene, random_hull_shape(random, 30, 1), {0, 0, 0});
   const Shape shared = hull_of_box(0.5f, 1, 2);
-  add_body(scene, Motion::dynamic, shared, {10, 0, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(1), {20, 0, 0});
-  add_body(scene, Motion::dynamic, shared, {30, 0, 0});
-  add_solid(scene, stone(random, 5, 1), {40, 0, 0});
+  add_body(scene, BodyType::dynamic, shared, {10, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(1), {20, 0, 0});
+  add_body(scene, BodyType::dynamic, shared, {30, 0, 0});
+  add_dynamic_body(scene, random_hull_shape(random, 5, 1), {40, 0, 0});
   return scene;
 }
 
@@ -35,16 +35,16 @@ struct Tables {
     const auto words = [&](Buffer buffer) {
       return memory.read<uint32_t>(buffer, memory.bytes(buffer) / sizeof(uint32_t));
     };
-    const auto rows = [&](Buffer buffer) { return memory.read<row>(buffer, memory.bytes(buffer) / sizeof(row)); };
+    const auto rows = [&](Buffer buffer) { return memory.read<float4>(buffer, memory.bytes(buffer) / sizeof(float4)); };
     headers = words(Buffer::hull_header), face_starts = words(Buffer::hull_face_start),
     corners = words(Buffer::hull_corner);
     edges = words(Buffer::hull_edge), vertices = rows(Buffer::hull_vertex), planes = rows(Buffer::hull_plane);
   }
   std::vector<uint32_t> headers, face_starts, corners, edges;
-  std::vector<row> vertices, planes;
+  std::vector<float4> vertices, planes;
 };
 
-Vector vector_of(const row &r) { return {r.x, r.y, r.z}; }
+Vector vector_of(const float4 &r) { return {r.x, r.y, r.z}; }
 
 } // namespace
 
@@ -116,8 +116,8 @@ TEST_CASE("the tables of hulls are closed surfaces that face outward")
 TEST_CASE("a scene without hulls has none of their vertices")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::dynamic, capsule_shape(0.5f, 1), {0, 0, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 3, 0});
+  add_body(scene, BodyType::dynamic, capsule_shape(0.5f, 1), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 3, 0});
   CHECK(hull_sizes(scene, 0).hulls == 0);
   World world(scene);
   world.step();

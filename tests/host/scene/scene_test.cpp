@@ -22,7 +22,7 @@ Scene small_scene()
   scene.bodies.resize(3);
   scene.bodies[1].shape = 1;
   scene.bodies[2].shape = 2;
-  scene.bodies[2].motion = Motion::fixed;
+  scene.bodies[2].type = BodyType::fixed;
   scene.bodies[2].name = "floor";
   return scene;
 }
@@ -94,7 +94,7 @@ TEST_CASE("validation refuses what the solver could not bear")
       [](Scene &s) { s.materials[0].friction_combine = Combine(7); },
       [](Scene &s) { s.bodies[0].shape = 3; },
       [](Scene &s) { s.bodies[0].material = 1; },
-      [](Scene &s) { s.bodies[0].motion = Motion(5); },
+      [](Scene &s) { s.bodies[0].type = BodyType(5); },
       [](Scene &s) {
         s.bodies[0].orientation = {0, 0, 0, 0};
       },
@@ -118,7 +118,7 @@ TEST_CASE("validation refuses what the solver could not bear")
       [](Scene &s) { s.bodies[0].gravity_factor = nan_value; },
       [](Scene &s) { s.bodies[0].linear_damping = -1; },
       [](Scene &s) { s.bodies[0].angular_damping = infinity; },
-      [](Scene &s) { s.bodies[2].motion = Motion::dynamic; },
+      [](Scene &s) { s.bodies[2].type = BodyType::dynamic; },
       [](Scene &s) { s.shapes[1] = sphere_shape(1e-22f); }, /* its inertia underflows */
   };
   for (size_t i = 0; i < std::size(spoilers); ++i) {
@@ -205,7 +205,7 @@ TEST_CASE("numbers whose powers and sums are no floats are refused, field by fie
   const auto said = [](const Shape &shape) {
     return complaint([&](Scene &s) {
       s.shapes[0] = shape;
-      s.bodies[0].motion = Motion::fixed;
+      s.bodies[0].type = BodyType::fixed;
     });
   };
   for (const Shape &shape : largest) {
@@ -258,7 +258,7 @@ TEST_CASE("the largest shapes meet what is in them")
     Scene scene;
     scene.shapes = {shape, sphere_shape(1)};
     Body large, small;
-    large.motion = Motion::fixed;
+    large.type = BodyType::fixed;
     small.shape = 1;
     scene.bodies = {large, small};
     World world(scene, {}, Placement{"serial", {}, false});

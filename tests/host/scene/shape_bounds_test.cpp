@@ -71,7 +71,7 @@ TEST_CASE("what kernels read as the size of a hull is a box about its origin")
 {
   Random random(3);
   for (int i = 0; i < 100; ++i) {
-    const Shape shape = physics_tests::stone(random, 20, 1);
+    const Shape shape = physics_tests::random_hull_shape(random, 20, 1);
     Vector most = Vector::Zero();
     for (const Vec3 &v : shape.hull->vertices) most = most.cwiseMax(physics_tests::vector_of(v).cwiseAbs());
     REQUIRE(physics_tests::vector_of(kernel_size(shape)) == most);

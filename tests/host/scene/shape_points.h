@@ -10,7 +10,7 @@
 
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/triangle_mesh.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 namespace tandem::shape_points {
 
@@ -32,14 +32,14 @@ inline Shape any_shape(Random &random)
   case 4: return cylinder_shape(size(), size());
   case 5: return {ShapeType::cylinder, {size(), size(), size()}};
   case 6: return random.below(2) ? cone_shape(size(), size()) : Shape{ShapeType::cylinder, {0, size(), size()}};
-  default: return physics_tests::stone(random, 4 + int(random.below(40)), size());
+  default: return physics_tests::random_hull_shape(random, 4 + int(random.below(40)), size());
   }
 }
 
 /* A body whose shape stands anywhere in it: a third at its centre, a third of these without a turn of its own. */
 inline Body &add_any(Scene &scene, Random &random, const Point &at)
 {
-  Body &body = physics_tests::add_body(scene, Motion::dynamic, any_shape(random), at);
+  Body &body = physics_tests::add_body(scene, BodyType::dynamic, any_shape(random), at);
   body.orientation = random.orientation();
   body.inertia = {1, 1, 1}; /* its frame need not be that of its mass */
   if (random.below(3)) body.shape_position = physics_tests::vec3_of(random.uniform(0, 2) * direction(random));

@@ -11,7 +11,7 @@
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
-#include "host/verify/buffer_place.h"
+#include "host/verify/buffer_location.h"
 #include "tests/catch.h"
 
 using namespace tandem;
@@ -34,11 +34,11 @@ size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component)
   return (item * rows + row) * 4 + component;
 }
 
-Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1,
-                        const Scene &scene = small_scene())
+Difference find_injected(Kernel kernel, Buffer buffer, size_t scalar, uint64_t step, size_t world = 1,
+                         const Scene &scene = small_scene())
 {
   ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, step + 3);
-  request.tamper = plant({world, kernel, step, buffer, scalar});
+  request.inject_fault = inject_fault({world, kernel, step, buffer, scalar});
   const Comparison comparison = compare_backends(scene, request);
   REQUIRE_FALSE(comparison.equal);
   REQUIRE(comparison.first_difference);
@@ -57,7 +57,7 @@ Difference find_planted(Kernel kernel, Buffer buffer, size_t scalar, uint64_t st
   return found;
 }
 
-uint32_t pairs_there_is_room_for()
+uint32_t pairs_within_capacity()
 {
   World world(small_scene(), Settings{}, Placement{"serial", {}, false});
   return static_cast<uint32_t>(pair_capacity(world));
@@ -80,10 +80,10 @@ TEST_CASE("compare: backends of the CPU are equal in every kernel", "[compare]")
 
 TEST_CASE("compare: one ulp in the bounds of a body", "[compare]")
 {
-  const Difference found = find_planted(Kernel::compute_bounds, Buffer::bounds, scalar_of_record(7, 2, 1, 2), 0);
-  CHECK(found.place.item == 7);
-  CHECK(found.place.element == 15);
-  CHECK(found.place.field == "upper.z");
+  const Difference found = find_injected(Kernel::compute_bounds, Buffer::bounds, scalar_of_record(7, 2, 1, 2), 0);
+  CHECK(found.location.item == 7);
+  CHECK(found.location.element == 15);
+  CHECK(found.location.field == "upper.z");
   CHECK(found.ulps == 1u);
   CHECK(found.bodies.size() == 1);
   CHECK(found.breakpoint.find("i == 7 &&") != std::string::npos);
@@ -91,11 +91,11 @@ TEST_CASE("compare: one ulp in the bounds of a body", "[compare]")
 
 TEST_CASE("compare: one ulp in the separation of a contact point", "[compare]")
 {
-  const size_t element = 2 * pairs_there_is_room_for() + 4; /* plane 2, pair 4 */
-  const Difference found = find_planted(Kernel::collide_box_box, Buffer::manifold_points, element * 4 + 3, 2);
-  CHECK(found.place.item == 4);
-  CHECK(found.place.element == element);
-  CHECK(found.place.field == "separation[2]");
+  const size_t element = 2 * pairs_within_capacity() + 4; /* plane 2, pair 4 */
+  const Difference found = find_injected(Kernel::collide_box_box, Buffer::manifold_points, element * 4 + 3, 2);
+  CHECK(found.location.item == 4);
+  CHECK(found.location.element == element);
+  CHECK(found.location.field == "separation[2]");
   CHECK(found.ulps == 1u);
   CHECK(found.bodies.size() == 2);
 }
@@ -115,29 +115,29 @@ TEST_CASE("compare: one ulp of a pair that stands in a list", "[compare]")
   }
   REQUIRE(step < 200);
   --step;
-  const uint32_t place = last - 1, pair = world.memory().read<uint32_t>(Buffer::pair_of_kind, 1, place).at(0);
-  REQUIRE(place != pair);
-  const Difference found = find_planted(Kernel::collide_sphere_box, Buffer::manifold_normal, 4 * pair, step, 1, scene);
-  CHECK(found.place.item == pair);
-  CHECK(found.breakpoint.find("i == " + std::to_string(place) + " &&") != std::string::npos);
-  const std::vector<uint32_t> in_list = bodies_of_item(world, Buffer::pair_of_kind, place);
+  const uint32_t location = last - 1, pair = world.memory().read<uint32_t>(Buffer::pair_of_kind, 1, location).at(0);
+  REQUIRE(location != pair);
+  const Difference found = find_injected(Kernel::collide_sphere_box, Buffer::manifold_normal, 4 * pair, step, 1, scene);
+  CHECK(found.location.item == pair);
+  CHECK(found.breakpoint.find("i == " + std::to_string(location) + " &&") != std::string::npos);
+  const std::vector<uint32_t> in_list = bodies_of_item(world, Buffer::pair_of_kind, location);
   CHECK(in_list.size() == 2);
   CHECK(in_list == bodies_of_item(world, Buffer::manifold_normal, pair));
 }
 
 TEST_CASE("compare: the last bit of a sort key", "[compare]")
 {
-  const Difference found = find_planted(Kernel::grid_keys, Buffer::sort_key, 3, 1);
-  CHECK(found.place.item == 3);
-  CHECK(found.place.field == "key");
+  const Difference found = find_injected(Kernel::grid_keys, Buffer::sort_key, 3, 1);
+  CHECK(found.location.item == 3);
+  CHECK(found.location.field == "key");
   CHECK_FALSE(found.ulps);
 }
 
 TEST_CASE("compare: one ulp in a constraint", "[compare]")
 {
-  const Difference found = find_planted(Kernel::prepare_contacts, Buffer::constraint_normal, 5 * 4 + 3, 1);
-  CHECK(found.place.item == 5);
-  CHECK(found.place.field == "friction");
+  const Difference found = find_injected(Kernel::prepare_contacts, Buffer::constraint_normal, 5 * 4 + 3, 1);
+  CHECK(found.location.item == 5);
+  CHECK(found.location.field == "friction");
   CHECK(found.ulps == 1u);
   CHECK(found.bodies.size() == 2);
 }
@@ -150,8 +150,8 @@ TEST_CASE("compare: one ulp in a velocity, and the constraint that wrote it", "[
   /* Of the first constraint, which is of the first colour, whose launch is the first. */
   const uint32_t body = world.memory().read<uint32_t>(Buffer::constraint_b, 1, 0).at(0);
   const Difference found =
-      find_planted(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);
-  CHECK(found.place.field == "angular.x");
+      find_injected(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);
+  CHECK(found.location.field == "angular.x");
   CHECK(found.ulps == 1u);
   const size_t at = found.breakpoint.find("i == ");
   CAPTURE(found.breakpoint);
@@ -165,8 +165,8 @@ TEST_CASE("compare: one ulp in a velocity, and the constraint that wrote it", "[
 TEST_CASE("compare: one ulp in a position, on the reference itself", "[compare]")
 {
   const Difference found =
-      find_planted(Kernel::integrate_positions, Buffer::solver_delta, scalar_of_record(9, 2, 0, 1), 1, 0);
-  CHECK(found.place.field == "translation.y");
+      find_injected(Kernel::integrate_positions, Buffer::solver_delta_pose, scalar_of_record(9, 2, 0, 1), 1, 0);
+  CHECK(found.location.field == "translation.y");
   CHECK(found.ulps == 1u);
 }
 
@@ -175,7 +175,7 @@ TEST_CASE("compare: a reference that does not repeat itself is named", "[compare
   int worlds_seen = 0;
   World *last = nullptr;
   ComparisonRequest request = request_of({"serial", "serial:order=backward"}, 2);
-  request.tamper = [&](size_t index, uint64_t, World &world, const Launch &launch) {
+  request.inject_fault = [&](size_t index, uint64_t, World &world, const Launch &launch) {
     if (index != 0 || launch.kernel != Kernel::compute_bounds) return;
     if (last != &world) ++worlds_seen, last = &world;
     if (worlds_seen > 1) return; /* its second run is clean */
@@ -194,14 +194,14 @@ TEST_CASE("compare: takes two backends", "[compare]")
 
 TEST_CASE("buffer place: records, planes, single numbers", "[compare]")
 {
-  const BufferPlace mass = place_in(Buffer::body_mass, scalar_of_record(3, 2, 1, 1), 100);
+  const BufferLocation mass = location_in(Buffer::body_mass, scalar_of_record(3, 2, 1, 1), 100);
   CHECK(mass.item == 3);
   CHECK(mass.field == "angular_damping");
-  const BufferPlace center = place_in(Buffer::constraint_center, (100 + 17) * 4 + 3, 100);
+  const BufferLocation center = location_in(Buffer::constraint_center, (100 + 17) * 4 + 3, 100);
   CHECK(center.item == 17);
   CHECK(center.part == 1);
   CHECK(center.field == "mass[1]");
-  const BufferPlace pair = place_in(Buffer::pair_a, 42, 100);
+  const BufferLocation pair = location_in(Buffer::pair_a, 42, 100);
   CHECK(pair.item == 42);
   CHECK(pair.field == "body");
 }
@@ -238,7 +238,8 @@ TEST_CASE("breakpoint: names the item as its kernel does", "[compare]")
     const std::string name = iteration_name(kernel_at(k));
     if (name.empty()) continue;
     const KernelRow &row = row_of(kernel_at(k));
-    const std::string function = std::string(" ") + row.name + (row.form == Form::group ? "_group(" : "_item(");
+    const std::string function =
+        std::string(" ") + row.name + (row.execution == Execution::group ? "_group(" : "_item(");
     const size_t start = sources.find(function);
     INFO(row.name);
     REQUIRE(start != std::string::npos);
@@ -289,7 +290,7 @@ TEST_CASE("compare: NaN equals NaN of any sign and payload, and nothing else", "
 {
   const uint32_t nan = 0x7fc00000, minus_nan = 0xffc00000, payload = 0x7fffffff, infinite = 0x7f800000, zero = 0,
                  minus_zero = 0x80000000;
-  const Buffer reals = Buffer::solver_velocity, integers = Buffer::body_traits;
+  const Buffer reals = Buffer::solver_velocity, integers = Buffer::body_flags;
   for (const uint32_t other : {nan, minus_nan, payload}) {
     CHECK(same_number(reals, &nan, &other));
     CHECK(hash_numbers(reals, &nan, 4) == hash_numbers(reals, &other, 4));
@@ -308,7 +309,7 @@ TEST_CASE("compare: a NaN of another sign is not taken for the first number that
 {
   ComparisonRequest request = request_of({"serial", "tbb:threads=1,lanes=4"}, 2);
   const size_t unused = 3, changed = 4 * 7 + 1;
-  request.tamper = [&](size_t index, uint64_t, World &world, const Launch &launch) {
+  request.inject_fault = [&](size_t index, uint64_t, World &world, const Launch &launch) {
     if (launch.kernel != Kernel::compute_bounds) return;
     const uint32_t nan = index == 0 ? 0x7fc00000 : 0xffc00000, other = 0x3f800000;
     world.memory().upload(Buffer::bounds, &nan, sizeof nan, unused * sizeof nan);

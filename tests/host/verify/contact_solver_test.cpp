@@ -67,12 +67,12 @@ TEST_CASE("contact problem: solutions and residuals agree with the dense oracle"
       CAPTURE(file, solver);
       const auto backend = make_backend("reference");
       const ContactSolution early = solve_contact_problem(problem, {solver, 1e-12, 2}, *backend);
-      CHECK(early.residuals.natural ==
+      CHECK(early.residuals.natural_map ==
             Approx(dense.natural_residual(vector_of(early.impulse))).epsilon(1e-5).margin(1e-7));
       const ContactSolution last = solved(problem, solver, "reference", 1e-7);
       REQUIRE(last.converged);
-      CHECK(last.residuals.natural == last.history.back());
-      CHECK(last.history.size() == last.sweeps);
+      CHECK(last.residuals.natural_map == last.history.back());
+      CHECK(last.history.size() == last.iterations);
       CHECK((dense.velocity(vector_of(last.impulse)) - expected).norm() < 1e-5 * dense.free_velocity.norm());
       CHECK(last.residuals.fischer_burmeister < 1e-6);
       CHECK(last.residuals.cone_violation < 1e-9);
@@ -92,7 +92,7 @@ TEST_CASE("contact problem: float solvers come as near as rounding lets them")
 TEST_CASE(
     "contact problem: the Fischer-Burmeister function of the cone is zero at complementary pairs and nowhere else")
 {
-  const auto jordan_square = [](vec3 a) { return make_vec3(inner(a, a), 2 * a.x * a.y, 2 * a.x * a.z); };
+  const auto jordan_square = [](vec3 a) { return make_vec3(dot3(a, a), 2 * a.x * a.y, 2 * a.x * a.z); };
   uint32_t state = 1;
   const auto number = [&] {
     return static_cast<float>((state = state * 1664525u + 1013904223u) >> 8) / 8388608.0f - 1.0f;
@@ -170,8 +170,8 @@ TEST_CASE("contact problem: Siconos's problems take the published numbers of swe
                                {"Capsules-i100-889.dat", 2, 3}}) {
     CAPTURE(figure.file);
     const ContactProblem problem = read_contact_problem((folder / figure.file).string());
-    CHECK(solved(problem, "nsgs", "reference", 1e-3).sweeps == Approx(figure.pgs).epsilon(0.1));
-    CHECK(solved(problem, "nncg", "reference", 1e-3).sweeps == Approx(figure.nncg).epsilon(0.1));
+    CHECK(solved(problem, "nsgs", "reference", 1e-3).iterations == Approx(figure.pgs).epsilon(0.1));
+    CHECK(solved(problem, "nncg", "reference", 1e-3).iterations == Approx(figure.nncg).epsilon(0.1));
   }
   for (const char *file : {"Rover1039.dat", "Rover4613.dat"}) {
     const ContactProblem problem = read_contact_problem((folder / file).string());

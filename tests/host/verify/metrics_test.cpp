@@ -22,7 +22,7 @@ std::unique_ptr<World> resting_ball()
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {0, 0.5f, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {0, 0.5f, 0});
   auto world = std::make_unique<World>(scene, settings_with(1.0 / 60, 4), Placement{"reference", {}, false});
   run(*world, 120);
   return world;
@@ -32,11 +32,14 @@ std::unique_ptr<World> resting_ball()
  * is index 0. */
 void set_solver_velocity(World &world, const Vec3 &linear)
 {
-  const row velocity{linear[0], linear[1], linear[2], 1.0f};
-  world.memory().upload(Buffer::solver_velocity, &velocity, sizeof velocity, 2 * sizeof(row));
+  const float4 velocity{linear[0], linear[1], linear[2], 1.0f};
+  world.memory().upload(Buffer::solver_velocity, &velocity, sizeof velocity, 2 * sizeof(float4));
 }
 
-double pressure_of(World &world) { return world.memory().read_reals(Buffer::constraint_normal_impulse, 1).front(); }
+double normal_impulse_sum_of(World &world)
+{
+  return world.memory().read_reals(Buffer::constraint_normal_impulse, 1).front();
+}
 
 } // namespace
 
@@ -53,8 +56,8 @@ TEST_CASE("metrics: trajectory errors are RMS and maximum over bodies that move"
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(1), {0, 0, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(1), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(1), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(1), {0, 0, 0});
   PreciseBodies truth(3), states(3);
   for (PreciseBodyState &state : truth) state.orientation = turn(0);
   states = truth;
@@ -75,7 +78,7 @@ TEST_CASE("metrics: trajectory errors are RMS and maximum over bodies that move"
 TEST_CASE("metrics: energy and momenta of a spinning, flying brick", "[metrics]")
 {
   Scene scene = empty_scene({0, -10, 0});
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 1, 1.5f), {1, 2, 3}).mass = 6;
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 1, 1.5f), {1, 2, 3}).mass = 6;
   PreciseBodies states(1);
   states[0] = {{1, 2, 3}, turn(pi / 2), {0, 3, 0}, {0, 0, 2}}; /* turned about y: its x axis points to -z */
   const Conserved sum = conserved_quantities(scene, states);
@@ -109,14 +112,15 @@ TEST_CASE("metrics: a ball at rest solves its problem; a velocity that does not 
   World &world = *kept;
   CHECK(step_residuals(world).natural_map < 1e-9);
   CHECK(step_residuals(world).fischer_burmeister < 1e-9);
-  const double pressure = pressure_of(world);
-  CHECK(pressure == Approx(10.0 / 240).epsilon(0.01)); /* m g h of a substep */
+  const double normal_impulse_sum = normal_impulse_sum_of(world);
+  CHECK(normal_impulse_sum == Approx(10.0 / 240).epsilon(0.01)); /* m g h of a substep */
 
   const double approach = 0.015625;
   set_solver_velocity(world, {0, float(-approach), 0});
-  CHECK(step_residuals(world).natural_map == Approx(approach / pressure).epsilon(1e-6));
+  CHECK(step_residuals(world).natural_map == Approx(approach / normal_impulse_sum).epsilon(1e-6));
   CHECK(step_residuals(world).fischer_burmeister ==
-        Approx((std::hypot(pressure, approach) - pressure + approach) / pressure).epsilon(1e-6));
+        Approx((std::hypot(normal_impulse_sum, approach) - normal_impulse_sum + approach) / normal_impulse_sum)
+            .epsilon(1e-6));
 
   set_solver_velocity(world, {0.5f, 0, 0}); /* sliding without the friction of its cone */
   CHECK(step_residuals(world).natural_map == Approx(0.6).epsilon(1e-6));
@@ -127,7 +131,7 @@ TEST_CASE("metrics: an impulse outside of its cone is a violation", "[metrics]")
 {
   const auto kept = resting_ball();
   World &world = *kept;
-  const row friction{float(1.5 * 0.6 * pressure_of(world)), 0, 0, 0};
+  const float4 friction{float(1.5 * 0.6 * normal_impulse_sum_of(world)), 0, 0, 0};
   world.memory().upload(Buffer::constraint_friction_impulse, &friction, sizeof friction);
   CHECK(step_residuals(world).cone_violation == Approx(0.5).epsilon(1e-5));
   CHECK(step_residuals(world).natural_map > 0.1);
@@ -137,7 +141,7 @@ TEST_CASE("metrics: a box that slides keeps its friction on the cone, against th
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.2f, 0.5f), {0, 0.2f, 0}).linear_velocity = {3, 0, 1};
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.2f, 0.5f), {0, 0.2f, 0}).linear_velocity = {3, 0, 1};
   for (const char *backend : {"reference", "serial", "tbb:threads=2,lanes=4"}) {
     World world(scene, settings_with(1.0 / 60, 4), {backend, {}, false});
     run(world, 10);
@@ -152,7 +156,7 @@ TEST_CASE("metrics: a box that slides keeps its friction on the cone, against th
 TEST_CASE("metrics: nothing touches, nothing is left over", "[metrics]")
 {
   Scene scene = empty_scene();
-  add_body(scene, Motion::dynamic, sphere_shape(1), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(1), {0, 0, 0});
   World world(scene, {}, {"serial", {}, false});
   run(world, 2);
   CHECK(step_residuals(world).natural_map == 0);

@@ -16,8 +16,8 @@ RoundingTable table_of(double far)
   Scene scene = load_scene("box-grid:nx=2,ny=2,nz=2");
   for (Body &body : scene.bodies) {
     body.position[0] = float(body.position[0] + far);
-    if (body.motion == Motion::dynamic) body.linear_velocity = {0.37f, 0.11f, -0.29f};
-    if (body.motion == Motion::dynamic) body.angular_velocity = {0.3f, -0.2f, 0.1f};
+    if (body.type == BodyType::dynamic) body.linear_velocity = {0.37f, 0.11f, -0.29f};
+    if (body.type == BodyType::dynamic) body.angular_velocity = {0.3f, -0.2f, 0.1f};
   }
   RoundingRequest request;
   request.steps = 6;

@@ -13,7 +13,7 @@ using Catch::Matchers::ContainsSubstring;
 namespace {
 
 /* Every kind of body, meshes and compounds too, some of them far apart, above a half-space. */
-Scene crowd(int n, double size, Random &random)
+Scene dense_cluster(int n, double size, Random &random)
 {
   Scene scene = empty_scene();
   add_ground(scene);
@@ -60,7 +60,7 @@ bool same(const RayHit &a, const RayHit &b)
 TEST_CASE("rays through everything hit what each body alone is hit by, nearest first")
 {
   Random random(21);
-  const Scene scene = crowd(70, 6, random);
+  const Scene scene = dense_cluster(70, 6, random);
   const std::vector<Ray> rays = rays_across(2500, 7, random);
   std::vector<std::vector<RayHit>> expected(rays.size());
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
@@ -69,9 +69,9 @@ TEST_CASE("rays through everything hit what each body alone is hit by, nearest f
       if (alone[k].body != no_body) expected[k].push_back(alone[k]);
   }
   World world(scene);
-  const auto through = world.cast_rays_through(rays);
+  const auto through = world.cast_rays_all(rays);
   const auto nearest = world.cast_rays(rays);
-  const auto blocked = world.find_blocked_rays(rays);
+  const auto blocked = world.cast_rays_any(rays);
   size_t wrong = 0, found = 0;
   for (size_t k = 0; k < rays.size(); ++k) {
     std::sort(expected[k].begin(), expected[k].end(), [](const RayHit &a, const RayHit &b) {
@@ -92,7 +92,7 @@ TEST_CASE("rays among five thousand balls hit the nearest of them all")
   Random random(22);
   Scene scene = empty_scene({0, 0, 0});
   for (int i = 0; i < 5000; ++i)
-    add_body(scene, Motion::fixed, sphere_shape(0.25f),
+    add_body(scene, BodyType::fixed, sphere_shape(0.25f),
              {random.uniform(-12, 12), random.uniform(-12, 12), random.uniform(-12, 12)});
   World world(scene);
   std::vector<Ray> rays(2000);
@@ -105,7 +105,8 @@ TEST_CASE("rays among five thousand balls hit the nearest of them all")
   const std::vector<RayHit> hits = world.cast_rays(rays);
   size_t wrong = 0;
   for (size_t k = 0; k < rays.size(); ++k) {
-    const Vector origin = vector_of(rays[k].origin), way = vector_of(rays[k].direction), unit = way.normalized();
+    const Vector origin = vector_of(rays[k].origin), displacement = vector_of(rays[k].direction),
+                 unit = displacement.normalized();
     double least = 1e300, grazing = 1e300;
     for (const Body &body : scene.bodies) {
       const Vector to = vector_of(body.position) - origin;
@@ -114,7 +115,7 @@ TEST_CASE("rays among five thousand balls hit the nearest of them all")
       if (square >= 0 && along > 0) least = std::min(least, along - std::sqrt(square));
     }
     if (grazing < 1e-5) continue;
-    const double found = hits[k].body == no_body ? 1e300 : double(hits[k].fraction) * way.norm();
+    const double found = hits[k].body == no_body ? 1e300 : double(hits[k].fraction) * displacement.norm();
     wrong += std::abs(found - least) > 1e-3 * (least < 1e299 ? 1 : 1e300);
   }
   CHECK(wrong == 0);
@@ -126,7 +127,7 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
   Scene scene = empty_scene();
   add_ground(scene);
   for (int i = 0; i < 400; ++i) {
-    Body &body = add_body(scene, Motion::fixed,
+    Body &body = add_body(scene, BodyType::fixed,
                           i % 2 ? sphere_shape(float(random.uniform(0.1, 0.6))) : box_shape(0.5f, 0.2f, 0.3f),
                           {random.uniform(-8, 8), random.uniform(1, 12), random.uniform(-8, 8)});
     body.orientation = random.orientation();
@@ -139,7 +140,7 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
       box.displacement = {float(random.uniform(-9, 9)), float(random.uniform(-9, 9)), random.below(2) ? 0.0f : 3.0f};
   }
   World world(scene);
-  const auto found = world.sweep_boxes(boxes);
+  const auto found = world.cast_boxes(boxes);
   size_t wrong = 0, hits = 0;
   for (size_t k = 0; k < boxes.size(); ++k) {
     std::vector<std::pair<double, uint32_t>> expected{{0.0, 0u}}; /* the half-space */
@@ -153,14 +154,14 @@ TEST_CASE("boxes find the bodies whose boxes they touch, where they stand and on
       double enter = 0, leave = 1;
       for (int axis = 0; axis < 3; ++axis) {
         const double reach = half[axis] + double(boxes[k].half_extents[size_t(axis)]),
-                     way = double(boxes[k].displacement[size_t(axis)]);
+                     displacement = double(boxes[k].displacement[size_t(axis)]);
         const double offset = body.position[size_t(axis)] - boxes[k].center[size_t(axis)];
-        if (way == 0) {
+        if (displacement == 0) {
           if (std::abs(offset) > reach) leave = -1;
           doubtful = doubtful || std::abs(std::abs(offset) - reach) < 1e-5;
         } else {
-          enter = std::max(enter, std::min((offset - reach) / way, (offset + reach) / way));
-          leave = std::min(leave, std::max((offset - reach) / way, (offset + reach) / way));
+          enter = std::max(enter, std::min((offset - reach) / displacement, (offset + reach) / displacement));
+          leave = std::min(leave, std::max((offset - reach) / displacement, (offset + reach) / displacement));
         }
       }
       doubtful = doubtful || std::abs(leave - enter) < 1e-5;
@@ -190,7 +191,7 @@ TEST_CASE("queries between steps see the new places, under every broadphase, and
     Settings settings;
     settings.broadphase = broadphase;
     Random random(24);
-    const Scene scene = crowd(30, 4, random);
+    const Scene scene = dense_cluster(30, 4, random);
     World world(scene, settings), other(scene, settings);
     const std::vector<Ray> rays = rays_across(200, 5, random);
     for (int k = 0; k < 4; ++k) {
@@ -205,7 +206,7 @@ TEST_CASE("queries between steps see the new places, under every broadphase, and
       const auto found = world.cast_rays(rays), expected = still.cast_rays(rays);
       for (size_t r = 0; r < rays.size(); ++r)
         CHECK((found[r].body == expected[r].body && std::abs(found[r].fraction - expected[r].fraction) < 1e-5));
-      CHECK(world.cast_rays_through(rays).size() == rays.size());
+      CHECK(world.cast_rays_all(rays).size() == rays.size());
     }
   }
 }
@@ -215,18 +216,18 @@ TEST_CASE("boxes that mean nothing are refused, by their number")
   Scene scene = empty_scene();
   add_ground(scene);
   World world(scene, {}, {"serial", {}});
-  CHECK(world.sweep_boxes({}).empty());
-  CHECK(world.cast_rays_through({}).empty());
-  CHECK(world.find_blocked_rays({}).empty());
+  CHECK(world.cast_boxes({}).empty());
+  CHECK(world.cast_rays_all({}).empty());
+  CHECK(world.cast_rays_any({}).empty());
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::vector<QueryBox> boxes(3);
   boxes[2].half_extents[1] = -1;
-  CHECK_THROWS_WITH(world.sweep_boxes(boxes), ContainsSubstring("box 2") && ContainsSubstring("half extents"));
+  CHECK_THROWS_WITH(world.cast_boxes(boxes), ContainsSubstring("box 2") && ContainsSubstring("half extents"));
   boxes[2] = {};
   boxes[1].displacement[0] = nan;
-  CHECK_THROWS_WITH(world.sweep_boxes(boxes), ContainsSubstring("box 1") && ContainsSubstring("displacement"));
+  CHECK_THROWS_WITH(world.cast_boxes(boxes), ContainsSubstring("box 1") && ContainsSubstring("displacement"));
   std::vector<Ray> rays(2);
   rays[0].direction = {1, 0, 0};
-  CHECK_THROWS_WITH(world.cast_rays_through(rays), ContainsSubstring("ray 1") && ContainsSubstring("direction"));
-  CHECK_THROWS_WITH(world.find_blocked_rays(rays), ContainsSubstring("ray 1") && ContainsSubstring("direction"));
+  CHECK_THROWS_WITH(world.cast_rays_all(rays), ContainsSubstring("ray 1") && ContainsSubstring("direction"));
+  CHECK_THROWS_WITH(world.cast_rays_any(rays), ContainsSubstring("ray 1") && ContainsSubstring("direction"));
 }

@@ -18,7 +18,7 @@ struct Questions {
   std::vector<Ray> rays;
   std::vector<QueryBox> boxes;
   std::vector<Pose> poses;
-  std::vector<Vec3> ways;
+  std::vector<Vec3> paths;
 };
 
 struct Answers {
@@ -26,7 +26,7 @@ struct Answers {
   std::vector<bool> blocked;
   std::vector<std::vector<RayHit>> through;
   std::vector<std::vector<BoxHit>> boxes;
-  std::vector<SweepHit> sweeps;
+  std::vector<ShapeCastHit> casts;
   size_t found = 0;
 };
 
@@ -51,13 +51,13 @@ Answers ask(const Scene &scene, const Questions &questions, Broadphase broadphas
   settings.broadphase = broadphase;
   World world(scene, settings, {backend, {}});
   Answers a{world.cast_rays(questions.rays),
-            world.find_blocked_rays(questions.rays),
-            world.cast_rays_through(questions.rays),
-            world.sweep_boxes(questions.boxes),
+            world.cast_rays_any(questions.rays),
+            world.cast_rays_all(questions.rays),
+            world.cast_boxes(questions.boxes),
             {}};
   for (const Shape &shape : {sphere_shape(0.2f), box_shape(0.3f, 0.1f, 0.6f)}) {
-    const std::vector<SweepHit> hits = world.sweep(shape, questions.poses, questions.ways, {1, 3});
-    a.sweeps.insert(a.sweeps.end(), hits.begin(), hits.end());
+    const std::vector<ShapeCastHit> hits = world.cast_shapes(shape, questions.poses, questions.paths, {1, 3});
+    a.casts.insert(a.casts.end(), hits.begin(), hits.end());
   }
   for (const auto &hits : a.through) a.found += hits.size();
   return a;
@@ -76,7 +76,7 @@ void require_equal_answers(const Scene &scene, const Questions &questions, size_
       CHECK(same(found.blocked, expected.blocked));
       CHECK(same(found.through, expected.through));
       CHECK(same(found.boxes, expected.boxes));
-      CHECK(same(found.sweeps, expected.sweeps));
+      CHECK(same(found.casts, expected.casts));
     }
 }
 
@@ -88,30 +88,31 @@ Point anywhere(Random &random, const Point &middle, double size)
 
 /* From near and far, from inside of a body, at a body or past all of them; along axes and diagonals; of no length where
  * that is allowed. */
-struct Way {
+struct Segment {
   Point from;
-  Vec3 way;
+  Vec3 displacement;
 };
 
-Way any_way(const Scene &scene, Random &random, double size)
+Segment any_displacement(const Scene &scene, Random &random, double size)
 {
   const auto body = [&]() -> const Body & { return scene.bodies[random.below(uint32_t(scene.bodies.size()))]; };
   const Point about = body().position, to = random.below(3) ? body().position : anywhere(random, about, size);
   const uint32_t kind = random.below(8);
-  Way w{kind < 4    ? anywhere(random, about, size)
-        : kind == 4 ? anywhere(random, about, 1000 * size)
-                    : body().position,
-        {}};
-  for (size_t axis = 0; axis < 3; ++axis) w.way[axis] = float(random.uniform(0.2, 2) * (to[axis] - w.from[axis]));
+  Segment w{kind < 4    ? anywhere(random, about, size)
+            : kind == 4 ? anywhere(random, about, 1000 * size)
+                        : body().position,
+            {}};
+  for (size_t axis = 0; axis < 3; ++axis)
+    w.displacement[axis] = float(random.uniform(0.2, 2) * (to[axis] - w.from[axis]));
   if (random.below(4) == 0) {
     const size_t axis = random.below(3);
-    w.way = {0, 0, 0};
-    w.way[axis] = random.below(2) ? 1.5f : -float(size);
+    w.displacement = {0, 0, 0};
+    w.displacement[axis] = random.below(2) ? 1.5f : -float(size);
     w.from = to;
-    w.from[axis] -= random.uniform(-1, 1) * double(w.way[axis]);
+    w.from[axis] -= random.uniform(-1, 1) * double(w.displacement[axis]);
   }
   if (random.below(8) == 0)
-    for (float &x : w.way) x = random.below(2) ? 2.0f : -2.0f;
+    for (float &x : w.displacement) x = random.below(2) ? 2.0f : -2.0f;
   return w;
 }
 
@@ -119,17 +120,19 @@ Questions questions_about(const Scene &scene, Random &random, size_t count, doub
 {
   Questions q;
   while (q.rays.size() < count) {
-    const Way ray = any_way(scene, random, size), box = any_way(scene, random, size),
-              sweep = any_way(scene, random, size);
-    if (std::hypot(double{ray.way[0]}, double{ray.way[1]}, double{ray.way[2]}) < 1e-10) continue;
+    const Segment ray = any_displacement(scene, random, size), box = any_displacement(scene, random, size),
+                  cast = any_displacement(scene, random, size);
+    if (std::hypot(double{ray.displacement[0]}, double{ray.displacement[1]}, double{ray.displacement[2]}) < 1e-10)
+      continue;
     const float reaches[] = {0, 0.5f, 1, 1, 3, endless};
     const QueryFilter filter{random.below(4) ? 3u : 1u, random.below(4) ? 3u : 2u};
-    q.rays.push_back({ray.from, ray.way, reaches[random.below(6)], filter});
+    q.rays.push_back({ray.from, ray.displacement, reaches[random.below(6)], filter});
     const double sizes[] = {0, 0.1 * size, size, 1e5 * size};
     const auto extent = [&] { return float(sizes[random.below(random.below(10) ? 2 : 4)] * random.uniform(0, 1)); };
-    q.boxes.push_back({box.from, {extent(), extent(), extent()}, random.below(3) ? box.way : Vec3{0, 0, 0}, filter});
-    q.poses.push_back({sweep.from, random.orientation()});
-    q.ways.push_back(random.below(10) ? sweep.way : Vec3{0, 0, 0});
+    q.boxes.push_back(
+        {box.from, {extent(), extent(), extent()}, random.below(3) ? box.displacement : Vec3{0, 0, 0}, filter});
+    q.poses.push_back({cast.from, random.orientation()});
+    q.paths.push_back(random.below(10) ? cast.displacement : Vec3{0, 0, 0});
   }
   return q;
 }
@@ -152,16 +155,16 @@ Shape dumbbell()
 }
 
 /* Every kind of body; some large, some far away, some of one group only. */
-Scene crowd(int n, double size, Random &random)
+Scene dense_cluster(int n, double size, Random &random)
 {
   Scene scene = empty_scene();
   add_ground(scene);
   for (int i = 0; i < n; ++i) {
     const Point at = anywhere(random, {0, 0, 0}, random.below(12) ? size : 50 * size);
-    if (random.below(15) == 0) add_body(scene, Motion::fixed, hills(random), at).orientation = random.orientation();
-    else if (random.below(15) == 0) add_body(scene, Motion::fixed, dumbbell(), at);
+    if (random.below(15) == 0) add_body(scene, BodyType::fixed, hills(random), at).orientation = random.orientation();
+    else if (random.below(15) == 0) add_body(scene, BodyType::fixed, dumbbell(), at);
     else if (random.below(12) == 0)
-      add_body(scene, Motion::fixed, random.below(2) ? box_shape(9, 0.2f, 14) : sphere_shape(8), at);
+      add_body(scene, BodyType::fixed, random.below(2) ? box_shape(9, 0.2f, 14) : sphere_shape(8), at);
     else add_any(scene, random, at);
   }
   for (Body &body : scene.bodies) body.filter_group = 1u << random.below(2);
@@ -172,7 +175,7 @@ Scene crowd(int n, double size, Random &random)
 Scene balls_at(const std::vector<Point> &places)
 {
   Scene scene = empty_scene();
-  for (const Point &place : places) add_body(scene, Motion::dynamic, sphere_shape(0.2f), place);
+  for (const Point &place : places) add_body(scene, BodyType::dynamic, sphere_shape(0.2f), place);
   return scene;
 }
 
@@ -183,7 +186,7 @@ TEST_CASE("queries give the same bits by hierarchy, by grid and by brute force")
   for (uint64_t seed = 0; seed < 6; ++seed) {
     Random random(40 + seed);
     const double size = seed % 2 ? 4 : 20;
-    const Scene scene = crowd(seed < 4 ? 60 : 400, size, random);
+    const Scene scene = dense_cluster(seed < 4 ? 60 : 400, size, random);
     CAPTURE(seed);
     require_equal_answers(scene, questions_about(scene, random, 500, size), 300);
   }
@@ -208,6 +211,6 @@ TEST_CASE("queries agree where all bodies are large, and where there is none but
   Scene scene = empty_scene();
   add_ground(scene);
   require_equal_answers(scene, questions_about(scene, random, 100, 3), 10);
-  for (int k = 0; k < 5; ++k) add_body(scene, Motion::dynamic, sphere_shape(1), {3.0 * k, 1, 0}).continuous = true;
+  for (int k = 0; k < 5; ++k) add_body(scene, BodyType::dynamic, sphere_shape(1), {3.0 * k, 1, 0}).continuous = true;
   require_equal_answers(scene, questions_about(scene, random, 300, 3), 30);
 }

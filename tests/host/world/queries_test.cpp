@@ -1,4 +1,4 @@
-/* Rays and sweeps: closed forms for each shape from outside, inside, grazing and parallel; random rays against an
+/* Rays and shape casts: closed forms for each shape from outside, inside, grazing and parallel; random rays against an
  * oracle in double that shares nothing with the kernels; ties, filters, what is refused. */
 #include <cmath>
 #include <limits>
@@ -37,7 +37,7 @@ Scene scene_of(const std::vector<Shape> &shapes)
   for (uint32_t k = 0; k < shapes.size(); ++k) {
     Body body;
     body.shape = k;
-    body.motion = Motion::fixed;
+    body.type = BodyType::fixed;
     scene.bodies.push_back(body);
   }
   return scene;
@@ -69,13 +69,13 @@ Shape octahedron()
 
 /* --- the oracle: how far a point lies outside of a shape, in double; a ray is walked along by it --- */
 
-struct Solid {
+struct BodyShape {
   const Scene *scene;
   const Body *body;
   Eigen::Matrix3d axes;
   Vector middle;
 
-  Solid(const Scene &s, const Body &b) : scene(&s), body(&b)
+  BodyShape(const Scene &s, const Body &b) : scene(&s), body(&b)
   {
     const auto q = [](const Quat &v) { return Eigen::Quaterniond(v[3], v[0], v[1], v[2]).normalized(); };
     axes = (q(b.orientation) * q(b.shape_orientation)).toRotationMatrix();
@@ -120,35 +120,36 @@ struct Solid {
 
 /* The height along a line is convex: its least value by ternary search where the line is near, then the first crossing
  * by bisection. */
-double first_crossing(const Solid &solid, const Vector &origin, const Vector &unit, double length, double *least)
+double first_crossing(const BodyShape &body_shape, const Vector &origin, const Vector &unit, double length,
+                      double *least)
 {
   constexpr double radius = 1.8; /* of every shape here about its origin, and more */
   *least = 1e300;
-  const double nearest = unit.dot(solid.middle - origin);
+  const double nearest = unit.dot(body_shape.middle - origin);
   double low = 0, high = length;
-  if (solid.shape().type != ShapeType::half_space) {
-    if ((origin + nearest * unit - solid.middle).norm() > radius || nearest < -radius) return -1;
+  if (body_shape.shape().type != ShapeType::half_space) {
+    if ((origin + nearest * unit - body_shape.middle).norm() > radius || nearest < -radius) return -1;
     low = std::max(0.0, nearest - radius);
     high = nearest + radius;
   }
-  if (solid.height(origin) <= 0) return *least = 0;
+  if (body_shape.height(origin) <= 0) return *least = 0;
   const double begin = low;
   while (high - low > 1e-10 * (1 + high)) {
     const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    if (solid.height(origin + a * unit) < solid.height(origin + b * unit)) high = b;
+    if (body_shape.height(origin + a * unit) < body_shape.height(origin + b * unit)) high = b;
     else low = a;
   }
-  *least = solid.height(origin + low * unit);
+  *least = body_shape.height(origin + low * unit);
   if (*least > 0) return -1;
   double outside = begin, inside = low;
   for (int k = 0; k < 45; ++k) {
     const double middle = 0.5 * (outside + inside);
-    (solid.height(origin + middle * unit) > 0 ? outside : inside) = middle;
+    (body_shape.height(origin + middle * unit) > 0 ? outside : inside) = middle;
   }
   return 0.5 * (outside + inside);
 }
 
-Shape stone(Random &random)
+Shape random_hull_shape(Random &random)
 {
   std::vector<Vec3> cloud;
   for (int k = 0; k < 20; ++k) cloud.push_back(vec3_of(direction(random).cwiseProduct(Vector(0.6, 0.9, 0.7))));
@@ -159,11 +160,11 @@ Shape stone(Random &random)
 Scene scattered(uint64_t seed, double size)
 {
   Random random(seed);
-  Scene scene =
-      scene_of({sphere_shape(0.7f), box_shape(0.9f, 0.5f, 0.7f), capsule_shape(0.4f, 0.6f),
-                Shape{ShapeType::capsule, {0.6f, 0.5f, 0.2f}}, Shape{ShapeType::capsule, {0.1f, 0.7f, 0.5f}},
-                cylinder_shape(0.5f, 0.8f), cylinder_shape(1.0f, 0.05f), cone_shape(0.7f, 0.6f),
-                Shape{ShapeType::cylinder, {0.2f, 0.5f, 0.8f}}, stone(random), octahedron(), sphere_shape(0.2f)});
+  Scene scene = scene_of({sphere_shape(0.7f), box_shape(0.9f, 0.5f, 0.7f), capsule_shape(0.4f, 0.6f),
+                          Shape{ShapeType::capsule, {0.6f, 0.5f, 0.2f}}, Shape{ShapeType::capsule, {0.1f, 0.7f, 0.5f}},
+                          cylinder_shape(0.5f, 0.8f), cylinder_shape(1.0f, 0.05f), cone_shape(0.7f, 0.6f),
+                          Shape{ShapeType::cylinder, {0.2f, 0.5f, 0.8f}}, random_hull_shape(random), octahedron(),
+                          sphere_shape(0.2f)});
   for (Body &body : scene.bodies) {
     body.position = {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
     body.orientation = random.orientation();
@@ -173,7 +174,7 @@ Scene scattered(uint64_t seed, double size)
   scene.shapes.push_back(half_space_shape());
   Body ground;
   ground.shape = uint32_t(scene.shapes.size() - 1);
-  ground.motion = Motion::fixed;
+  ground.type = BodyType::fixed;
   ground.position = {0, -size - 1, 0};
   scene.bodies.push_back(ground);
   return scene;
@@ -257,8 +258,8 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
 {
   const Scene scene = scattered(3, 4);
   World world(scene);
-  std::vector<Solid> solids;
-  for (const Body &body : scene.bodies) solids.emplace_back(scene, body);
+  std::vector<BodyShape> body_shapes;
+  for (const Body &body : scene.bodies) body_shapes.emplace_back(scene, body);
   Random random(4);
   std::vector<Ray> rays;
   for (int k = 0; k < 100000; ++k) {
@@ -277,9 +278,9 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
     const double length = vector(rays[k].direction).norm(), rounding = 1e-6 * (origin.norm() + 10);
     double nearest = 1e300, doubt = 1e300;
     uint32_t body = no_body;
-    for (uint32_t b = 0; b < solids.size(); ++b) {
+    for (uint32_t b = 0; b < body_shapes.size(); ++b) {
       double least;
-      const double at = first_crossing(solids[b], origin, unit, length * double{rays[k].reach}, &least);
+      const double at = first_crossing(body_shapes[b], origin, unit, length * double{rays[k].reach}, &least);
       doubt = std::min(doubt, std::abs(least) + (least == 0 ? 1 : 0));
       if (at >= 0 && at < nearest) nearest = at, body = b;
     }
@@ -298,7 +299,8 @@ TEST_CASE("a hundred thousand random rays find what an oracle in double finds")
     const double slope = nearest > 0 ? std::abs(unit.dot(vector(hit.normal))) : 1;
     largest = std::max(largest, std::abs(double{hit.fraction} * length - nearest) * slope / (origin.norm() + 10));
     if (nearest > 0)
-      tilted = std::max(tilted, solids[body].height(vector(hit.point) + 1e-3 * vector(hit.normal)) < 0 ? 1.0 : 0.0);
+      tilted =
+          std::max(tilted, body_shapes[body].height(vector(hit.point) + 1e-3 * vector(hit.normal)) < 0 ? 1.0 : 0.0);
   }
   CAPTURE(found, wrong, grazing, largest, checked);
   CHECK(wrong == 0);
@@ -341,14 +343,15 @@ TEST_CASE("queries and bodies must accept each other's groups")
   ray.filter = {8, 4};
   CHECK(cast(world, ray).body == no_body);
   const Pose start;
-  const Vec3 way{20, 0, 0};
-  CHECK(world.sweep(sphere_shape(0.5f), std::span(&start, 1), std::span(&way, 1), {8, 1}).front().body == 1);
+  const Vec3 displacement{20, 0, 0};
+  CHECK(world.cast_shapes(sphere_shape(0.5f), std::span(&start, 1), std::span(&displacement, 1), {8, 1}).front().body ==
+        1);
 }
 
 TEST_CASE("queries see bodies where they are now, and leave the simulation as it was")
 {
   Scene scene = scene_of({sphere_shape(0.5f), half_space_shape()});
-  scene.bodies[0].motion = Motion::dynamic;
+  scene.bodies[0].type = BodyType::dynamic;
   scene.bodies[0].position = {0, 4, 0};
   World world(scene), other(scene);
   for (int k = 0; k < 30; ++k) {
@@ -392,26 +395,26 @@ TEST_CASE("rays that mean nothing are refused, by their number")
   CHECK(refusal(world, {good}).empty());
 
   const Pose pose;
-  const Vec3 way{1, 0, 0}, endless{infinite, 0, 0};
-  CHECK_THROWS_WITH(world.sweep(half_space_shape(), std::span(&pose, 1), std::span(&way, 1)),
+  const Vec3 displacement{1, 0, 0}, endless{infinite, 0, 0};
+  CHECK_THROWS_WITH(world.cast_shapes(half_space_shape(), std::span(&pose, 1), std::span(&displacement, 1)),
                     ContainsSubstring("half_space"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(-1), std::span(&pose, 1), std::span(&way, 1)),
+  CHECK_THROWS_WITH(world.cast_shapes(sphere_shape(-1), std::span(&pose, 1), std::span(&displacement, 1)),
                     ContainsSubstring("radius"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), {}),
+  CHECK_THROWS_WITH(world.cast_shapes(sphere_shape(1), std::span(&pose, 1), {}),
                     ContainsSubstring("1 poses and 0 displacements"));
-  CHECK_THROWS_WITH(world.sweep(sphere_shape(1), std::span(&pose, 1), std::span(&endless, 1)),
-                    ContainsSubstring("sweep 0"));
+  CHECK_THROWS_WITH(world.cast_shapes(sphere_shape(1), std::span(&pose, 1), std::span(&endless, 1)),
+                    ContainsSubstring("shape cast 0"));
 }
 
-TEST_CASE("sweeps stop where shapes touch: closed forms")
+TEST_CASE("shape casts stop where shapes touch: closed forms")
 {
-  struct Sweep {
+  struct ShapeCast {
     Shape moving, standing;
-    Vector from, way;
+    Vector from, displacement;
     double fraction;
     Vector point, normal;
   };
-  const Sweep cases[] = {
+  const ShapeCast cases[] = {
       {sphere_shape(0.5f), sphere_shape(1), {-4, 0, 0}, {5, 0, 0}, 0.5, {-1, 0, 0}, {-1, 0, 0}},
       {sphere_shape(0.5f), sphere_shape(1), {-4, 1.6, 0}, {5, 0, 0}, -1, {}, {}},
       {sphere_shape(0.5f), half_space_shape(), {0, 2.5, 0}, {1, -4, 0}, 0.5, {0.5, 0, 0}, {0, 1, 0}},
@@ -423,20 +426,20 @@ TEST_CASE("sweeps stop where shapes touch: closed forms")
       {sphere_shape(0.5f), sphere_shape(1), {-1, 0, 0}, {5, 0, 0}, 0, {-1, 0, 0}, {-1, 0, 0}},
       {sphere_shape(0.5f), sphere_shape(1), {-4, 0, 0}, {2, 0, 0}, -1, {}, {}},
   };
-  for (const Sweep &sweep : cases) {
-    World world(scene_of({sweep.standing}), {}, {"serial", {}});
-    const Pose pose{point_of(sweep.from), {0, 0, 0, 1}};
-    const Vec3 way = vec3_of(sweep.way);
-    const SweepHit hit = world.sweep(sweep.moving, std::span(&pose, 1), std::span(&way, 1)).front();
-    CAPTURE(int(sweep.moving.type), int(sweep.standing.type), sweep.from.transpose(), sweep.fraction, hit.fraction,
+  for (const ShapeCast &cast : cases) {
+    World world(scene_of({cast.standing}), {}, {"serial", {}});
+    const Pose pose{point_of(cast.from), {0, 0, 0, 1}};
+    const Vec3 displacement = vec3_of(cast.displacement);
+    const ShapeCastHit hit = world.cast_shapes(cast.moving, std::span(&pose, 1), std::span(&displacement, 1)).front();
+    CAPTURE(int(cast.moving.type), int(cast.standing.type), cast.from.transpose(), cast.fraction, hit.fraction,
             hit.body);
-    REQUIRE((hit.body == 0) == (sweep.fraction >= 0));
-    if (sweep.fraction < 0) continue;
-    CHECK(hit.fraction <= sweep.fraction + 1e-6);
-    CHECK(hit.fraction == Approx(sweep.fraction).margin(2e-5));
-    CHECK((vector(hit.point) - sweep.point).norm() <
+    REQUIRE((hit.body == 0) == (cast.fraction >= 0));
+    if (cast.fraction < 0) continue;
+    CHECK(hit.fraction <= cast.fraction + 1e-6);
+    CHECK(hit.fraction == Approx(cast.fraction).margin(2e-5));
+    CHECK((vector(hit.point) - cast.point).norm() <
           2e-3); /* of a corner on a sphere: the root of the touching distance */
-    CHECK((vector(hit.normal) - sweep.normal).norm() < 1e-3);
+    CHECK((vector(hit.normal) - cast.normal).norm() < 1e-3);
   }
 }
 
@@ -446,31 +449,31 @@ TEST_CASE("sweeps stop where shapes touch: closed forms")
 TEST_CASE("a swept sphere stops where the distance in double is its radius")
 {
   Scene scene = scattered(8, 4);
-  std::vector<Solid> solids;
+  std::vector<BodyShape> body_shapes;
   for (Body &body : scene.bodies) {
     const ShapeType type = scene.shapes[body.shape].type;
     if (type != ShapeType::sphere && type != ShapeType::capsule && type != ShapeType::half_space) body.filter_group = 2;
   }
   for (const Body &body : scene.bodies)
-    if (body.filter_group == 1) solids.emplace_back(scene, body);
+    if (body.filter_group == 1) body_shapes.emplace_back(scene, body);
   World world(scene);
   Random random(9);
   const double radius = 0.3;
   std::vector<Pose> poses;
-  std::vector<Vec3> ways;
+  std::vector<Vec3> paths;
   for (int k = 0; k < 5000; ++k) {
     const Vector from = 9 * direction(random);
     poses.push_back({point_of(from), random.orientation()});
-    ways.push_back(vec3_of(1.5 * (4 * direction(random) * random.uniform(0, 1) - from)));
+    paths.push_back(vec3_of(1.5 * (4 * direction(random) * random.uniform(0, 1) - from)));
   }
-  const std::vector<SweepHit> hits = world.sweep(sphere_shape(float(radius)), poses, ways, {0xffffffffu, 1});
+  const std::vector<ShapeCastHit> hits = world.cast_shapes(sphere_shape(float(radius)), poses, paths, {0xffffffffu, 1});
   size_t wrong = 0, found = 0, missed = 0, inside = 0;
   double late = -1e9, early = -1e9;
   for (size_t k = 0; k < hits.size(); ++k) {
     const auto clearance = [&](double fraction) {
       double least = 1e300;
-      for (const Solid &solid : solids)
-        least = std::min(least, solid.height(vector(poses[k].position) + fraction * vector(ways[k])) - radius);
+      for (const BodyShape &body_shape : body_shapes)
+        least = std::min(least, body_shape.height(vector(poses[k].position) + fraction * vector(paths[k])) - radius);
       return least;
     };
     if (clearance(0) < 0) {

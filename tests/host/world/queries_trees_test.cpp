@@ -1,9 +1,9 @@
-/* Rays and sweeps against meshes and compounds: every triangle and child one by one in double precision is the
+/* Rays and shape casts against meshes and compounds: every triangle and child one by one in double precision is the
  * oracle. */
 #include "host/geometry/triangle_mesh.h"
 #include "host/world/queries.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -31,12 +31,12 @@ Scene meadow()
 {
   Random random(12);
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, hills(random), {1, -2, 0.5}).orientation = random.orientation();
-  add_body(scene, Motion::fixed,
+  add_body(scene, BodyType::fixed, hills(random), {1, -2, 0.5}).orientation = random.orientation();
+  add_body(scene, BodyType::fixed,
            compound_shape({child_of(hills(random), random), child_of(sphere_shape(0.4f), random)}), {0, 2, 0})
       .orientation = random.orientation();
   for (int k = 0; k < 8; ++k)
-    add_body(scene, Motion::fixed,
+    add_body(scene, BodyType::fixed,
              compound_shape({child_of(sphere_shape(0.3f), random), child_of(box_shape(0.3f, 0.1f, 0.4f), random),
                              child_of(box_shape(0.1f, 0.2f, 0.1f), random)}),
              {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)})
@@ -109,7 +109,8 @@ TEST_CASE("rays against meshes and compounds hit what is nearest of all their pa
   const std::vector<RayHit> hits = world.cast_rays(rays);
   size_t found = 0, apart = 0;
   for (size_t k = 0; k < rays.size(); ++k) {
-    const Vector o = vector_of(rays[k].origin), way = vector_of(rays[k].direction), u = way.normalized();
+    const Vector o = vector_of(rays[k].origin), displacement = vector_of(rays[k].direction),
+                 u = displacement.normalized();
     double nearest = never;
     uint32_t body = no_body;
     for (uint32_t b = 0; b < scene.bodies.size(); ++b) {
@@ -118,33 +119,34 @@ TEST_CASE("rays against meshes and compounds hit what is nearest of all their pa
           hit_shape(back * (o - vector_of(scene.bodies[b].position)), back * u, scene.shapes[scene.bodies[b].shape]);
       if (s < nearest) nearest = s, body = b;
     }
-    const bool hit = nearest <= way.norm();
+    const bool hit = nearest <= displacement.norm();
     found += hit;
-    const bool same = hit == (hits[k].body != no_body) &&
-                      (!hit || (hits[k].body == body && std::abs(hits[k].fraction * way.norm() - nearest) < 1e-4));
+    const bool same =
+        hit == (hits[k].body != no_body) &&
+        (!hit || (hits[k].body == body && std::abs(hits[k].fraction * displacement.norm() - nearest) < 1e-4));
     apart += !same;
   }
   CHECK(found > 1000);
   CHECK(apart <= 4); /* those that graze an edge, one in a thousand */
 }
 
-TEST_CASE("sweeps come down on meshes and children as far as closed forms say")
+TEST_CASE("shape casts come down on meshes and children as far as closed forms say")
 {
   Scene scene = empty_scene();
   std::vector<float> heights(9 * 9);
   for (int i = 0; i < 81; ++i) heights[size_t(i)] = float(0.25 * (i % 9)); /* y = 0.5 x + 1 */
-  add_body(scene, Motion::fixed, height_field_shape(heights, 9, 0.5f, 0.5f, "slope"), {0, 0, 0});
+  add_body(scene, BodyType::fixed, height_field_shape(heights, 9, 0.5f, 0.5f, "slope"), {0, 0, 0});
   Child child;
   child.shape = box_shape(0.5f, 0.5f, 0.5f);
   child.position = {0, 3, 0};
   Child other;
   other.shape = sphere_shape(0.1f);
-  add_body(scene, Motion::fixed, compound_shape({child, other}), {10, 0, 0});
+  add_body(scene, BodyType::fixed, compound_shape({child, other}), {10, 0, 0});
   World world(scene);
   const std::vector<Pose> poses{
       {{0.3, 5, 0.2}, {0, 0, 0, 1}}, {{10.2, 6, 0.1}, {0, 0, 0, 1}}, {{30, 6, 0}, {0, 0, 0, 1}}};
-  const std::vector<Vec3> ways(3, Vec3{0, -10, 0});
-  const std::vector<SweepHit> hits = world.sweep(sphere_shape(0.2f), poses, ways);
+  const std::vector<Vec3> paths(3, Vec3{0, -10, 0});
+  const std::vector<ShapeCastHit> hits = world.cast_shapes(sphere_shape(0.2f), poses, paths);
   REQUIRE((hits[0].body != no_body && hits[1].body != no_body && hits[2].body == no_body));
   const double slope_height = 0.5 * 0.3 + 1,
                over_slope = 0.2 * std::hypot(1, 0.5); /* of the centre that touches, above the surface below it */
@@ -159,12 +161,12 @@ TEST_CASE("a fast body with continuous collision does not pass a sheet that is a
 {
   const float speed = GENERATE(50.0f, 1000.0f, 10000.0f);
   Scene scene = empty_scene({0, 0, 0});
-  add_body(scene, Motion::fixed, height_field_shape(std::vector<float>(21 * 21, 0.0f), 21, 100, 100, "sheet"),
+  add_body(scene, BodyType::fixed, height_field_shape(std::vector<float>(21 * 21, 0.0f), 21, 100, 100, "sheet"),
            {0, 0, 0}); /* spin sends them far aside */
   const Shape shapes[] = {sphere_shape(0.1f), box_shape(0.1f, 0.05f, 0.1f), capsule_shape(0.05f, 0.1f),
                           hull_of_box(0.1f, 0.1f, 0.05f)};
   for (int k = 0; k < 4; ++k) {
-    Body &body = add_solid(scene, shapes[k], {k - 1.5, 3, 0.1 * k}, turn_about({1, 1, 0}, 0.3 * k));
+    Body &body = add_dynamic_body(scene, shapes[k], {k - 1.5, 3, 0.1 * k}, turn_about({1, 1, 0}, 0.3 * k));
     body.linear_velocity = {0.5f, -speed, 0};
     body.continuous = true;
     body.filter_group = 2;

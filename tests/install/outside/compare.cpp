@@ -14,7 +14,7 @@ int main()
   request.backends = {"serial", "tbb:threads=2,lanes=4"};
   request.steps = 3;
   const tandem::Comparison same = tandem::compare_backends(scene, request);
-  request.tamper = [](size_t world, uint64_t step, tandem::World &changed, const tandem::Launch &) {
+  request.inject_fault = [](size_t world, uint64_t step, tandem::World &changed, const tandem::Launch &) {
     if (world != 1 || step != 1) return;
     tandem::BodyState body = changed.bodies()[1];
     body.linear_velocity[0] += 1;

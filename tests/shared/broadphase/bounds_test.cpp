@@ -16,7 +16,7 @@ struct Reach {
 
 Reach bounds_of(World &world, uint32_t index)
 {
-  const std::vector<row> rows = world.memory().read<row>(Buffer::bounds, 2, 2 * index);
+  const std::vector<float4> rows = world.memory().read<float4>(Buffer::bounds, 2, 2 * index);
   return {{rows[0].x, rows[0].y, rows[0].z}, {rows[1].x, rows[1].y, rows[1].z}};
 }
 

@@ -9,28 +9,28 @@
 #include "host/runtime/opencl/device_backend.h"
 #include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
-#include "tests/shared/broadphase/soup.h"
+#include "tests/shared/broadphase/random_boxes.h"
 
 using namespace tandem;
 
 namespace {
 
-/* A soup that moves. Places are whole multiples of `grain` where it is not 0, so that many ends fall together. */
-class MovingSoup {
+/* Random boxes that move. Places are whole multiples of `grain` where it is not 0, so that many ends fall together. */
+class MovingBoxes {
 public:
-  MovingSoup(uint32_t n, double speed, double grain, uint64_t seed)
+  MovingBoxes(uint32_t n, double speed, double grain, uint64_t seed)
       : random_(seed), speed_(speed), grain_(grain), side_(std::cbrt(2.0 * n))
   {
-    soup.add_half_space();
+    boxes.add_half_space();
     for (uint32_t i = 0; i < n; ++i) {
       center_.push_back({random_.uniform(0, side_), random_.uniform(0, side_), random_.uniform(0, side_)});
       half_.push_back(
           {i % 50 == 0 ? 0.0 : random_.uniform(0.3, 0.5), i % 40 == 0 ? 4.0 : 0.4, random_.uniform(0.3, 0.5)});
       way_.push_back({0, 0, 0});
-      soup.add({0, 0, 0}, {0, 0, 0}, random_.below(8) == 0 ? MOTION_FIXED : MOTION_DYNAMIC, 1u << random_.below(3),
-               random_.below(8) == 0 ? 2u : 0xffffffffu);
+      boxes.add({0, 0, 0}, {0, 0, 0}, random_.below(8) == 0 ? BODY_TYPE_FIXED : BODY_TYPE_DYNAMIC,
+                1u << random_.below(3), random_.below(8) == 0 ? 2u : 0xffffffffu);
     }
-    soup.large = 1 + std::min(n, 3u);
+    boxes.large = 1 + std::min(n, 3u);
     place();
   }
 
@@ -38,7 +38,7 @@ public:
   void move(uint32_t step)
   {
     for (size_t i = 0; i < center_.size(); ++i) {
-      if (random_.below(10) == 0) way_[i] = random_.below(2) ? std::array<double, 3>{0, 0, 0} : any_way();
+      if (random_.below(10) == 0) way_[i] = random_.below(2) ? std::array<double, 3>{0, 0, 0} : any_displacement();
       const bool everyone_rests = step % 100 > 50;
       for (size_t axis = 0; axis < 3; ++axis) center_[i][axis] += everyone_rests && i % 16 != 0 ? 0 : way_[i][axis];
       if (random_.below(400) == 0)
@@ -49,18 +49,18 @@ public:
     place();
   }
 
-  std::vector<row> velocities() const
+  std::vector<float4> velocities() const
   {
-    std::vector<row> rows(2 * soup.size(), row{0, 0, 0, 0});
+    std::vector<float4> rows(2 * boxes.size(), float4{0, 0, 0, 0});
     for (size_t i = 0; i < way_.size(); ++i)
       rows[2 * (i + 1)] = {float(way_[i][0]), float(way_[i][1]), float(way_[i][2]), 1};
     return rows;
   }
 
-  Soup soup;
+  RandomBoxes boxes;
 
 private:
-  std::array<double, 3> any_way()
+  std::array<double, 3> any_displacement()
   {
     return {random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_), random_.uniform(-speed_, speed_)};
   }
@@ -69,7 +69,7 @@ private:
   void place()
   {
     for (uint32_t i = 0; i < center_.size(); ++i) {
-      row &low = soup.bounds[2 * (i + 1)], &high = soup.bounds[2 * (i + 1) + 1];
+      float4 &low = boxes.bounds[2 * (i + 1)], &high = boxes.bounds[2 * (i + 1) + 1];
       const auto &c = center_[i], &h = half_[i];
       low = {float(on_grain(c[0] - h[0])), float(on_grain(c[1] - h[1])), float(on_grain(c[2] - h[2])), 0};
       high = {float(on_grain(c[0] + h[0])), float(on_grain(c[1] + h[1])), float(on_grain(c[2] + h[2])), 0};
@@ -84,33 +84,34 @@ private:
 };
 
 /* NaN has no place in the oracle's order. */
-BodyPairs pairs_of(const Soup &soup)
+BodyPairs pairs_of(const RandomBoxes &boxes)
 {
-  Soup finite = soup;
-  for (uint32_t i = 0; i < soup.size(); ++i)
-    if (std::isnan(soup.bounds[2 * i].y))
+  RandomBoxes finite = boxes;
+  for (uint32_t i = 0; i < boxes.size(); ++i)
+    if (std::isnan(boxes.bounds[2 * i].y))
       finite.bounds[2 * i] = finite.bounds[2 * i + 1] = {1e29f + 1e25f * float(i), 1e29f, 1e29f, 0};
   BodyPairs pairs = expected_pairs(finite);
   std::erase_if(pairs, [&](const auto &pair) {
-    return std::isnan(soup.bounds[2 * pair.first].y) || std::isnan(soup.bounds[2 * pair.second].y);
+    return std::isnan(boxes.bounds[2 * pair.first].y) || std::isnan(boxes.bounds[2 * pair.second].y);
   });
   return pairs;
 }
 
 /* Steps of motion, all of whose pairs are as they should be; many come and go on the way. */
-void check_motion(SoupRunner &runner, Broadphase broadphase, uint32_t n, double speed, double grain, uint32_t steps)
+void check_motion(BroadphaseRunner &runner, Broadphase broadphase, uint32_t n, double speed, double grain,
+                  uint32_t steps)
 {
-  MovingSoup moving(n, speed, grain, 17);
-  runner.take(moving.soup);
+  MovingBoxes moving(n, speed, grain, 17);
+  runner.take(moving.boxes);
   BodyPairs before;
   size_t came = 0;
   for (uint32_t step = 0; step < steps; ++step) {
     CAPTURE(broadphase, runner.name(), n, speed, grain, step);
-    runner.move_to(moving.soup, moving.velocities());
+    runner.move_to(moving.boxes, moving.velocities());
     if (step % 7 == 3) runner.make_query_hierarchy();
     BodyPairs found = runner.find(row_of(broadphase));
     if (step % 5 == 2) found = runner.find(row_of(broadphase));
-    REQUIRE(found == pairs_of(moving.soup));
+    REQUIRE(found == pairs_of(moving.boxes));
     came += static_cast<size_t>(std::count_if(found.begin(), found.end(), [&](const auto &pair) {
       return !std::binary_search(before.begin(), before.end(), pair);
     }));
@@ -127,7 +128,7 @@ constexpr Broadphase keeping[] = {Broadphase::sap3, Broadphase::trees, Broadphas
 TEST_CASE("broadphases that keep something are right in each of two hundred steps of motion", "[motion]")
 {
   const char *backend = GENERATE("serial", "serial:order=backward", "tbb:threads=3");
-  SoupRunner runner(make_backend(backend));
+  BroadphaseRunner runner(make_backend(backend));
   for (const Broadphase broadphase : keeping)
     for (const double speed : {0.01, 0.4}) {
       for (const uint32_t n : {1u, 2u, 40u}) check_motion(runner, broadphase, n, speed, 0, 60);
@@ -138,14 +139,14 @@ TEST_CASE("broadphases that keep something are right in each of two hundred step
 
 TEST_CASE("broadphases that keep something are right among many", "[motion]")
 {
-  SoupRunner runner(make_backend("tbb"));
+  BroadphaseRunner runner(make_backend("tbb"));
   for (const Broadphase broadphase : keeping) check_motion(runner, broadphase, 20000, 0.02, 0, 40);
 }
 
 TEST_CASE("broadphases on OpenCL that keep something are right in each step of motion", "[motion]")
 {
   parity::require_pocl();
-  SoupRunner runner(make_backend("cl:pocl"));
+  BroadphaseRunner runner(make_backend("cl:pocl"));
   for (const Broadphase broadphase : keeping) {
     check_motion(runner, broadphase, 2, 0.1, 0, 20);
     check_motion(runner, broadphase, 400, 0.1, 0, 200);

@@ -14,7 +14,7 @@ namespace {
 /* Sorted entries of one step: b, whether it touches, its one point. */
 struct Entries {
   std::vector<uint> start{0}, b, touching, color, points;
-  std::vector<row> impulse, point, normal;
+  std::vector<float4> impulse, point, normal;
 
   void add(uint body, bool touches, float carried, float x)
   {
@@ -73,7 +73,7 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
       }
     }
     const size_t pairs = now.b.size();
-    std::vector<row> points(4 * pairs), positions(2 * bodies), velocities(2 * bodies),
+    std::vector<float4> points(4 * pairs), positions(2 * bodies), velocities(2 * bodies),
         contacts(3 * (pairs + before.b.size()));
     std::copy(now.point.begin(), now.point.end(), points.begin());
     for (uint a = 0; a < bodies; ++a) positions[2 * a] = {100.0f * float(a), 0, 0, 0};
@@ -96,7 +96,7 @@ TEST_CASE("each run of entries of one pair has one event, and the events are tho
     uint at = 0;
     for (const auto &[pair, e] : expected) {
       const uint *code = &codes[4 * at];
-      const row *contact = &contacts[3 * at++];
+      const float4 *contact = &contacts[3 * at++];
       REQUIRE((code[1] == pair.first && code[2] == pair.second));
       const uint kind = !e.touches ? EVENT_END : e.touched ? EVENT_PERSIST : EVENT_BEGIN;
       REQUIRE(code[0] == kind);

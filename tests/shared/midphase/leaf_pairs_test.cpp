@@ -7,7 +7,7 @@
 #include "host/runtime/memory.h"
 #include "shared/platform.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -118,7 +118,7 @@ Scene heap(uint64_t seed)
 {
   Random random(seed);
   Scene scene = empty_scene({0, 0, 0});
-  Body &ground = add_body(scene, Motion::fixed, hills(random), {0, 0, 0});
+  Body &ground = add_body(scene, BodyType::fixed, hills(random), {0, 0, 0});
   ground.orientation = random.orientation();
   Child child;
   child.shape = hills(random);
@@ -126,12 +126,12 @@ Scene heap(uint64_t seed)
   child.orientation = random.orientation();
   Child second;
   second.shape = sphere_shape(0.4f);
-  Body &rock = add_body(scene, Motion::fixed, compound_shape({child, second}), {0.5, 0.2, 0.1});
+  Body &rock = add_body(scene, BodyType::fixed, compound_shape({child, second}), {0.5, 0.2, 0.1});
   rock.orientation = random.orientation();
   for (int k = 0; k < 12; ++k) {
     const Shape shape = k % 3 ? knot(random) : hull_of_box(0.3f, 0.2f, 0.1f);
-    Body &body = add_solid(scene, shape, {random.uniform(-2, 2), random.uniform(-1, 1), random.uniform(-2, 2)},
-                           random.orientation());
+    Body &body = add_dynamic_body(scene, shape, {random.uniform(-2, 2), random.uniform(-1, 1), random.uniform(-2, 2)},
+                                  random.orientation());
     body.linear_velocity = vec3_of(Vector(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)));
   }
   return scene;
@@ -201,8 +201,8 @@ TEST_CASE("a list of leaf pairs that outgrows its room loses nothing")
 {
   Scene scene = empty_scene();
   std::vector<float> heights(61 * 61, 0.0f);
-  add_body(scene, Motion::fixed, height_field_shape(heights, 61, 0.1f, 0.1f, "floor"), {0, 0, 0});
-  add_solid(scene, box_shape(2.5f, 0.1f, 2.5f), {0, 0.1, 0});
+  add_body(scene, BodyType::fixed, height_field_shape(heights, 61, 0.1f, 0.1f, "floor"), {0, 0, 0});
+  add_dynamic_body(scene, box_shape(2.5f, 0.1f, 2.5f), {0, 0.1, 0});
   const Midphase midphase = GENERATE(from_range(choices<Midphase>()));
   CAPTURE(midphase);
   World world(scene, settings_with(midphase));
@@ -219,11 +219,11 @@ TEST_CASE("leaf pairs: no two points of a joined manifold are one, and the deepe
   Scene scene = empty_scene({0, 0, 0});
   Random random(4);
   std::vector<float> heights(21 * 21, 0.0f);
-  add_body(scene, Motion::fixed, height_field_shape(heights, 21, 0.2f, 0.2f, "floor"), {0, 0, 0});
+  add_body(scene, BodyType::fixed, height_field_shape(heights, 21, 0.2f, 0.2f, "floor"), {0, 0, 0});
   for (int k = 0; k < 20; ++k) {
     const double tilt = random.uniform(0, 0.01);
-    add_solid(scene, box_shape(0.35f, 0.2f, 0.3f), {random.uniform(-1.5, 1.5), 0.197, random.uniform(-1.5, 1.5)},
-              turn_about(Vector(random.uniform(-1, 1), 0, random.uniform(-1, 1)), tilt));
+    add_dynamic_body(scene, box_shape(0.35f, 0.2f, 0.3f), {random.uniform(-1.5, 1.5), 0.197, random.uniform(-1.5, 1.5)},
+                     turn_about(Vector(random.uniform(-1, 1), 0, random.uniform(-1, 1)), tilt));
     scene.bodies.back().filter_group = 2;
     scene.bodies.back().filter_mask = 1;
   }
@@ -235,7 +235,7 @@ TEST_CASE("leaf pairs: no two points of a joined manifold are one, and the deepe
   const uint32_t pairs = counts[COUNT_PAIRS], stride = counts[CAPACITY_PAIRS];
   const auto a = memory.read<uint32_t>(Buffer::pair_a, pairs), b = memory.read<uint32_t>(Buffer::pair_b, pairs),
              n = memory.read<uint32_t>(Buffer::manifold_count, pairs);
-  const auto points = memory.read<row>(Buffer::manifold_points, 4 * size_t{stride});
+  const auto points = memory.read<float4>(Buffer::manifold_points, 4 * size_t{stride});
   std::vector<int> manifolds(scene.bodies.size());
   for (uint32_t i = 0; i < pairs; ++i) {
     if (n[i] == 0) continue;

@@ -4,7 +4,7 @@
 #include "host/runtime/memory.h"
 #include "shared/midphase/subtree_pairs.h"
 #include "tests/catch.h"
-#include "tests/physics/solids.h"
+#include "tests/physics/bodies.h"
 
 using namespace tandem;
 using namespace tandem::physics_tests;
@@ -16,13 +16,13 @@ using Entry = std::array<uint32_t, 6>; /* two bodies, shape and triangle of eith
 /* Buffers of a scene at the start of a step, as the kernels see them. */
 struct Buffers {
   Parameters parameters;
-  std::vector<uint32_t> traits, filters, body_trees, headers, nodes, leaves;
-  std::vector<row> shapes, poses, frames, positions, orientations, velocities;
+  std::vector<uint32_t> flags, filters, body_trees, headers, nodes, leaves;
+  std::vector<float4> shapes, poses, frames, positions, orientations, velocities;
 
   explicit Buffers(Memory &memory) : parameters(memory.read<Parameters>(Buffer::parameters, 1)[0])
   {
     for (auto &[words, buffer] :
-         std::initializer_list<std::pair<std::vector<uint32_t> &, Buffer>>{{traits, Buffer::body_traits},
+         std::initializer_list<std::pair<std::vector<uint32_t> &, Buffer>>{{flags, Buffer::body_flags},
                                                                            {filters, Buffer::body_filter},
                                                                            {body_trees, Buffer::body_tree},
                                                                            {headers, Buffer::tree_header},
@@ -30,19 +30,19 @@ struct Buffers {
                                                                            {leaves, Buffer::tree_leaf}})
       words = memory.read<uint32_t>(buffer, memory.bytes(buffer) / sizeof(uint32_t));
     for (auto &[rows, buffer] :
-         std::initializer_list<std::pair<std::vector<row> &, Buffer>>{{shapes, Buffer::body_shape},
-                                                                      {poses, Buffer::body_shape_pose},
-                                                                      {frames, Buffer::tree_frame},
-                                                                      {positions, Buffer::body_position},
-                                                                      {orientations, Buffer::body_orientation},
-                                                                      {velocities, Buffer::body_velocity}})
-      rows = memory.read<row>(buffer, memory.bytes(buffer) / sizeof(row));
+         std::initializer_list<std::pair<std::vector<float4> &, Buffer>>{{shapes, Buffer::body_shape},
+                                                                         {poses, Buffer::body_shape_pose},
+                                                                         {frames, Buffer::tree_frame},
+                                                                         {positions, Buffer::body_position},
+                                                                         {orientations, Buffer::body_orientation},
+                                                                         {velocities, Buffer::body_velocity}})
+      rows = memory.read<float4>(buffer, memory.bytes(buffer) / sizeof(float4));
   }
 
   midphase_scene scene() const
   {
     return {&parameters,
-            {traits.data(), shapes.data(), nullptr, poses.data()},
+            {flags.data(), shapes.data(), nullptr, poses.data()},
             filters.data(),
             body_trees.data(),
             {headers.data(), frames.data(), nodes.data(), leaves.data()},
@@ -51,10 +51,10 @@ struct Buffers {
 };
 
 /* Collects what add_leaf_pair writes. */
-struct Room {
+struct PairStorage {
   std::vector<uint32_t> a, b, leaf;
   leaf_list list;
-  explicit Room(uint32_t size)
+  explicit PairStorage(uint32_t size)
       : a(size), b(size), leaf(4 * size_t{size}), list{1, {a.data(), b.data(), leaf.data()}, 0, size, 0}
   {}
 };
@@ -82,17 +82,17 @@ std::vector<Entry> entries(const std::vector<uint32_t> &a, const std::vector<uin
 }
 
 /* Pairs of bodies in the order of the broadphase: by a, then b < a. */
-std::vector<Entry> expected_list(const Buffers &before, const std::vector<row> &bounds, uint32_t bodies)
+std::vector<Entry> expected_list(const Buffers &before, const std::vector<float4> &bounds, uint32_t bodies)
 {
   const midphase_scene scene = before.scene();
-  Room room(1u << 20);
+  PairStorage storage(1u << 20);
   for (uint32_t a = 0; a < bodies; ++a)
     for (uint32_t b = 0; b < a; ++b)
-      if (pair_allowed(scene.parameters, scene.shapes.traits, scene.filters, a, b) &&
+      if (pair_allowed(scene.parameters, scene.shapes.flags, scene.filters, a, b) &&
           bounds_overlap(load_bounds(bounds.data(), a), load_bounds(bounds.data(), b)))
-        look_at_every_leaf(&room.list, scene, a, b);
-  REQUIRE(room.list.found < room.list.end);
-  return entries(room.a, room.b, room.leaf, room.list.found);
+        look_at_every_leaf(&storage.list, scene, a, b);
+  REQUIRE(storage.list.found < storage.list.end);
+  return entries(storage.a, storage.b, storage.leaf, storage.list.found);
 }
 
 std::vector<Entry> list_of(World &world)
@@ -116,7 +116,7 @@ std::vector<Entry> checked_lists(const Scene &scene, Midphase midphase, const st
     const auto bodies = uint32_t(scene.bodies.size());
     const std::vector<Entry> list = list_of(world),
                              expected =
-                                 expected_list(before, world.memory().read<row>(Buffer::bounds, 2 * bodies), bodies);
+                                 expected_list(before, world.memory().read<float4>(Buffer::bounds, 2 * bodies), bodies);
     const auto [found, wanted] = std::mismatch(list.begin(), list.end(), expected.begin(), expected.end());
     CAPTURE(midphase, backend, step, list.size(), expected.size(), found - list.begin());
     REQUIRE((found == list.end() && wanted == expected.end()));
@@ -142,13 +142,13 @@ Shape hills(Random &random, uint32_t columns)
 
 Point somewhere(Random &random) { return {random.uniform(-2, 2), random.uniform(-0.4, 0.4), random.uniform(-2, 2)}; }
 
-/* Stones and balls, that move, in and over the hills. */
+/* Hulls and balls, that move, in and over the hills. */
 void add_bodies(Scene &scene, Random &random, int count)
 {
   for (int k = 0; k < count; ++k) {
     const Point at = somewhere(random);
-    Body &body = add_solid(scene, k % 3 ? stone(random, 12, 0.2) : sphere_shape(0.15f), {at[0], at[1], at[2]},
-                           random.orientation());
+    Body &body = add_dynamic_body(scene, k % 3 ? random_hull_shape(random, 12, 0.2) : sphere_shape(0.15f),
+                                  {at[0], at[1], at[2]}, random.orientation());
     body.linear_velocity = vec3_of(Vector(random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 4)));
   }
 }
@@ -178,7 +178,7 @@ TEST_CASE("leaf pairs of one tree: of one subtree, of a few, of many windows of 
       GENERATE(table<uint32_t, uint32_t, uint32_t>({{2, 1, 1}, {9, 2, WINDOW}, {61, 8 * WINDOW, 1000}}));
   Random random(columns);
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, hills(random, columns), {0, 0, 0}).orientation = random.orientation();
+  add_body(scene, BodyType::fixed, hills(random, columns), {0, 0, 0}).orientation = random.orientation();
   add_bodies(scene, random, 150); /* more pairs than two groups take, no multiple of them */
   CHECK(subtrees_of(scene, 0) >= least);
   CHECK(subtrees_of(scene, 0) <= most);
@@ -190,17 +190,18 @@ TEST_CASE("leaf pairs of several trees in one group, in turns, and of bodies wit
   Random random(7);
   Scene scene = empty_scene();
   for (const uint32_t columns : {12u, 2u, 30u, 5u})
-    add_body(scene, Motion::fixed, hills(random, columns), somewhere(random)).orientation = random.orientation();
+    add_body(scene, BodyType::fixed, hills(random, columns), somewhere(random)).orientation = random.orientation();
   add_bodies(scene, random, 60);
   for (int k = 0; k < 40; ++k) {
     const Point at = somewhere(random);
-    add_solid(scene, dumbbell(), {at[0], at[1], at[2]}, random.orientation()); /* of one shape each: a tree each */
+    add_dynamic_body(scene, dumbbell(), {at[0], at[1], at[2]},
+                     random.orientation()); /* of one shape each: a tree each */
   }
   add_bodies(scene, random, 30);
   scene.shapes.push_back(half_space_shape());
   Body &floor = scene.bodies.emplace_back();
   floor.shape = uint32_t(scene.shapes.size() - 1);
-  floor.motion = Motion::fixed;
+  floor.type = BodyType::fixed;
   floor.position = {0, -0.1, 0};
   check_scene(scene, 1000);
 }
@@ -209,15 +210,15 @@ TEST_CASE("leaf pairs by subtrees: filters of children, and a list that grows")
 {
   Random random(9);
   Scene scene = empty_scene();
-  add_body(scene, Motion::fixed, hills(random, 41), {0, 0, 0});
+  add_body(scene, BodyType::fixed, hills(random, 41), {0, 0, 0});
   add_bodies(scene, random, 20);
-  add_solid(scene, box_shape(1.9f, 0.1f, 1.9f),
-            {0, 0.1, 0}); /* meets nearly every triangle: more than there is room for */
+  add_dynamic_body(scene, box_shape(1.9f, 0.1f, 1.9f),
+                   {0, 0.1, 0}); /* meets nearly every triangle: more than there is room for */
   Child seen, unseen;
   seen.shape = unseen.shape = sphere_shape(0.3f);
   unseen.position = {0.4f, 0, 0};
   unseen.filter_group = 2;
-  add_solid(scene, compound_shape({seen, unseen}), {0.5, 0.3, 0.5}).filter_mask = 1;
+  add_dynamic_body(scene, compound_shape({seen, unseen}), {0.5, 0.3, 0.5}).filter_mask = 1;
   scene.bodies[3].filter_mask = 1;
   check_scene(scene, 3000);
   Settings settings;

@@ -12,12 +12,12 @@ namespace {
 vec3 vec(const Vector &v) { return make_vec3(real(v.x()), real(v.y()), real(v.z())); }
 const vec3 none = make_vec3(0, 0, 0);
 
-/* The journey of a step of 1 s. */
-journey one_second(const moving_convex &a, const moving_convex &b)
+/* The input of a step of 1 s. */
+toi_input one_second(const moving_convex &a, const moving_convex &b)
 {
   const real fastest = length_of(subtract(a.linear, b.linear)) + fastest_swing(&a) + fastest_swing(&b);
-  return journey_of(fastest, 1, minimum(least_size(&a.shape), least_size(&b.shape)),
-                    bounding_radius_of(&a.shape) + bounding_radius_of(&b.shape));
+  return toi_input_of(fastest, 1, minimum(least_size(&a.shape), least_size(&b.shape)),
+                      bounding_radius_of(&a.shape) + bounding_radius_of(&b.shape));
 }
 
 Shape ball(float radius)
@@ -56,13 +56,13 @@ TEST_CASE("time of impact: two spheres meet when their centres are two radii apa
     const convex shape_a = a.record(), shape_b = b.record();
     const moving_convex moving_a = moving_convex_of(&shape_a, none, none, none, 0),
                         moving_b = moving_convex_of(&shape_b, shape_b.center, vec(v), none, 0);
-    const journey way = one_second(moving_a, moving_b);
-    const impact met = first_impact(&moving_a, &moving_b, way);
+    const toi_input input = one_second(moving_a, moving_b);
+    const impact met = first_impact(&moving_a, &moving_b, input);
     /* |p + v t| = radii */
     const double along = p.dot(v), square = along * along - v.squaredNorm() * (p.squaredNorm() - radii * radii);
     if (square < 0) {
       const double nearest = (p - v * along / v.squaredNorm()).norm() - radii;
-      if (nearest > 2.0 * double{way.touching}) {
+      if (nearest > 2.0 * double{input.touching}) {
         CHECK(!met.at.hits);
         ++misses;
       }
@@ -73,7 +73,7 @@ TEST_CASE("time of impact: two spheres meet when their centres are two radii apa
     ++hits;
     REQUIRE(met.at.hits);
     const double early = (exact - double{met.at.time}) * closing; /* m */
-    largest = std::max(largest, std::abs(early - 0.5 * double{way.touching}) / double{way.touching});
+    largest = std::max(largest, std::abs(early - 0.5 * double{input.touching}) / double{input.touching});
   }
   CAPTURE(hits, misses, largest);
   CHECK(largest < 0.75); /* between the surface and the touching distance before it, and a rounding */
@@ -90,13 +90,13 @@ TEST_CASE("time of impact: a sphere falls on a plane at (height - radius) / spee
     const convex shape = ball(float(radius)).record();
     const vec3 aside = vec(random.in_cube(speed));
     const moving_convex moving = moving_convex_of(&shape, none, make_vec3(aside.x, real(-speed), aside.z), none, 0);
-    const journey way = journey_of(length_of(moving.linear), 1, real(radius), real(radius));
-    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-height), none, way);
+    const toi_input input = toi_input_of(length_of(moving.linear), 1, real(radius), real(radius));
+    const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-height), none, input);
     REQUIRE(met.at.hits);
     const double early = (height - radius) - speed * double{met.at.time};
-    CAPTURE(radius, height, speed, early, way.touching);
-    CHECK(early > -0.1 * double{way.touching});
-    CHECK(early < 1.01 * double{way.touching});
+    CAPTURE(radius, height, speed, early, input.touching);
+    CHECK(early > -0.1 * double{input.touching});
+    CHECK(early < 1.01 * double{input.touching});
   }
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("time of impact: a turning rod touches a plane with its end")
     const moving_convex moving =
         moving_convex_of(&shape, none, make_vec3(0, real(-sink), 0), make_vec3(0, 0, real(w)), real(L + r));
     const impact met = first_impact_on_plane(&moving, make_vec3(0, 1, 0), real(-h), none,
-                                             journey_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
+                                             toi_input_of(real(sink + w * (L + r)), 1, real(r), real(L + r)));
     double low = 0, high = std::asin(std::min(1.0, (h - r) / L)) / w; /* sinking only brings it forward */
     for (int i = 0; i < 60; ++i) {
       const double t = 0.5 * (low + high);
@@ -148,10 +148,10 @@ TEST_CASE("time of impact: shapes that move and turn are apart before it, and to
     const moving_convex moving_a = moving_convex_of(&record_a, none, vec(linear_a), vec(angular_a), real(a.radius()));
     const moving_convex moving_b =
         moving_convex_of(&record_b, record_b.center, vec(linear_b), vec(angular_b), real(b.radius()));
-    const journey way = one_second(moving_a, moving_b);
-    const impact met = first_impact(&moving_a, &moving_b, way);
+    const toi_input input = one_second(moving_a, moving_b);
+    const impact met = first_impact(&moving_a, &moving_b, input);
     met.at.hits ? ++hits : ++misses;
-    if (met.at.hits && double{met.gap} > 1.01 * double{way.touching}) {
+    if (met.at.hits && double{met.gap} > 1.01 * double{input.touching}) {
       ++loose;
       widest = std::max(widest, double{met.gap} / (a.radius() + b.radius()));
     }

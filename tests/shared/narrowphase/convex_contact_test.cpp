@@ -7,7 +7,7 @@ using namespace tandem::convex_tests;
 
 namespace {
 
-constexpr natural methods[] = {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES};
+constexpr uint_lanes methods[] = {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES};
 constexpr real slop = R(0.005);
 
 struct Contact {
@@ -15,7 +15,7 @@ struct Contact {
   std::vector<Vector> points;
   std::vector<double> separations;
   std::vector<int> slots;
-  natural code;
+  uint_lanes code;
 
   explicit Contact(const manifold &m) : normal(m.normal.x, m.normal.y, m.normal.z), code(m.code)
   {
@@ -36,7 +36,7 @@ struct Contact {
   }
 };
 
-Contact contact_of(const Shape &a, const Shape &b, double reach, natural method)
+Contact contact_of(const Shape &a, const Shape &b, double reach, uint_lanes method)
 {
   const convex record_a = a.record(), record_b = b.record();
   return Contact(convex_contact(&record_a, &record_b, real(reach), slop, method));
@@ -76,7 +76,7 @@ bool holds(const std::vector<Vector> &points, const Vector &direction, const Vec
   return false;
 }
 
-Shape shape_of_kind(natural kind, float x, float y, float z)
+Shape shape_of_kind(uint_lanes kind, float x, float y, float z)
 {
   Shape shape;
   shape.kind = kind;
@@ -90,7 +90,7 @@ Shape turned(Shape shape, double angle, const Vector &axis)
 }
 
 /* The ground is body a, whose centre lies one below its face. */
-Contact on_ground(Shape shape, double gap, natural method = CONVEX_EXPANSION)
+Contact on_ground(Shape shape, double gap, uint_lanes method = CONVEX_EXPANSION)
 {
   const Shape floor = shape_of_kind(SHAPE_BOX, 50, 1, 50);
   shape.center.y() = 0;
@@ -112,7 +112,7 @@ TEST_CASE("convex contact: the deepest point is as deep as the shapes, all lie b
 {
   ShapeMaker maker(1);
   const double reach = 0.02;
-  for (natural method : methods) {
+  for (uint_lanes method : methods) {
     Errors depth, outside, normals;
     size_t touching = 0, wrong = 0, missed = 0, points = 0;
     for (size_t pair = 0; pair < 40000; ++pair) {
@@ -158,7 +158,7 @@ TEST_CASE("convex contact: the deepest point is as deep as the shapes, all lie b
 TEST_CASE("convex contact: boxes face to face span the whole overlap, by every method")
 {
   Random random(2);
-  for (natural method : methods) {
+  for (uint_lanes method : methods) {
     size_t wrong = 0;
     for (size_t pair = 0; pair < 3000; ++pair) {
       Shape a = shape_of_kind(SHAPE_BOX, 1, 0.5f, 0.8f), b = shape_of_kind(SHAPE_BOX, 0.3f, 0.4f, 0.5f);
@@ -258,7 +258,7 @@ TEST_CASE("convex contact: two cylinders side by side touch along a line, crosse
 TEST_CASE("convex contact: tiny on huge keeps the precision of the tiny one")
 {
   ShapeMaker maker(6);
-  for (natural method : methods) {
+  for (uint_lanes method : methods) {
     Errors errors, turned_too;
     for (size_t pair = 0; pair < 20000; ++pair) {
       Shape huge, tiny = maker.any(1e-3, 1e-2);
@@ -285,7 +285,7 @@ TEST_CASE("convex contact: tiny on huge keeps the precision of the tiny one")
 
 TEST_CASE("convex contact: slots and features stay with their points while a shape creeps")
 {
-  for (natural kind : {SHAPE_BOX, SHAPE_CYLINDER}) {
+  for (uint_lanes kind : {SHAPE_BOX, SHAPE_CYLINDER}) {
     Shape shape = shape_of_kind(kind, 0.5f, 0.5f, 0.5f);
     Random random(3);
     const Contact before = on_ground(shape, -0.002);

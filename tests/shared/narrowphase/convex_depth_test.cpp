@@ -50,9 +50,9 @@ void measure_depths(Depths &depths, size_t hull_share, uint64_t seed)
 {
   ShapeMaker maker(seed);
   for (size_t pair = 0; depths.axes.excess.values.size() < 100000; ++pair) {
-    const natural kind = pair % hull_share == 0 ? SHAPE_HULL : SHAPE_BOX;
+    const uint_lanes kind = pair % hull_share == 0 ? SHAPE_HULL : SHAPE_BOX;
     const Shape a = maker.make(kind, 0.1, 2);
-    Shape b = maker.make(maker.random.below(2) ? kind : natural(SHAPE_BOX), 0.1, 2);
+    Shape b = maker.make(maker.random.below(2) ? kind : uint_lanes(SHAPE_BOX), 0.1, 2);
     place_overlapping(maker, a, b);
     const Axis exact = exhaustive_axis(a, b);
     if (exact.gap > 0) continue;
@@ -103,7 +103,7 @@ TEST_CASE("convex depth: round shapes against a search over directions")
   Random search(4);
   Excess expansion, sampled;
   for (size_t pair = 0; pair < 1000; ++pair) {
-    const Shape a = maker.make(pair % 2 ? natural(SHAPE_CYLINDER) : natural(SHAPE_CAPSULE), 0.2, 2);
+    const Shape a = maker.make(pair % 2 ? uint_lanes(SHAPE_CYLINDER) : uint_lanes(SHAPE_CAPSULE), 0.2, 2);
     Shape b = maker.any(0.2, 2);
     place_overlapping(maker, a, b);
     const Found found = find(a, b, CONVEX_EXPANSION);
@@ -130,7 +130,7 @@ TEST_CASE("convex depth: concentric shapes have a normal of unit length, and one
     const Shape a = maker.any(0.1, 2);
     Shape b = pair % 3 ? maker.any(0.1, 2) : a;
     if (pair % 2) b.orientation = a.orientation;
-    for (natural method : {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES}) {
+    for (uint_lanes method : {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES}) {
       const Found found = find(a, b, method), again = find(a, b, method);
       wrong += !(std::abs(found.normal.norm() - 1) < 2e-6) || found.normal != again.normal;
     }
@@ -159,7 +159,7 @@ TEST_CASE("convex depth: hulls without volume")
     Shape b = maker.any(0.1, 1);
     if (pair % 7 == 0) b = a;
     ShapeMaker::place(a, b, maker.random.direction(), maker.random.uniform(-0.1, 0.1));
-    for (natural method : {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES}) {
+    for (uint_lanes method : {CONVEX_EXPANSION, CONVEX_SAMPLED, CONVEX_AXES}) {
       const Found found = find(a, b, method);
       wrong += !(std::abs(found.normal.norm() - 1) < 2e-6);
       gap.add(std::abs(found.gap - gap_between(a, b, found.normal.normalized())), pair);

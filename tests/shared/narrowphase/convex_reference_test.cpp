@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 #include <stdint.h>
 
-#include "host/scene/hull_strips.h"
+#include "host/scene/hull_chunks.h"
 #include "tests/catch.h"
 
 /* Types of memory are wider too, so all of it lives in a namespace of its own, as in minicl/reference.cpp. */
@@ -31,7 +31,7 @@ TEST_CASE("convex shapes in double precision: distances and depths to its roundi
   ShapeMaker maker(1);
   Errors gap, distance, depth, axes;
   for (size_t pair = 0; pair < 20000; ++pair) {
-    const natural kinds[] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_HULL};
+    const uint_lanes kinds[] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_HULL};
     const Shape a = maker.make(kinds[maker.random.below(3)], 0.1, 2);
     Shape b = maker.make(kinds[maker.random.below(3)], 0.1, 2);
     const double least = std::min(a.least(), b.least()), size = a.radius() + b.radius();

@@ -16,7 +16,7 @@
 
 #include <Eigen/Geometry>
 
-#include "host/scene/hull_strips.h"
+#include "host/scene/hull_chunks.h"
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/convex_half_space.h"
 
@@ -61,12 +61,12 @@ struct Hull {
 
   std::vector<uint> headers, face_starts, corners, edge_table, links;
   uint support = SUPPORT_BRUTE_FORCE;
-  std::vector<row> rows, planes, strips;
+  std::vector<float4> rows, planes, chunks;
 
   hull_tables tables() const
   {
     return {headers.data(), rows.data(),       planes.data(), face_starts.data(),
-            corners.data(), edge_table.data(), strips.data(), links.data(),
+            corners.data(), edge_table.data(), chunks.data(), links.data(),
             nullptr,        nullptr,           support};
   }
 };
@@ -146,11 +146,11 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
       0, 0,       map_side};
   std::vector<std::vector<uint32_t>> faces;
   for (const Hull::Face &face : hull->faces) faces.push_back(face.corners);
-  ::tandem::append_strips(hull->strips, hull->rows, 3);
-  ::tandem::append_strips(hull->strips, hull->planes, 4);
+  ::tandem::append_chunks(hull->chunks, hull->rows, 3);
+  ::tandem::append_chunks(hull->chunks, hull->planes, 4);
   ::tandem::append_links(hull->links, uint(n), faces, hull->edge_table);
-  hull->strips.push_back(::tandem::middle_of(std::span(hull->rows)));
-  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->strips.back(),
+  hull->chunks.push_back(::tandem::middle_of(std::span(hull->rows)));
+  ::tandem::append_cube_maps(hull->links, std::span(hull->rows), std::span(hull->planes), hull->chunks.back(),
                              map_side);
   return hull;
 }
@@ -172,7 +172,7 @@ inline std::shared_ptr<Hull> box_hull(const Vector &extent)
 
 /* A shape as the kernels get it, and its double-precision self. */
 struct Shape {
-  natural kind = SHAPE_BOX;
+  uint_lanes kind = SHAPE_BOX;
   Eigen::Vector3f size{1, 1, 1};
   Eigen::Quaternionf orientation{1, 0, 0, 0};
   Eigen::Vector3f center{0, 0, 0}; /* seen from the centre of a */
@@ -251,7 +251,7 @@ private:
 };
 
 /* A hull all of whose points are vertices, turned at random. */
-inline Shape stone(Random &random, uint32_t vertices, const Vector &size)
+inline Shape random_hull_shape(Random &random, uint32_t vertices, const Vector &size)
 {
   Shape shape;
   shape.kind = SHAPE_HULL;
@@ -394,7 +394,7 @@ public:
     for (uint32_t k = 0; k < 40; ++k) hulls_.push_back(random_hull(random, 4 + k % 12, Vector(1, 0.7, 1.3)));
     hulls_.push_back(box_hull({1, 0.5, 0.8}));
   }
-  Shape make(natural kind, double low, double high)
+  Shape make(uint_lanes kind, double low, double high)
   {
     Shape shape;
     shape.kind = kind;
@@ -417,7 +417,7 @@ public:
     b.center = (direction * (gap - gap_between(a, b, direction))).cast<float>();
   }
 
-  static constexpr natural kinds[5] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_HULL};
+  static constexpr uint_lanes kinds[5] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_HULL};
   Random random;
 
 private:
@@ -430,7 +430,7 @@ struct Found {
   double gap, distance; /* of the whole shapes; of the closest points, where the cores are apart */
   bool overlapping;
 };
-inline Found find(const Shape &a, const Shape &b, natural method)
+inline Found find(const Shape &a, const Shape &b, uint_lanes method)
 {
   const convex record_a = a.record(), record_b = b.record();
   const convex_pair pair = pair_of(&record_a, &record_b);

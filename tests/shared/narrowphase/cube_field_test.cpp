@@ -23,7 +23,7 @@ struct Manifold {
   double deepest = 1e300;
 };
 
-Manifold manifold_of(const Shape &a, const Shape &b, double reach, natural method)
+Manifold manifold_of(const Shape &a, const Shape &b, double reach, uint_lanes method)
 {
   const convex record_a = a.record(), record_b = b.record();
   const manifold m = convex_contact(&record_a, &record_b, real(reach), slop, method);
@@ -44,7 +44,7 @@ TEST_CASE("cube field: heights are never too large, and nearly right where the s
   for (uint32_t vertices : {8u, 32u}) {
     Errors errors;
     for (int hull = 0; hull < 40; ++hull) {
-      const Shape shape = stone(random, vertices, {1, 0.8, 0.6});
+      const Shape shape = random_hull_shape(random, vertices, {1, 0.8, 0.6});
       const convex record = shape.record();
       for (size_t k = 0; k < 200; ++k) {
         const Hull::Face &face = shape.hull->faces[random.below(uint32_t(shape.hull->faces.size()))];
@@ -108,14 +108,14 @@ TEST_CASE("cube field: long edges that cross far from any corner still touch")
   CHECK(std::abs(found.deepest - (0.27 - 0.2 * std::sqrt(2))) < 1e-5);
 }
 
-TEST_CASE("cube field: stones that rest on each other, against all their axes")
+TEST_CASE("cube field: hulls that rest on each other, against all their axes")
 {
   Random random(22);
   Errors depth;
   size_t pairs = 0, right_normal = 0;
   for (int k = 0; k < 300; ++k) {
-    const Shape a = stone(random, 20, {1, 0.8, 0.6});
-    Shape b = stone(random, 20, {0.7, 0.5, 0.9});
+    const Shape a = random_hull_shape(random, 20, {1, 0.8, 0.6});
+    Shape b = random_hull_shape(random, 20, {0.7, 0.5, 0.9});
     ShapeMaker::place(a, b, random.direction(), 0);
     for (int round = 0; round < 6; ++round)
       ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));

@@ -30,13 +30,13 @@ void compare(Comparison &result, const Shape &a, const Shape &b)
 
 } // namespace
 
-TEST_CASE("convex axes: stones of 20 vertices, resting and deep in each other, against all their axes")
+TEST_CASE("convex axes: hulls of 20 vertices, resting and deep in each other, against all their axes")
 {
   Random random(11);
   Comparison shallow, deep;
   for (int pair = 0; pair < 160; ++pair) {
-    const Shape a = stone(random, 20, {1, 0.8, 0.6});
-    Shape b = stone(random, 20, {0.7, 0.5, 0.9});
+    const Shape a = random_hull_shape(random, 20, {1, 0.8, 0.6});
+    Shape b = random_hull_shape(random, 20, {0.7, 0.5, 0.9});
     ShapeMaker::place(a, b, random.direction(), 0);
     for (int k = 0; k < 6; ++k)
       ShapeMaker::place(a, b, find(a, b, CONVEX_EXPANSION).normal.normalized(), -random.logarithmic(1e-4, 1e-2));

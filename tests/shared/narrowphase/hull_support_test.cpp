@@ -12,13 +12,13 @@ uint32_t by_loop(const Hull &hull, vec3 d)
 {
   uint32_t best = 0;
   for (uint32_t k = 1; k < hull.rows.size(); ++k)
-    if (inner(make_vec3(hull.rows[k].x, hull.rows[k].y, hull.rows[k].z), d) >
-        inner(make_vec3(hull.rows[best].x, hull.rows[best].y, hull.rows[best].z), d))
+    if (dot3(make_vec3(hull.rows[k].x, hull.rows[k].y, hull.rows[k].z), d) >
+        dot3(make_vec3(hull.rows[best].x, hull.rows[best].y, hull.rows[best].z), d))
       best = k;
   return best;
 }
 
-uint32_t by(natural support, const Hull &hull, vec3 d, const Vector &size)
+uint32_t by(uint_lanes support, const Hull &hull, vec3 d, const Vector &size)
 {
   hull_tables tables = hull.tables();
   tables.support = support;
@@ -48,7 +48,7 @@ std::vector<vec3> directions_for(Random &random, const Hull &hull)
 
 } // namespace
 
-TEST_CASE("convex supports: strips and climbing name the vertex of a plain loop")
+TEST_CASE("convex supports: chunks and climbing name the vertex of a plain loop")
 {
   Random random(21);
   size_t wrong = 0, tried = 0;

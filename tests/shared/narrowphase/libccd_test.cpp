@@ -31,7 +31,7 @@ ccd_t settings_of_libccd()
 
 TEST_CASE("convex depth: overlaps and depths as libccd finds them")
 {
-  const natural kinds[] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_HULL};
+  const uint_lanes kinds[] = {SHAPE_SPHERE, SHAPE_BOX, SHAPE_CAPSULE, SHAPE_CYLINDER, SHAPE_HULL};
   const ccd_t ccd = settings_of_libccd();
   ShapeMaker maker(21);
   size_t verdicts = 0, depths = 0, unsolved = 0, agreed = 0;
@@ -57,8 +57,8 @@ TEST_CASE("convex depth: overlaps and depths as libccd finds them")
     agreed += std::abs(-found.gap - depth) < 1e-4 * size;
     /* What libccd claims may be less than there is: its direction is an upper bound, measured by the shapes
      * themselves. */
-    const Vector way = Vector(direction.v[0], direction.v[1], direction.v[2]).normalized();
-    deeper.add((-found.gap + std::max(gap_between(a, b, way), gap_between(a, b, -way))) / size, pair);
+    const Vector displacement = Vector(direction.v[0], direction.v[1], direction.v[2]).normalized();
+    deeper.add((-found.gap + std::max(gap_between(a, b, displacement), gap_between(a, b, -displacement))) / size, pair);
   }
   CAPTURE(verdicts, depths, unsolved, agreed, deeper.largest, deeper.worst);
   CHECK(verdicts > 15000);

@@ -21,7 +21,7 @@ using namespace tandem;
 namespace {
 
 struct Pairs {
-  std::vector<uint32_t> a, b, traits;
+  std::vector<uint32_t> a, b, flags;
 };
 
 /* Of bodies with the shapes given; what else traits hold must not matter. */
@@ -30,7 +30,7 @@ Pairs random_pairs(uint32_t count, const std::vector<uint32_t> &shapes, uint64_t
   Random random(seed);
   Pairs pairs;
   for (uint32_t body = 0; body < 50; ++body)
-    pairs.traits.push_back(shapes[random.below(static_cast<uint32_t>(shapes.size()))] | random.below(1 << 20) << 3);
+    pairs.flags.push_back(shapes[random.below(static_cast<uint32_t>(shapes.size()))] | random.below(1 << 20) << 3);
   for (uint32_t pair = 0; pair < count; ++pair) {
     pairs.a.push_back(random.below(50));
     pairs.b.push_back(random.below(50));
@@ -60,7 +60,7 @@ Lists by_hand(const Pairs &pairs)
   for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) {
     lists.starts.push_back(static_cast<uint32_t>(lists.pairs.size()));
     for (uint32_t pair = 0; pair < pairs.a.size(); ++pair)
-      if (kind_by_hand(pairs.traits[pairs.a[pair]] & 7, pairs.traits[pairs.b[pair]] & 7) == kind)
+      if (kind_by_hand(pairs.flags[pairs.a[pair]] & 7, pairs.flags[pairs.b[pair]] & 7) == kind)
         lists.pairs.push_back(pair);
   }
   return lists;
@@ -81,7 +81,7 @@ Lists on_backend(const std::string &name, const Pairs &pairs)
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
   backend->prepare(FEATURE_PAIR_KINDS, kernels);
-  const Sizes sizes{.bodies = static_cast<uint32_t>(pairs.traits.size()),
+  const Sizes sizes{.bodies = static_cast<uint32_t>(pairs.flags.size()),
                     .materials = 1,
                     .hulls = {},
                     .trees = {},
@@ -96,7 +96,7 @@ Lists on_backend(const std::string &name, const Pairs &pairs)
   set(memory, Buffer::counts, counts);
   set(memory, Buffer::pair_a, pairs.a);
   set(memory, Buffer::pair_b, pairs.b);
-  set(memory, Buffer::body_traits, pairs.traits);
+  set(memory, Buffer::body_flags, pairs.flags);
   DirectLauncher launcher(memory, *backend);
   list_pairs(launcher, capacity);
   Lists lists;
@@ -181,7 +181,7 @@ TEST_CASE("pair lists: those of a step hold the pairs of the step", "[sanitizer]
   Memory &memory = world.memory();
   const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
   const Pairs pairs{memory.read<uint32_t>(Buffer::pair_a, count), memory.read<uint32_t>(Buffer::pair_b, count),
-                    memory.read<uint32_t>(Buffer::body_traits, world.scene().bodies.size())};
+                    memory.read<uint32_t>(Buffer::body_flags, world.scene().bodies.size())};
   const Lists lists{memory.read<uint32_t>(Buffer::counts, PAIR_KIND_NONE + 1, KIND_START),
                     memory.read<uint32_t>(Buffer::pair_of_kind, count)};
   CHECK((lists == by_hand(pairs)));
@@ -198,7 +198,7 @@ TEST_CASE("pair kinds: a scene has the kernel of every pair that it makes")
   for (uint32_t shape = 0; shape < 4; ++shape) {
     Body body;
     body.shape = shape;
-    body.motion = shape == 0 ? Motion::kinematic : Motion::fixed;
+    body.type = shape == 0 ? BodyType::kinematic : BodyType::fixed;
     body.trigger = shape == 0;
     triggers.bodies.push_back(body);
   }
@@ -210,10 +210,10 @@ TEST_CASE("pair kinds: a scene has the kernel of every pair that it makes")
     Memory &memory = world.memory();
     const uint32_t count = memory.read<uint32_t>(Buffer::counts, 1, COUNT_PAIRS).at(0);
     const auto a = memory.read<uint32_t>(Buffer::pair_a, count), b = memory.read<uint32_t>(Buffer::pair_b, count),
-               traits = memory.read<uint32_t>(Buffer::body_traits, world.scene().bodies.size());
+               flags = memory.read<uint32_t>(Buffer::body_flags, world.scene().bodies.size());
     CAPTURE(scene.name);
     for (uint32_t pair = 0; pair < count; ++pair) {
-      const uint32_t kind = pair_kind(traits[a[pair]], traits[b[pair]]);
+      const uint32_t kind = pair_kind(flags[a[pair]], flags[b[pair]]);
       REQUIRE(kind != PAIR_KIND_NONE);
       REQUIRE((world.features() & pair_tests[kind].feature) != 0);
       ++met;

@@ -51,13 +51,13 @@ struct Contact {
 
 /* Every output word of a launch, for comparisons bit by bit. */
 struct Outputs {
-  std::vector<row> normals, points;
+  std::vector<float4> normals, points;
   std::vector<uint32_t> counts, features;
 
   bool operator==(const Outputs &other) const
   {
-    const auto same = [](const std::vector<row> &a, const std::vector<row> &b) {
-      return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(row)) == 0;
+    const auto same = [](const std::vector<float4> &a, const std::vector<float4> &b) {
+      return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float4)) == 0;
     };
     return same(normals, other.normals) && same(points, other.points) && counts == other.counts &&
            features == other.features;
@@ -108,7 +108,7 @@ public:
     counts_[CAPACITY_PAIRS] = static_cast<uint32_t>(capacity);
     list();
     Outputs outputs;
-    row unwritten;
+    float4 unwritten;
     std::memset(&unwritten, 0xcd, sizeof unwritten);
     outputs.normals.assign(capacity, unwritten);
     outputs.points.assign(4 * capacity, unwritten);
@@ -118,7 +118,7 @@ public:
       std::vector<void *> arguments;
       for (const Argument &argument : row_of(kernel).arguments) arguments.push_back(storage(argument.buffer, outputs));
       const auto [first, last] = range_of(kernel);
-      if (row_of(kernel).form == Form::group) {
+      if (row_of(kernel).execution == Execution::group) {
         table.run[index_of(kernel)](arguments.data(), 0, (last - first + TILE - 1) / TILE);
         continue;
       }
@@ -135,7 +135,7 @@ public:
     contact.normal = xyz(outputs.normals[pair]);
     contact.code = outputs.features[pair] >> 8;
     for (uint32_t k = 0; k < outputs.counts[pair] % TO_FOLLOW; ++k) {
-      const row &point = outputs.points[k * outputs.counts.size() + pair];
+      const float4 &point = outputs.points[k * outputs.counts.size() + pair];
       contact.points.push_back({xyz(point), point.w, outputs.features[pair] >> (2 * k) & 3u});
     }
     return contact;
@@ -144,8 +144,8 @@ public:
   Parameters parameters;
 
 private:
-  static Vector xyz(const row &r) { return {r.x, r.y, r.z}; }
-  static row to_row(const Eigen::Vector3f &v, float w) { return {v.x(), v.y(), v.z(), w}; }
+  static Vector xyz(const float4 &r) { return {r.x, r.y, r.z}; }
+  static float4 to_row(const Eigen::Vector3f &v, float w) { return {v.x(), v.y(), v.z(), w}; }
 
   /* Where the parameters say that there are lists. */
   void list()
@@ -154,7 +154,7 @@ private:
     for (uint32_t kind = 0; kind <= PAIR_KIND_NONE; ++kind) {
       counts_[KIND_START + kind] = static_cast<uint32_t>(of_kind_.size());
       for (uint32_t pair = 0; pair < size(); ++pair)
-        if (pair_kind(traits_[pair_a_[pair]], traits_[pair_b_[pair]]) == kind) of_kind_.push_back(pair);
+        if (pair_kind(flags_[pair_a_[pair]], flags_[pair_b_[pair]]) == kind) of_kind_.push_back(pair);
     }
   }
   std::pair<uint32_t, uint32_t> range_of(Kernel kernel) const
@@ -169,7 +169,7 @@ private:
   {
     bodies_.push_back(body);
     shapes_.push_back(to_row(body.size, body.bounding_radius()));
-    traits_.push_back(body.shape | 2u << 3 | 7u << 8);
+    flags_.push_back(body.shape | 2u << 3 | 7u << 8);
     positions_.push_back(to_row(body.position, 0));
     positions_.push_back({0, 0, 0, 0});
     orientations_.push_back({body.orientation.x(), body.orientation.y(), body.orientation.z(), body.orientation.w()});
@@ -184,7 +184,7 @@ private:
     case Buffer::pair_a: return pair_a_.data();
     case Buffer::pair_b: return pair_b_.data();
     case Buffer::pair_of_kind: return of_kind_.data();
-    case Buffer::body_traits: return traits_.data();
+    case Buffer::body_flags: return flags_.data();
     case Buffer::body_shape: return shapes_.data();
     case Buffer::body_position: return positions_.data();
     case Buffer::body_orientation: return orientations_.data();
@@ -200,8 +200,8 @@ private:
   }
 
   std::vector<TestBody> bodies_;
-  std::vector<row> shapes_, positions_, orientations_, velocities_;
-  std::vector<uint32_t> traits_, pair_a_, pair_b_, of_kind_, counts_;
+  std::vector<float4> shapes_, positions_, orientations_, velocities_;
+  std::vector<uint32_t> flags_, pair_a_, pair_b_, of_kind_, counts_;
 };
 
 class Random {

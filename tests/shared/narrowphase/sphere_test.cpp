@@ -87,19 +87,19 @@ double closed_by_motion(const TestBody &a, const TestBody &b, const Contact &con
 }
 
 /* Of a pair that misses, what becomes of a contact that its plane would only be turned into: it is put where that does
- * not reach it, or its arms stay (`stays`), where there is no room for it. */
+ * not reach it, or its arms stay (`stays`), where the margin does not suffice. */
 struct Turning {
   double motion, either_way, toward; /* m within the step */
-  double room;
+  double margin;
 
   bool is_clear(double separation) const { return separation > motion + either_way; }
   bool is_put_clear(double separation, double tolerance) const
   {
-    return either_way <= room + tolerance && std::abs(separation - 1.01 * (motion + toward)) < tolerance;
+    return either_way <= margin + tolerance && std::abs(separation - 1.01 * (motion + toward)) < tolerance;
   }
   bool must_stay(double separation, double tolerance) const
   {
-    return either_way > room - tolerance && motion + either_way > separation - tolerance;
+    return either_way > margin - tolerance && motion + either_way > separation - tolerance;
   }
 };
 

@@ -64,12 +64,12 @@ TEST_CASE("sums past 2^32 stay at the largest number, however often they pass it
 {
   for (const auto &primitives : all_primitives())
     for (const uint32_t n : {1u, 2u, 31u, 257u, 4095u, 4096u, 4097u, 20'000u, 92'683u, 100'003u}) {
-      std::vector<uint32_t> crowd(n);
-      std::iota(crowd.begin(), crowd.end(), 0u);
+      std::vector<uint32_t> many(n);
+      std::iota(many.begin(), many.end(), 0u);
       std::vector<uint32_t> one_large(n, 1), at_end(n, 0);
       one_large[n / 2] = UINT32_MAX;
       at_end[n - 1] = at_end[0] = 0x80000000u;
-      for (const auto &values : {crowd, one_large, at_end, keys_of<uint32_t>(Distribution::random, n),
+      for (const auto &values : {many, one_large, at_end, keys_of<uint32_t>(Distribution::random, n),
                                  std::vector<uint32_t>(n, UINT32_MAX)}) {
         INFO(primitives->name() << ", n = " << n);
         REQUIRE((scan_in_place(*primitives, values, n) == expected_scan(values)));

@@ -11,7 +11,7 @@ using namespace tandem;
 namespace {
 
 struct BodyBounds {
-  row lower, upper;
+  float4 lower, upper;
 };
 
 bool overlap(const BodyBounds &p, const BodyBounds &q)
@@ -30,7 +30,7 @@ uint32_t counted_pairs(BroadphaseFrames &frames, const MovingBodies &moving)
 {
   const size_t bodies = moving.scene.bodies.size();
   const std::vector<BodyBounds> bounds = bounds_of(frames, bodies);
-  const auto stands = [&](size_t k) { return moving.scene.bodies[moving.special.order[k]].motion == Motion::fixed; };
+  const auto stands = [&](size_t k) { return moving.scene.bodies[moving.special.order[k]].type == BodyType::fixed; };
   uint32_t pairs = 0;
   for (size_t a = 0; a < bodies; ++a)
     for (size_t b = 0; b < a; ++b) pairs += overlap(bounds[a], bounds[b]) && !(stands(a) && stands(b));
@@ -117,18 +117,18 @@ TEST_CASE("bench broadphase: bodies are drawn alike each time, move by small ste
 {
   for (const BroadphaseInput &input : broadphase_inputs()) {
     const MovingBodies moving(input, 400), again(input, 400);
-    const std::vector<row> start = moving.places_at(0), later = moving.places_at(10), same = again.places_at(10);
+    const std::vector<float4> start = moving.places_at(0), later = moving.places_at(10), same = again.places_at(10);
     REQUIRE(start.size() == 800);
     int moved = 0, fixed = 0;
     for (size_t k = 0; k < 400; ++k) {
-      const row &from = start[2 * k], &to = later[2 * k];
-      const double way = std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z);
-      CAPTURE(input.name, k, way);
+      const float4 &from = start[2 * k], &to = later[2 * k];
+      const double displacement = std::abs(to.x - from.x) + std::abs(to.y - from.y) + std::abs(to.z - from.z);
+      CAPTURE(input.name, k, displacement);
       CHECK(same[2 * k].x == to.x);
-      CHECK(way < 0.51); /* ten steps at 1 m/s along each axis */
-      const bool stands = moving.scene.bodies[moving.special.order[k]].motion == Motion::fixed;
-      if (stands) CHECK(way == 0);
-      moved += way > 0;
+      CHECK(displacement < 0.51); /* ten steps at 1 m/s along each axis */
+      const bool stands = moving.scene.bodies[moving.special.order[k]].type == BodyType::fixed;
+      if (stands) CHECK(displacement == 0);
+      moved += displacement > 0;
       fixed += stands;
     }
     CHECK(moved == 400 - fixed);
@@ -141,13 +141,13 @@ TEST_CASE("bench broadphase: a list that outgrows its room is found again with r
   const MovingBodies moving(broadphase_input_named("spheres"), 500);
   const std::unique_ptr<Backend> backend = make_backend("serial");
   for (const BroadphaseRow &broadphase : broadphases()) {
-    BroadphaseFrames roomy(moving, broadphase, *backend), tight(moving, broadphase, *backend, 1);
+    BroadphaseFrames ample(moving, broadphase, *backend), tight(moving, broadphase, *backend, 1);
     for (uint32_t frame = 0; frame < 2; ++frame) {
-      roomy.run(frame);
+      ample.run(frame);
       tight.run(frame);
       CAPTURE(broadphase.name, frame);
-      CHECK(tight.pairs() == roomy.pairs());
-      CHECK(tight.hash() == roomy.hash());
+      CHECK(tight.pairs() == ample.pairs());
+      CHECK(tight.hash() == ample.hash());
     }
   }
 }

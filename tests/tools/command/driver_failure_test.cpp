@@ -20,24 +20,25 @@ namespace {
 struct FailingDriver {
   Scratch folder;
   std::string environment;
-  explicit FailingDriver(const std::string &way)
+  explicit FailingDriver(const std::string &displacement)
   {
     std::ofstream(folder.file("failing.icd")) << TANDEM_FAILING_DRIVER << "\n";
-    environment = "FAILING_DRIVER=" + way + " TANDEM_OPENCL_TIMEOUT=1 OCL_ICD_VENDORS=" + folder.path.string() + "/";
+    environment =
+        "FAILING_DRIVER=" + displacement + " TANDEM_OPENCL_TIMEOUT=1 OCL_ICD_VENDORS=" + folder.path.string() + "/";
   }
 };
 
-const char *const ways[][2] = {{"abort", "crashed (Aborted) while it was asked for its devices"},
-                               {"crash", "crashed (Segmentation fault) while it was asked for its devices"},
-                               {"exit", "ended the process (status 3) while it was asked for its devices"},
-                               {"hang", "gave no answer in 1 s while it was asked for its devices"}};
+const char *const paths[][2] = {{"abort", "crashed (Aborted) while it was asked for its devices"},
+                                {"crash", "crashed (Segmentation fault) while it was asked for its devices"},
+                                {"exit", "ended the process (status 3) while it was asked for its devices"},
+                                {"hang", "gave no answer in 1 s while it was asked for its devices"}};
 
 } // namespace
 
 TEST_CASE("failing drivers: what asks for OpenCL is refused in one line", "[command]")
 {
-  for (const auto &[way, said] : ways) {
-    const FailingDriver driver(way);
+  for (const auto &[displacement, said] : paths) {
+    const FailingDriver driver(displacement);
     check_refused("run box-grid:nx=1,ny=1,nz=1 --steps 1 --on cl", said, driver.environment);
     check_refused("diff box-grid:nx=1,ny=1,nz=1 --steps 1 --between serial,cl:0.0", said, driver.environment);
   }
@@ -45,8 +46,8 @@ TEST_CASE("failing drivers: what asks for OpenCL is refused in one line", "[comm
 
 TEST_CASE("failing drivers: the list of devices goes on without OpenCL and says why", "[command]")
 {
-  for (const auto &[way, said] : ways) {
-    const FailingDriver driver(way);
+  for (const auto &[displacement, said] : paths) {
+    const FailingDriver driver(displacement);
     const Result result = command("devices", driver.environment);
     INFO(result.out << result.error);
     CHECK(result.status == 0);

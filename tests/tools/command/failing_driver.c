@@ -11,15 +11,15 @@ void *clGetExtensionFunctionAddress(const char *name);
 /* Without the name that the loader asks for, as that is also one of the loader's own. */
 static int platforms_of(unsigned entries, void **platforms, unsigned *count)
 {
-  const char *way = getenv("FAILING_DRIVER");
+  const char *displacement = getenv("FAILING_DRIVER");
   (void)entries;
   (void)platforms;
-  if (!way) way = "";
-  if (*way) fprintf(stderr, "the driver fails: %s\n", way);
-  if (!strcmp(way, "abort")) abort();
-  if (!strcmp(way, "crash")) raise(SIGSEGV);
-  if (!strcmp(way, "exit")) exit(3);
-  if (!strcmp(way, "hang"))
+  if (!displacement) displacement = "";
+  if (*displacement) fprintf(stderr, "the driver fails: %s\n", displacement);
+  if (!strcmp(displacement, "abort")) abort();
+  if (!strcmp(displacement, "crash")) raise(SIGSEGV);
+  if (!strcmp(displacement, "exit")) exit(3);
+  if (!strcmp(displacement, "hang"))
     for (;;) sleep(1);
   if (count) *count = 0;
   return -1001; /* no platform */

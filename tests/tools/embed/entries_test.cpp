@@ -51,7 +51,7 @@ TEST_CASE("every row of kernels.def has its OpenCL entry, with the same argument
   std::array<cl::Program, stage_count> programs;
   for (size_t k = 0; k < kernel_count; ++k) {
     const KernelRow &row = row_of(kernel_at(k));
-    if (row.form == Form::host) continue;
+    if (row.execution == Execution::host) continue;
     INFO("kernel " << row.name << " in cl/" << name_of(row.stage) << ".cl");
     cl::Program &program = programs[static_cast<size_t>(row.stage)];
     if (!program())

@@ -23,7 +23,7 @@ Scene ball_on_floor()
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, sphere_shape(1), {0, 1, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(1), {0, 1, 0});
   return scene;
 }
 

@@ -596,8 +596,8 @@ TEST_CASE("stability: pictures show a box as a hexagon and a ball as a circle, a
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0});
-  add_body(scene, Motion::dynamic, sphere_shape(0.5f), {2, 0.5f, 0});
+  add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f), {0, 0.5f, 0});
+  add_body(scene, BodyType::dynamic, sphere_shape(0.5f), {2, 0.5f, 0});
   std::vector<BodyState> states = states_of(scene.bodies);
   const Window window = window_of(scene.shapes, scene.bodies, states);
   const std::string svg = svg_of(scene.shapes, scene.bodies, states, window, "start");
@@ -615,7 +615,7 @@ TEST_CASE("stability: pictures show cylinders and hulls by their outline, where 
 {
   Scene scene = empty_scene();
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 0.5f}};
-  add_body(scene, Motion::dynamic, hull_shape(points, "wedge"), {0, 0, 0});
+  add_body(scene, BodyType::dynamic, hull_shape(points, "wedge"), {0, 0, 0});
   const Window window = window_of(scene.shapes, scene.bodies, states_of(scene.bodies));
   const std::string svg = svg_of(scene.shapes, scene.bodies, states_of(scene.bodies), window, "hull");
   const size_t polygon = svg.find("points=\"");

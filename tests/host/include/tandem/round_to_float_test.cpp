@@ -81,7 +81,7 @@ TEST_CASE("round to float: a place keeps in its low part what the high part left
 {
   const Point points[] = {{1.1, 2.2, 3.3}, {1e6 + 1.0 / 3, -1e6 - 1.0 / 7, 1e-3 / 3}, {-0.7, 123456.789, 98765.4321}};
   for (const Point &p : points) {
-    const std::array<row, 2> place = place_of(p);
+    const std::array<float4, 2> place = double_float3_of(p);
     const float high[] = {place[0].x, place[0].y, place[0].z}, low[] = {place[1].x, place[1].y, place[1].z};
     for (size_t axis = 0; axis < 3; ++axis) {
       CAPTURE(p[axis]);

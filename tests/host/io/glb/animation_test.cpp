@@ -53,7 +53,7 @@ Frame frame_of(const Scene &scene, int frame)
 {
   Frame result;
   for (size_t i = 0; i < scene.bodies.size(); ++i) {
-    bool moves = scene.bodies[i].motion != Motion::fixed;
+    bool moves = scene.bodies[i].type != BodyType::fixed;
     result.positions.push_back(moves ? position_of(i, frame) : rounded(scene.bodies[i].position));
     result.orientations.push_back(moves ? orientation_of(i, frame) : scene.bodies[i].orientation);
   }
@@ -253,7 +253,7 @@ TEST_CASE("nodes have their body's size and colours tell bodies apart")
   auto color = [&](size_t body) { return model.meshes[size_t(model.nodes[body].mesh)].primitives[0].material; };
   for (size_t i = 0; i < scene.bodies.size(); ++i)
     for (size_t j = 0; j < scene.bodies.size(); ++j) {
-      bool moves = scene.bodies[i].motion == Motion::dynamic, other_moves = scene.bodies[j].motion == Motion::dynamic;
+      bool moves = scene.bodies[i].type == BodyType::dynamic, other_moves = scene.bodies[j].type == BodyType::dynamic;
       bool alike = moves == other_moves && (!moves || scene.bodies[i].material == scene.bodies[j].material);
       CHECK((color(i) == color(j)) == alike);
     }

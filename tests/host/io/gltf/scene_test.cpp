@@ -32,9 +32,9 @@ TEST_CASE("nodes become bodies in the world")
   CHECK(scene.gravity == Vec3{0, -9.81f, 0});
   const Body &floor = scene.bodies[0], &crate = scene.bodies[1], &ball = scene.bodies[2];
   CHECK(floor.name == "Floor");
-  CHECK(floor.motion == Motion::fixed);
+  CHECK(floor.type == BodyType::fixed);
   CHECK(scene.shapes[floor.shape].type == ShapeType::half_space);
-  CHECK(crate.motion == Motion::dynamic);
+  CHECK(crate.type == BodyType::dynamic);
   CHECK(crate.mass == 6);
   CHECK(crate.gravity_factor == 0.5f);
   /* a quarter turn about Y takes x to -z and z to x; the group's scale doubles offset and sizes, not velocities */
@@ -89,11 +89,11 @@ TEST_CASE("a node matrix is as good as translation, rotation and scale")
 
 TEST_CASE("zero stands for an infinite mass or inertia")
 {
-  CHECK(loaded({.nodes = cup(R"("mass":0)")}).bodies[0].motion == Motion::kinematic);
-  CHECK(loaded({.nodes = cup(R"("isKinematic":true,"angularVelocity":[0,1,0])")}).bodies[0].motion ==
-        Motion::kinematic);
+  CHECK(loaded({.nodes = cup(R"("mass":0)")}).bodies[0].type == BodyType::kinematic);
+  CHECK(loaded({.nodes = cup(R"("isKinematic":true,"angularVelocity":[0,1,0])")}).bodies[0].type ==
+        BodyType::kinematic);
   Body stiff = loaded({.nodes = cup(R"("mass":1,"inertiaDiagonal":[0,0,0])")}).bodies[0];
-  CHECK(stiff.motion == Motion::dynamic);
+  CHECK(stiff.type == BodyType::dynamic);
   CHECK(stiff.infinite_inertia);
   Body given =
       loaded({.nodes =
@@ -246,12 +246,12 @@ TEST_CASE("triggers become bodies that nothing touches for real")
        .document = R"("collisionFilters":[{"collisionSystems":["a"],"collideWithSystems":["b"]}])"});
   REQUIRE(scene.bodies.size() == 3);
   const Body &zone = scene.bodies[0], &floor = scene.bodies[1], &scout = scene.bodies[2];
-  CHECK((zone.name == "Zone" && zone.trigger && zone.motion == Motion::fixed));
+  CHECK((zone.name == "Zone" && zone.trigger && zone.type == BodyType::fixed));
   CHECK(near(rounded(zone.position), 1, 2, 3));
   CHECK(near(scene.shapes[zone.shape].size, 1, 2, 3));
   CHECK(!collide(zone, floor)); /* in no system that it meets */
   CHECK(!floor.trigger);
-  CHECK((scout.name == "Scout" && scout.trigger && scout.motion == Motion::dynamic && scout.mass == 3));
+  CHECK((scout.name == "Scout" && scout.trigger && scout.type == BodyType::dynamic && scout.mass == 3));
   CHECK(scene.shapes[scout.shape].type == ShapeType::sphere);
 }
 
@@ -421,7 +421,7 @@ TEST_CASE("mass, centre and axes come from the shape, each unless it is given")
       Eigen::Vector3d(turned.shape_position[0], turned.shape_position[1], turned.shape_position[2]);
   CHECK((apex - Eigen::Vector3d(0, 0.5, 0)).norm() < 1e-6);
   const Body driven = body(R"("isKinematic":true,"angularVelocity":[0,0,1])");
-  CHECK(driven.motion == Motion::kinematic);
+  CHECK(driven.type == BodyType::kinematic);
   CHECK(near(rounded(driven.position), 1, 1.5, 3)); /* it turns about its centre of mass too */
   /* node space has the node's scale and turn: x to y, doubled */
   const Body scaled = loaded({.nodes = cup(R"("centerOfMass":[1,0,0])", 0,
@@ -491,7 +491,7 @@ TEST_CASE("meshes become hulls: of a node, of a mesh, where asked for and where 
                                       R"(,{"mesh":0,"children":[2]},{"mesh":0,"translation":[0,0,5]})",
                              .more = mesh + R"(,"scenes":[{"nodes":[0]}])"});
   CHECK(both.shapes[0].hull->vertices.size() == 6);
-  CHECK(both.bodies[0].motion == Motion::fixed);
+  CHECK(both.bodies[0].type == BodyType::fixed);
   CHECK(both.bodies[0].position == Point{0, 0, 0});
   /* two bodies, one shape */
   const Scene twice =

@@ -132,7 +132,7 @@ TEST_CASE("a motion without a collider goes on and meets nothing")
            collider(0)});
   REQUIRE(scene.bodies.size() == 2);
   const Body &ghost = scene.bodies[0];
-  CHECK((ghost.motion == Motion::dynamic && ghost.mass == 2 && ghost.linear_velocity == Vec3{1, 0, 0}));
+  CHECK((ghost.type == BodyType::dynamic && ghost.mass == 2 && ghost.linear_velocity == Vec3{1, 0, 0}));
   CHECK((ghost.filter_group & scene.bodies[1].filter_mask) == 0u);
   CHECK(near(rounded(ghost.position), 0, 5, 0));
 }
@@ -191,7 +191,7 @@ TEST_CASE("planes with an end are meshes, of one side or two")
   CHECK(both.shapes[0].mesh->triangles.size() == 4);
   const AxisAlignedBox bounds = bounds_of(one.shapes[0].mesh->vertices);
   CHECK((bounds.lower == Vec3{-4, 0, -9} && bounds.upper == Vec3{4, 0, 9}));
-  CHECK(plane("", R"("motion":{"isKinematic":true,"linearVelocity":[0,1,0]},)").bodies[0].motion == Motion::kinematic);
+  CHECK(plane("", R"("motion":{"isKinematic":true,"linearVelocity":[0,1,0]},)").bodies[0].type == BodyType::kinematic);
 }
 
 TEST_CASE("round shapes scaled unevenly, and capsules with a point, are hulls of nearly their volume")

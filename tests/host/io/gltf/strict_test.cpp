@@ -317,9 +317,9 @@ TEST_CASE("glTF, strictly: what is not 0 but rounds to it does not stand for inf
   }
   for (const char *zero : {"0", "-0", "0.0", "0e-999", "-0.000E5"}) {
     const Scene scene = loaded({.nodes = cup(std::string("\"mass\":") + zero)});
-    CHECK(scene.bodies[0].motion == Motion::kinematic);
+    CHECK(scene.bodies[0].type == BodyType::kinematic);
   }
-  CHECK(loaded({.nodes = cup("\"mass\":1e-35")}).bodies[0].motion == Motion::dynamic);
+  CHECK(loaded({.nodes = cup("\"mass\":1e-35")}).bodies[0].type == BodyType::dynamic);
   check_refused({.nodes = collider(0, R"("name":"Cup","scale":[1e-200,1e-200,1e-200],)")},
                 "node 'Cup': its scale is 0");
 }

@@ -69,7 +69,7 @@ bool same_bits(const Material &a, const Material &b)
 
 bool same_bits(const Body &a, const Body &b)
 {
-  return a.name == b.name && a.motion == b.motion && a.trigger == b.trigger && a.shape == b.shape &&
+  return a.name == b.name && a.type == b.type && a.trigger == b.trigger && a.shape == b.shape &&
          a.material == b.material && same_bits(a.position, b.position) && same_bits(a.orientation, b.orientation) &&
          same_bits(a.shape_position, b.shape_position) && same_bits(a.shape_orientation, b.shape_orientation) &&
          same_bits(a.linear_velocity, b.linear_velocity) && same_bits(a.angular_velocity, b.angular_velocity) &&
@@ -134,7 +134,7 @@ Scene scene_of_odd_numbers()
   for (int i = 0; i < 200; ++i) {
     Body body;
     body.name = i % 2 ? "b" + std::to_string(i) : "";
-    body.motion = Motion(i % 3);
+    body.type = BodyType(i % 3);
     body.trigger = i % 11 == 0;
     body.shape = uint32_t(i) % 2 ? 0 : 3;
     body.material = uint32_t(i) % 2;
@@ -186,7 +186,7 @@ TEST_CASE("a file written by hand is read")
   CHECK(scene.name == "three bodies");
   CHECK(scene.gravity == Vec3{0, -9.81f, 0});
   REQUIRE(scene.bodies.size() == 3);
-  CHECK(scene.bodies[0].motion == Motion::fixed);
+  CHECK(scene.bodies[0].type == BodyType::fixed);
   CHECK(scene.shapes[scene.bodies[0].shape].type == ShapeType::half_space);
   CHECK(scene.bodies[1].mass == 2.5f);
   CHECK(scene.bodies[1].position == Point{0, 3, -0.1});
@@ -316,7 +316,7 @@ TEST_CASE("a density takes mass, centre and axes from the shape")
   const std::string placed = R"("position": [1, 2, 3], "orientation": [0.6, 0, 0, 0.8], "shape_position": [0, 1, 0])";
   const Scene scene = parse_scene_json(with_shape(wedge, placed + R"(, "density": 500)"), "wedge");
   Scene expected = parse_scene_json(with_shape(wedge, placed + R"(, "motion": "fixed")"), "wedge");
-  expected.bodies[0].motion = Motion::dynamic;
+  expected.bodies[0].type = BodyType::dynamic;
   expected.bodies[0].mass = 500; /* of a volume of 3 · 2 · 1 / 6 */
   take_mass_properties(expected, expected.bodies[0]);
   CHECK(scene.bodies[0].mass == Approx(500));
@@ -382,7 +382,7 @@ TEST_CASE("the examples of docs/scene-format.md are scenes")
     ++scenes;
     const Scene scene = parse_scene_json(example, "docs/scene-format.md");
     CHECK(warnings_of(scene, "").empty());
-    for (const Body &body : scene.bodies) CHECK((body.motion == Motion::fixed || body.mass > 0.01f));
+    for (const Body &body : scene.bodies) CHECK((body.type == BodyType::fixed || body.mass > 0.01f));
   }
   CHECK(scenes == 2);
 }

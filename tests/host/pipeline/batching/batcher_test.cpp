@@ -38,7 +38,7 @@ struct Contacts {
     points = memory.read<uint32_t>(Buffer::manifold_count, pairs);
     color = memory.read<uint32_t>(Buffer::pair_color, pairs);
     for (uint32_t i = 0; i < world.scene().bodies.size(); ++i)
-      moves.push_back(world.scene().bodies[world.scene_body(i)].motion == Motion::dynamic);
+      moves.push_back(world.scene().bodies[world.scene_body(i)].type == BodyType::dynamic);
   }
 
   size_t touching() const { return points.size() - size_t(std::count(points.begin(), points.end(), 0u)); }
@@ -72,7 +72,7 @@ std::vector<uint32_t> batches_of_the_talk(const Contacts &contacts)
       }
       used[a] = contacts.moves[a];
       used[b] = contacts.moves[b];
-      batch[i] = std::min(number, COLOR_TAIL);
+      batch[i] = std::min(number, COLOR_OVERFLOW);
     }
     waiting.swap(left);
   }
@@ -85,14 +85,14 @@ Scene sizes_from_1_to_100()
   Scene scene = empty_scene();
   add_ground(scene);
   Random random(7);
-  for (float x : {-50.0f, 50.0f}) add_body(scene, Motion::dynamic, sphere_shape(50), {x, 50, 0}).mass = 1000;
+  for (float x : {-50.0f, 50.0f}) add_body(scene, BodyType::dynamic, sphere_shape(50), {x, 50, 0}).mass = 1000;
   for (int i = 0; i < 300; ++i) {
     const float radius = i % 10 ? 0.5f : 2.0f;
-    add_body(scene, Motion::dynamic, sphere_shape(radius),
+    add_body(scene, BodyType::dynamic, sphere_shape(radius),
              {float(random.uniform(-60, 60)), float(100 + random.uniform(0, 3)), float(random.uniform(-8, 8))});
   }
   for (int i = 0; i < 200; ++i) /* a ring of small ones about the foot of the first: one body that touches hundreds */
-    add_body(scene, Motion::dynamic, sphere_shape(0.5f),
+    add_body(scene, BodyType::dynamic, sphere_shape(0.5f),
              {-50 + 10 * std::cos(0.0314159265f * float(i)), 0.5f, 10 * std::sin(0.0314159265f * float(i))});
   return scene;
 }
@@ -102,9 +102,9 @@ Scene slab_on_hundreds()
 {
   Scene scene = empty_scene();
   add_ground(scene);
-  add_body(scene, Motion::dynamic, box_shape(11, 0.25f, 11), {0, 1.25f, 0}).mass = 50;
+  add_body(scene, BodyType::dynamic, box_shape(11, 0.25f, 11), {0, 1.25f, 0}).mass = 50;
   for (int i = 0; i < 400; ++i)
-    add_body(scene, Motion::dynamic, box_shape(0.5f, 0.5f, 0.5f),
+    add_body(scene, BodyType::dynamic, box_shape(0.5f, 0.5f, 0.5f),
              {1.1f * float(i % 20) - 10.45f, 0.5f, 1.1f * float(i / 20) - 10.45f});
   return scene;
 }
@@ -124,10 +124,10 @@ TEST_CASE("batching: no conflict whatever the sizes of bodies and the number of 
   run(slab, 2);
   const Contacts contacts(slab);
   CHECK(contacts.touching() == 800);
-  const auto tail =
-      std::count(contacts.color.begin(), contacts.color.end(), COLOR_TAIL); /* a colour may be lost to the ground */
-  CHECK(tail >= 400 - COLOR_LIMIT);
-  CHECK(tail <= 402 - COLOR_LIMIT);
+  const auto overflow =
+      std::count(contacts.color.begin(), contacts.color.end(), COLOR_OVERFLOW); /* a colour may be lost to the ground */
+  CHECK(overflow >= 400 - COLOR_LIMIT);
+  CHECK(overflow <= 402 - COLOR_LIMIT);
   CHECK_FALSE(slab.batch_fault());
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("island solver: without friction every random problem converges", "[di
   for (int k = 0; k < 60; ++k) {
     IslandProblem problem = random_problem(random, 1 + k % 5, 6 + k % 7, 0.0);
     const IslandResult result = solve_island(problem);
-    CAPTURE(k, result.residual, result.newton_steps, result.sweeps);
+    CAPTURE(k, result.residual, result.newton_steps, result.iterations);
     CHECK(result.converged);
     require_laws(problem, 1e-6);
   }
@@ -96,7 +96,7 @@ TEST_CASE("island solver: with friction the laws hold wherever it converges, and
   for (int k = 0; k < 60; ++k) {
     IslandProblem problem = random_problem(random, 1 + k % 4, 12, 0.3);
     const IslandResult result = solve_island(problem);
-    CAPTURE(k, result.residual, result.newton_steps, result.sweeps);
+    CAPTURE(k, result.residual, result.newton_steps, result.iterations);
     for (double x : problem.impulse) REQUIRE(std::isfinite(x));
     if (!result.converged) continue;
     ++converged;

@@ -40,7 +40,7 @@ inline std::vector<Case> cases()
 }
 
 /* Room for few pairs at first makes a scene of 52 spheres in one place grow. */
-inline Scene crowd(uint32_t spheres)
+inline Scene dense_cluster(uint32_t spheres)
 {
   Scene scene;
   scene.name = "crowd";
@@ -71,9 +71,10 @@ inline std::vector<QueryBox> a_box()
 {
   return {{.center = {0, 0, 0}, .half_extents = {2, 2, 2}, .displacement = {0, 0, 0}, .filter = {}}};
 }
-inline std::vector<SweepHit> swept_ball(World &world)
+inline std::vector<ShapeCastHit> swept_ball(World &world)
 {
-  return world.sweep(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 20, 0}}}, std::vector<Vec3>{{0, -30, 0}});
+  return world.cast_shapes(sphere_shape(0.3f), std::vector<Pose>{{.position = {0, 20, 0}}},
+                           std::vector<Vec3>{{0, -30, 0}});
 }
 
 } // namespace tandem::fault_scenes

@@ -131,9 +131,9 @@ void fail_everywhere_between_steps(const Scene &scene, const Settings &settings,
   const std::vector<uint64_t> undisturbed = hashes_of(scene, settings, placement, 4);
   const std::vector<std::pair<const char *, std::function<void(World &)>>> calls = {
       {"bodies", [](World &world) { world.bodies(); }},
-      {"rays", [](World &world) { world.cast_rays_through(some_rays()); }},
-      {"boxes", [](World &world) { world.sweep_boxes(a_box()); }},
-      {"sweep", swept_ball},
+      {"rays", [](World &world) { world.cast_rays_all(some_rays()); }},
+      {"boxes", [](World &world) { world.cast_boxes(a_box()); }},
+      {"shape cast", swept_ball},
       {"hash", [](World &world) { world.state_hash(); }},
       {"statistics", [](World &world) { world.statistics(); }},
       {"place", [&](World &world) { world.place(other); }},
@@ -201,8 +201,8 @@ TEST_CASE("a step that fails while its buffers grow leaves the state as it was",
   for (const Broadphase broadphase : {Broadphase::grid, Broadphase::trees, Broadphase::sap3}) {
     Settings settings = with(Solver::soft_step, broadphase, true);
     settings.substeps = 1;
-    fail_everywhere_in_step(crowd(52), settings, Placement{"serial", {}, false}, 0, 131, true);
-    fail_everywhere_in_step(crowd(52), settings, Placement{"tbb:threads=2", {}, false}, 0, 311, false);
+    fail_everywhere_in_step(dense_cluster(52), settings, Placement{"serial", {}, false}, 0, 131, true);
+    fail_everywhere_in_step(dense_cluster(52), settings, Placement{"tbb:threads=2", {}, false}, 0, 311, false);
   }
 }
 
@@ -221,7 +221,7 @@ TEST_CASE("a world whose creation fails anywhere on the CPU can be made the next
 
 TEST_CASE("out of memory names the buffer, its bytes, the bodies and the pairs", "[sanitizer]")
 {
-  World world(crowd(52), {}, Placement{"serial", {}, false});
+  World world(dense_cluster(52), {}, Placement{"serial", {}, false});
   const Outcome outcome = attempt(0, false, [&] { world.step(); });
   INFO(outcome.message);
   for (const char *part : {"step 0: ", "out of memory: buffer ", " needs ", " bytes of the host's memory",
@@ -285,9 +285,9 @@ TEST_CASE("growth that fails on an OpenCL device leaves the state as it was")
 {
   parity::require_pocl();
   const Settings settings = with(Solver::soft_step, Broadphase::grid, true);
-  const std::vector<uint64_t> undisturbed = hashes_of(crowd(52), settings, Placement{"serial", {}, false}, 1);
+  const std::vector<uint64_t> undisturbed = hashes_of(dense_cluster(52), settings, Placement{"serial", {}, false}, 1);
   for (const bool shares : {true, false}) {
-    const std::unique_ptr<World> world = world_on_pocl(crowd(52), settings, shares);
+    const std::unique_ptr<World> world = world_on_pocl(dense_cluster(52), settings, shares);
     int failures = 0;
     for (uint64_t nth = 0;; nth = 2 * nth + 1) {
       CAPTURE(shares, nth);

@@ -1,6 +1,6 @@
 /* Lists of the constraints of each body against lists made by hand, for random graphs with and without hubs. */
 #include "host/base/random.h"
-#include "host/pipeline/incidence.h"
+#include "host/pipeline/body_constraints.h"
 #include "host/pipeline/layout.h"
 #include "host/runtime/make_backend.h"
 #include "shared/records.h"
@@ -12,8 +12,8 @@ using namespace tandem;
 namespace {
 
 struct Graph {
-  uint32_t bodies = 0, tail = 0; /* constraints from `tail` on have no colour */
-  std::vector<uint32_t> a, b, traits;
+  uint32_t bodies = 0, overflow = 0; /* constraints from `overflow` on have no colour */
+  std::vector<uint32_t> a, b, flags;
 };
 
 /* Every seventh body is fixed; about half of the constraints of a hub graph touch body 1. */
@@ -22,9 +22,9 @@ Graph random_graph(uint32_t bodies, uint32_t constraints, bool hub, uint64_t see
   Random random(seed);
   Graph graph;
   graph.bodies = bodies;
-  graph.tail = constraints / 3;
+  graph.overflow = constraints / 3;
   for (uint32_t i = 0; i < bodies; ++i)
-    graph.traits.push_back((i % 7 == 0 ? uint32_t(MOTION_FIXED) : uint32_t(MOTION_DYNAMIC)) << 3);
+    graph.flags.push_back((i % 7 == 0 ? uint32_t(BODY_TYPE_FIXED) : uint32_t(BODY_TYPE_DYNAMIC)) << 3);
   for (uint32_t i = 0; i < constraints; ++i) {
     const uint32_t a = 2 + random.below(bodies - 2);
     graph.a.push_back(a);
@@ -43,7 +43,7 @@ Lists by_hand(const Graph &graph, uint32_t first)
   std::vector<std::vector<uint32_t>> lists(graph.bodies);
   for (uint32_t i = first; i < graph.a.size(); ++i)
     for (uint32_t side : {0u, 1u})
-      if (const uint32_t body = side ? graph.b[i] : graph.a[i]; graph.traits[body] >> 3 == uint32_t(MOTION_DYNAMIC))
+      if (const uint32_t body = side ? graph.b[i] : graph.a[i]; graph.flags[body] >> 3 == uint32_t(BODY_TYPE_DYNAMIC))
         lists[body].push_back(2 * i + side);
   Lists result;
   for (const std::vector<uint32_t> &list : lists) {
@@ -69,14 +69,14 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
   plan.known[COUNT_ONE] = 1;
   plan.known[COUNT_BODIES] = graph.bodies;
   plan.known[COUNT_BODIES_PLUS_ONE] = graph.bodies + 1;
-  plan.known[COUNT_CONSTRAINTS] = plan.known[COLOR_START + COLOR_TAIL + 1] = constraints;
-  plan.known[COLOR_START + COLOR_TAIL] = graph.tail;
-  plan.known[COUNT_INCIDENCES] = 2 * constraints;
-  plan.known[COUNT_TAIL_INCIDENCES] = 2 * (constraints - graph.tail);
+  plan.known[COUNT_CONSTRAINTS] = plan.known[COLOR_START + COLOR_OVERFLOW + 1] = constraints;
+  plan.known[COLOR_START + COLOR_OVERFLOW] = graph.overflow;
+  plan.known[COUNT_BODY_CONSTRAINTS] = 2 * constraints;
+  plan.known[COUNT_OVERFLOW_BODY_CONSTRAINTS] = 2 * (constraints - graph.overflow);
 
   const std::unique_ptr<Backend> backend = make_backend(name);
   Memory memory;
-  std::vector<Kernel> kernels = {Kernel::incidence_keys, Kernel::incidence_starts};
+  std::vector<Kernel> kernels = {Kernel::body_constraint_keys, Kernel::body_constraint_starts};
   for (size_t k = 0; k < kernel_count; ++k)
     if (row_of(kernel_at(k)).stage == Stage::parallel) kernels.push_back(kernel_at(k));
   backend->prepare(0, kernels);
@@ -88,19 +88,19 @@ Lists on_backend(const std::string &name, const Graph &graph, uint32_t first_col
                     .cells = 1024,
                     .features = 0};
   for (Buffer buffer :
-       {Buffer::incidence, Buffer::incidence_other, Buffer::incidence_body, Buffer::incidence_body_other,
-        Buffer::incidence_start, Buffer::sort_histogram, Buffer::scan_sums})
+       {Buffer::body_constraint, Buffer::body_constraint_other, Buffer::body_constraint_key,
+        Buffer::body_constraint_key_other, Buffer::body_constraint_start, Buffer::sort_histogram, Buffer::scan_sums})
     memory.resize(buffer, bytes_of(buffer, sizes));
   set(memory, Buffer::counts, {plan.known.begin(), plan.known.end()});
   set(memory, Buffer::constraint_a, graph.a);
   set(memory, Buffer::constraint_b, graph.b);
-  set(memory, Buffer::body_traits, graph.traits);
+  set(memory, Buffer::body_flags, graph.flags);
 
   DirectLauncher launcher(memory, *backend);
-  list_incidences(launcher, plan, first_color);
+  list_body_constraints(launcher, plan, first_color);
   Lists lists;
-  lists.starts = memory.read<uint32_t>(Buffer::incidence_start, graph.bodies + 1);
-  lists.entries = memory.read<uint32_t>(Buffer::incidence, lists.starts.back());
+  lists.starts = memory.read<uint32_t>(Buffer::body_constraint_start, graph.bodies + 1);
+  lists.entries = memory.read<uint32_t>(Buffer::body_constraint, lists.starts.back());
   backend->finish();
   return lists;
 }
@@ -112,8 +112,8 @@ TEST_CASE("every moving body lists its constraints in order", "[sanitizer]")
   const Graph graph =
       GENERATE(random_graph(5, 0, false, 1), random_graph(10, 1, false, 2), random_graph(200, 700, false, 3),
                random_graph(3000, 9000, true, 4), random_graph(70000, 9000, false, 5));
-  const uint32_t first_color = GENERATE(0u, COLOR_TAIL);
-  const Lists expected = by_hand(graph, first_color == 0 ? 0 : graph.tail);
+  const uint32_t first_color = GENERATE(0u, COLOR_OVERFLOW);
+  const Lists expected = by_hand(graph, first_color == 0 ? 0 : graph.overflow);
   CAPTURE(graph.bodies, graph.a.size(), first_color);
   for (const char *name : {"serial", "serial:order=backward", "serial:order=shuffled", "tbb:threads=7"}) {
     CAPTURE(name);
@@ -124,8 +124,8 @@ TEST_CASE("every moving body lists its constraints in order", "[sanitizer]")
 TEST_CASE("bodies list the same constraints on OpenCL")
 {
   parity::require_pocl();
-  for (const uint32_t first_color : {0u, COLOR_TAIL}) {
+  for (const uint32_t first_color : {0u, COLOR_OVERFLOW}) {
     const Graph graph = random_graph(3000, 9000, true, 4);
-    CHECK((on_backend("cl:pocl", graph, first_color) == by_hand(graph, first_color == 0 ? 0 : graph.tail)));
+    CHECK((on_backend("cl:pocl", graph, first_color) == by_hand(graph, first_color == 0 ? 0 : graph.overflow)));
   }
 }

@@ -1,4 +1,4 @@
-/* host_stages.h - stages that are functions of the host: kernels of form HOST in shared/kernels.def.
+/* cpu_kernels.h - CPU-only kernels, functions of the host: those of execution HOST in shared/kernels.def.
  *
  * They may use what shared source cannot (Eigen, allocation), and run on the CPU wherever they are placed. Their
  * results depend only on the buffers they read, whose bits are equal everywhere, so theirs are too. */
@@ -10,9 +10,9 @@
 
 namespace tandem {
 
-constexpr const char *host_stages_name = "host (CPU only)";
+constexpr const char *cpu_kernels_name = "host (CPU only)";
 
-/* Runs kernels of form HOST, and no others. */
-std::unique_ptr<Backend> make_host_stages();
+/* Runs kernels of execution HOST, and no others. */
+std::unique_ptr<Backend> make_cpu_kernels();
 
 } // namespace tandem

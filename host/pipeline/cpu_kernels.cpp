@@ -1,5 +1,5 @@
-/* host_stages.cpp - see host_stages.h. */
-#include "host/pipeline/host_stages.h"
+/* cpu_kernels.cpp - see cpu_kernels.h. */
+#include "host/pipeline/cpu_kernels.h"
 
 #include <array>
 #include <chrono>
@@ -12,18 +12,18 @@
 namespace tandem {
 namespace {
 
-using HostStage = void (*)(const Launch &launch, Memory &memory);
+using CpuKernel = void (*)(const Launch &launch, Memory &memory);
 
-#define FORM_ITEM(name) nullptr
-#define FORM_LANES(name) nullptr
-#define FORM_GROUP(name) nullptr
-#define FORM_HOST(name) &name
-#define KERNEL(name, stage, form, items, feature, arguments) FORM_##form(name),
-constexpr std::array<HostStage, kernel_count> stages = {
+#define EXECUTION_ITEM(name) nullptr
+#define EXECUTION_LANES(name) nullptr
+#define EXECUTION_GROUP(name) nullptr
+#define EXECUTION_HOST(name) &name
+#define KERNEL(name, stage, execution, items, feature, arguments) EXECUTION_##execution(name),
+constexpr std::array<CpuKernel, kernel_count> stages = {
 #include "shared/kernels.def"
 };
 
-class HostStages : public Backend {
+class CpuKernels : public Backend {
 public:
   const std::string &name() const override { return name_; }
   Storage &storage() override { return host_storage(); }
@@ -37,7 +37,7 @@ public:
     throw std::logic_error(std::string("kernel ") + row_of(launch.kernel).name + " is no stage of the host");
   }
 
-  void run_host_stage(const Launch &launch, Memory &memory) override
+  void run_cpu_kernel(const Launch &launch, Memory &memory) override
   {
     const minicl::ExactFloatingPoint environment;
     const auto start = std::chrono::steady_clock::now();
@@ -49,13 +49,13 @@ public:
   }
 
 private:
-  std::string name_ = host_stages_name;
+  std::string name_ = cpu_kernels_name;
   bool profiling_ = false;
   std::vector<Time> times_ = std::vector<Time>(kernel_count);
 };
 
 } // namespace
 
-std::unique_ptr<Backend> make_host_stages() { return std::make_unique<HostStages>(); }
+std::unique_ptr<Backend> make_cpu_kernels() { return std::make_unique<CpuKernels>(); }
 
 } // namespace tandem

@@ -1,4 +1,5 @@
-/* soup.h - boxes without bodies, and the broadphases run on them alone: no shapes, no solver, any coordinates. */
+/* random_boxes.h - boxes without bodies, and the broadphases run on them alone: no shapes, no solver, any
+ * coordinates. */
 #pragma once
 
 #include <cstdint>
@@ -19,40 +20,40 @@
 namespace tandem {
 
 /* As the body buffers hold them: half-spaces first, then those called large. */
-struct Soup {
-  std::vector<row> bounds; /* 2 a body */
-  std::vector<uint32_t> traits, filters;
-  uint32_t boundless = 0, large = 0;
+struct RandomBoxes {
+  std::vector<float4> bounds; /* 2 a body */
+  std::vector<uint32_t> flags, filters;
+  uint32_t unbounded = 0, large = 0;
   float hybrid_cell = 1;
 
-  uint32_t size() const { return static_cast<uint32_t>(traits.size()); }
-  void add(const Vec3 &low, const Vec3 &high, uint32_t motion = MOTION_DYNAMIC, uint32_t group = 1,
+  uint32_t size() const { return static_cast<uint32_t>(flags.size()); }
+  void add(const Vec3 &low, const Vec3 &high, uint32_t motion = BODY_TYPE_DYNAMIC, uint32_t group = 1,
            uint32_t mask = 0xffffffffu)
   {
     bounds.push_back({low[0], low[1], low[2], 0});
     bounds.push_back({high[0], high[1], high[2], 0});
-    traits.push_back(SHAPE_BOX | motion << 3);
+    flags.push_back(SHAPE_BOX | motion << 3);
     filters.insert(filters.end(), {group, mask});
   }
   void add_half_space()
   {
-    add({-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}, MOTION_FIXED);
-    traits.back() = SHAPE_HALF_SPACE | MOTION_FIXED << 3;
-    large = ++boundless;
+    add({-1e30f, -1e30f, -1e30f}, {1e30f, 1e30f, 1e30f}, BODY_TYPE_FIXED);
+    flags.back() = SHAPE_HALF_SPACE | BODY_TYPE_FIXED << 3;
+    large = ++unbounded;
   }
 };
 
 using BodyPairs = std::vector<std::pair<uint32_t, uint32_t>>; /* (a, b), a > b, sorted */
 
 /* The oracle: sorted along x and swept on the host, with the rules written out once more. */
-inline BodyPairs expected_pairs(const Soup &soup)
+inline BodyPairs expected_pairs(const RandomBoxes &boxes)
 {
-  const auto low = [&](uint32_t i) -> const row & { return soup.bounds[2 * i]; };
-  const auto high = [&](uint32_t i) -> const row & { return soup.bounds[2 * i + 1]; };
-  const auto moves = [&](uint32_t i) { return (soup.traits[i] >> 3 & 3u) == MOTION_DYNAMIC; };
-  const auto accepts = [&](uint32_t i, uint32_t j) { return (soup.filters[2 * i] & soup.filters[2 * j + 1]) != 0; };
-  std::vector<uint32_t> order(soup.size());
-  for (uint32_t i = 0; i < soup.size(); ++i) order[i] = i;
+  const auto low = [&](uint32_t i) -> const float4 & { return boxes.bounds[2 * i]; };
+  const auto high = [&](uint32_t i) -> const float4 & { return boxes.bounds[2 * i + 1]; };
+  const auto moves = [&](uint32_t i) { return (boxes.flags[i] >> 3 & 3u) == BODY_TYPE_DYNAMIC; };
+  const auto accepts = [&](uint32_t i, uint32_t j) { return (boxes.filters[2 * i] & boxes.filters[2 * j + 1]) != 0; };
+  std::vector<uint32_t> order(boxes.size());
+  for (uint32_t i = 0; i < boxes.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(), [&](uint32_t i, uint32_t j) { return low(i).x < low(j).x; });
   BodyPairs pairs;
   for (size_t p = 0; p < order.size(); ++p)
@@ -67,9 +68,10 @@ inline BodyPairs expected_pairs(const Soup &soup)
 }
 
 /* One backend with the buffers of a broadphase. Room for pairs grows as World's does: by what was needed. */
-class SoupRunner {
+class BroadphaseRunner {
 public:
-  explicit SoupRunner(std::unique_ptr<Backend> backend) : backend_(std::move(backend)), launcher_(memory_, *backend_)
+  explicit BroadphaseRunner(std::unique_ptr<Backend> backend)
+      : backend_(std::move(backend)), launcher_(memory_, *backend_)
   {
     std::vector<Kernel> kernels;
     for (size_t k = 0; k < kernel_count; ++k)
@@ -77,36 +79,37 @@ public:
         kernels.push_back(kernel_at(k));
     backend_->prepare(FEATURE_FILTER, kernels);
   }
-  ~SoupRunner() { backend_->finish(); }
+  ~BroadphaseRunner() { backend_->finish(); }
 
   const std::string &name() const { return backend_->name(); }
 
-  void take(const Soup &soup)
+  void take(const RandomBoxes &boxes)
   {
-    plan_.bodies = soup.size();
-    plan_.capacity_cells = cells_for(soup.size());
+    plan_.bodies = boxes.size();
+    plan_.capacity_cells = cells_for(boxes.size());
     plan_.features = FEATURE_FILTER;
     counts_.fill(0);
     last_.clear();
-    for (const auto &[entry, value] : entries_of({soup.size(), soup.boundless, soup.large})) counts_[entry] = value;
+    for (const auto &[entry, value] : entries_of({boxes.size(), boxes.unbounded, boxes.large})) counts_[entry] = value;
     counts_[CAPACITY_CELLS] = plan_.capacity_cells;
     reserve(1000);
     Parameters parameters{};
-    parameters.hybrid_cell = soup.hybrid_cell;
+    parameters.hybrid_cell = boxes.hybrid_cell;
     parameters.step = 1;
     parameters.features = FEATURE_FILTER;
     memory_.upload(Buffer::parameters, &parameters, sizeof parameters);
-    memory_.upload(Buffer::bounds, soup.bounds.data(), soup.bounds.size() * sizeof(row));
-    memory_.upload(Buffer::body_traits, soup.traits.data(), soup.traits.size() * sizeof(uint32_t));
-    memory_.upload(Buffer::body_filter, soup.filters.data(), soup.filters.size() * sizeof(uint32_t));
+    memory_.upload(Buffer::bounds, boxes.bounds.data(), boxes.bounds.size() * sizeof(float4));
+    memory_.upload(Buffer::body_flags, boxes.flags.data(), boxes.flags.size() * sizeof(uint32_t));
+    memory_.upload(Buffer::body_filter, boxes.filters.data(), boxes.filters.size() * sizeof(uint32_t));
   }
 
   /* The same bodies elsewhere, a step later: what a broadphase keeps stays. velocities: 2 rows a body, m a step; none:
    * at rest. */
-  void move_to(const Soup &soup, const std::vector<row> &velocities = {})
+  void move_to(const RandomBoxes &boxes, const std::vector<float4> &velocities = {})
   {
-    memory_.upload(Buffer::bounds, soup.bounds.data(), soup.bounds.size() * sizeof(row));
-    if (!velocities.empty()) memory_.upload(Buffer::body_velocity, velocities.data(), velocities.size() * sizeof(row));
+    memory_.upload(Buffer::bounds, boxes.bounds.data(), boxes.bounds.size() * sizeof(float4));
+    if (!velocities.empty())
+      memory_.upload(Buffer::body_velocity, velocities.data(), velocities.size() * sizeof(float4));
   }
 
   /* As a query between two steps does. */

@@ -1,4 +1,4 @@
-/* fat_boxes.h - boxes with room to move in, filed in a moving and a standing tree: the dynamic AABB trees of CPU
+/* fat_aabbs.h - boxes with a margin to move in, inserted in a dynamic and a static tree: the dynamic AABB trees of CPU
  * engines, in parallel.
  *
  * After Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
@@ -12,17 +12,17 @@
  *
  * Fixed bodies, and those that have not left their boxes for RESTING_STEPS, stand: their codes sort behind those of all
  * others, so that the root's children are the two trees. Those who leave look into both, in one walk. Boxes above a
- * leaf are made anew where a leaf of the same tile of the list changed: tiles of the standing tree hardly ever. Bodies
+ * leaf are made anew where a leaf of the same tile of the list changed: tiles of the static tree hardly ever. Bodies
  * change trees, and the order is made anew, as soon as one leaf in sixteen has lost touch with the box that it was
- * filed under (hierarchy.h).
+ * inserted with (hierarchy.h).
  */
-#ifndef TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
-#define TANDEM_SHARED_BROADPHASE_FAT_BOXES_H
+#ifndef TANDEM_SHARED_BROADPHASE_FAT_AABBS_H
+#define TANDEM_SHARED_BROADPHASE_FAT_AABBS_H
 
 #include "shared/broadphase/hierarchy.h"
 
 #define RESTING_STEPS 32u
-#define STANDING (1u << CURVE_BITS)
+#define STATIC_TREE (1u << CURVE_BITS)
 
 /* Beyond the bounds on each side, of a body's mean size. */
 #define FAT_MARGIN R(0.03125)
@@ -30,8 +30,8 @@
  * body's mean size, or of the cell that the hybrid's grid has: what is small beside others may go far before it meets
  * more of them. */
 #define FAT_STEPS 8u
-#define FAT_WAY R(0.25)
-#define FAT_WAY_OF_CELL R(0.125)
+#define FAT_DISPLACEMENT R(0.25)
+#define FAT_DISPLACEMENT_OF_CELL R(0.125)
 
 SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
 {
@@ -47,17 +47,18 @@ SHARED box_bounds fattened(box_bounds box, vec3 ahead, real cell)
 {
   vec3 extent = subtract(box.upper, box.lower), none = make_vec3(R(0.0), R(0.0), R(0.0));
   real size = (extent.x + extent.y + extent.z) * R(0.33333334), margin = FAT_MARGIN * size,
-       most = maximum(FAT_WAY * size, FAT_WAY_OF_CELL * cell);
-  vec3 room = make_vec3(margin, margin, margin),
-       way = make_vec3(clamped(ahead.x, -most, most), clamped(ahead.y, -most, most), clamped(ahead.z, -most, most));
-  box_bounds fat = {add(subtract(box.lower, room), lower_of(way, none)),
-                    add(add(box.upper, room), upper_of(way, none))};
+       most = maximum(FAT_DISPLACEMENT * size, FAT_DISPLACEMENT_OF_CELL * cell);
+  vec3 margins = make_vec3(margin, margin, margin),
+       displacement =
+           make_vec3(clamped(ahead.x, -most, most), clamped(ahead.y, -most, most), clamped(ahead.z, -most, most));
+  box_bounds fat = {add(subtract(box.lower, margins), lower_of(displacement, none)),
+                    add(add(box.upper, margins), upper_of(displacement, none))};
   return fat;
 }
 
-SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL const row *bounds,
-                                 GLOBAL const row *body_velocity, GLOBAL row *fat_bounds, GLOBAL uint *body_rest,
-                                 GLOBAL uint *body_left, GLOBAL uint *counts, uint i)
+SHARED void update_fat_aabbs_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds,
+                                  GLOBAL const float4 *body_velocity, GLOBAL float4 *fat_bounds, GLOBAL uint *body_rest,
+                                  GLOBAL uint *body_left, GLOBAL uint *counts, uint i)
 {
   box_bounds box = load_bounds(bounds, i);
   if (counts[COUNT_KEPT] != 0u && box_inside(box, load_bounds(fat_bounds, i))) {
@@ -66,10 +67,10 @@ SHARED void leave_fat_boxes_item(GLOBAL const Parameters *parameters, GLOBAL con
     body_rest[i] = rest < RESTING_STEPS ? rest + 1u : rest;
     return;
   }
-  vec3 ahead = scale(xyz(load_row(body_velocity, 2u * i)), parameters->step * fat_steps(i));
+  vec3 ahead = scale(xyz(load_float4(body_velocity, 2u * i)), parameters->step * fat_steps(i));
   box_bounds fat = fattened(box, ahead, parameters->hybrid_cell);
-  store_row(fat_bounds, 2u * i, extend(fat.lower, R(0.0)));
-  store_row(fat_bounds, 2u * i + 1u, extend(fat.upper, R(0.0)));
+  store_float4(fat_bounds, 2u * i, extend(fat.lower, R(0.0)));
+  store_float4(fat_bounds, 2u * i + 1u, extend(fat.upper, R(0.0)));
   body_left[i] = 1u;
   body_rest[i] = 0u;
   ATOMIC_OR(&counts[COUNT_LEFT], i < counts[COUNT_LARGE] ? 3u : 1u);
@@ -88,26 +89,26 @@ SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
 }
 
 /* Leaf i, where the order of the last step may still hold: its box in the pyramid, and the tile that changed. */
-SHARED void refit_leaves_item(GLOBAL const row *fat_bounds, GLOBAL const uint *body_left, GLOBAL const uint *leaf_body,
-                              GLOBAL const row *filed_bounds, GLOBAL uint *tile_changed, GLOBAL row *box_pyramid,
-                              GLOBAL uint *counts, uint i)
+SHARED void refit_leaves_item(GLOBAL const float4 *fat_bounds, GLOBAL const uint *body_left,
+                              GLOBAL const uint *leaf_body, GLOBAL const float4 *inserted_bounds,
+                              GLOBAL uint *tile_changed, GLOBAL float4 *box_pyramid, GLOBAL uint *counts, uint i)
 {
   if (counts[COUNT_HIERARCHY_KEPT] == 0u) return;
   uint body = leaf_body[i];
   box_bounds fat = load_bounds(fat_bounds, body);
-  if (!bounds_overlap(fat, load_bounds(filed_bounds, i))) ATOMIC_ADD(&counts[COUNT_STRAYS], 1u);
+  if (!bounds_overlap(fat, load_bounds(inserted_bounds, i))) ATOMIC_ADD(&counts[COUNT_ESCAPED], 1u);
   if (body_left[body] == 0u) return;
   ATOMIC_OR(&tile_changed[i / TILE], 1u);
   store_leaf(box_pyramid, counts[COUNT_LEAVES] + i, fat, body);
 }
 
-SHARED void tree_keys_item(GLOBAL const uint *body_traits, GLOBAL const row *fat_bounds, GLOBAL const uint *body_rest,
-                           GLOBAL const row *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key,
+SHARED void tree_keys_item(GLOBAL const uint *body_flags, GLOBAL const float4 *fat_bounds, GLOBAL const uint *body_rest,
+                           GLOBAL const float4 *grid, GLOBAL const uint *counts, GLOBAL uint *sort_key,
                            GLOBAL uint *sort_value, uint i)
 {
-  uint body = counts[COUNT_BOUNDLESS] + i;
-  mask stands = motion_of(body_traits[body]) == (uint)MOTION_FIXED || body_rest[body] == RESTING_STEPS;
-  sort_key[i] = curve_key(grid, load_bounds(fat_bounds, body)) | (stands ? STANDING : 0u);
+  uint body = counts[COUNT_UNBOUNDED] + i;
+  mask stands = body_type_of(body_flags[body]) == (uint)BODY_TYPE_FIXED || body_rest[body] == RESTING_STEPS;
+  sort_key[i] = curve_key(grid, load_bounds(fat_bounds, body)) | (stands ? STATIC_TREE : 0u);
   sort_value[i] = body;
 }
 

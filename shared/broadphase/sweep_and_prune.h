@@ -1,5 +1,5 @@
-/* sweep.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and the plain
- * sweep.
+/* sweep_and_prune.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and
+ * the plain sweep.
  *
  * Small bodies are sorted by where they start along an axis, the one along which centres spread most or the principal
  * direction of their spread; each looks forward until a body starts behind its own end:
@@ -8,12 +8,12 @@
  *                   |-- j --|          starts inside i: tested on all axes
  *                            |-- k --  starts behind i: the search ends
  *
- * Appending by atomics, as the talk does, has no order: here each body's finds are counted, scanned
+ * Appending by atomics, as the talk does, has no order: here each body's neighbors are counted, scanned
  * and written, and the keys (a, b) sorted, so the list is the brute-force one. This is the form that the talk starts
  * from, one work-item a body; sweep_window.h is the one it ends with.
  */
-#ifndef TANDEM_SHARED_BROADPHASE_SWEEP_H
-#define TANDEM_SHARED_BROADPHASE_SWEEP_H
+#ifndef TANDEM_SHARED_BROADPHASE_SWEEP_AND_PRUNE_H
+#define TANDEM_SHARED_BROADPHASE_SWEEP_AND_PRUNE_H
 
 #include "shared/broadphase/overlap.h"
 #include "shared/broadphase/pair_keys.h"
@@ -39,14 +39,14 @@ SHARED interval interval_along_direction(box_bounds b, vec3 direction)
 {
   vec3 center = scale(add(b.lower, b.upper), R(0.5)), extent = scale(subtract(b.upper, b.lower), R(0.5)),
        d = absolute(direction);
-  real middle = inner(center, direction), reach = inner(extent, d);
-  reach = reach + R(1e-6) * (inner(absolute(center), d) + reach);
+  real middle = dot3(center, direction), reach = dot3(extent, d);
+  reach = reach + R(1e-6) * (dot3(absolute(center), d) + reach);
   interval i = {middle - reach, middle + reach};
   return i;
 }
-SHARED interval sweep_interval(box_bounds b, GLOBAL const row *grid, GLOBAL const uint *counts, uint principal)
+SHARED interval sweep_interval(box_bounds b, GLOBAL const float4 *grid, GLOBAL const uint *counts, uint principal)
 {
-  if (principal != 0u) return interval_along_direction(b, xyz(load_row(grid, 2u)));
+  if (principal != 0u) return interval_along_direction(b, xyz(load_float4(grid, 2u)));
   return interval_along_axis(b, counts[COUNT_SWEEP_AXIS]);
 }
 
@@ -58,7 +58,7 @@ SHARED uint sweep_key(real x)
   return ordered_bits(bits == 0x80000000u ? 0u : bits);
 }
 
-SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GLOBAL const uint *counts,
+SHARED void sweep_keys_item(GLOBAL const float4 *bounds, GLOBAL const float4 *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint principal, uint i)
 {
   uint body = counts[COUNT_LARGE] + i;
@@ -67,17 +67,19 @@ SHARED void sweep_keys_item(GLOBAL const row *bounds, GLOBAL const row *grid, GL
 }
 
 /* Copies bounds into the order of the sweep, so that the sweep reads memory in order. */
-SHARED void sweep_gather_item(GLOBAL const row *bounds, GLOBAL const uint *sort_value, GLOBAL row *sweep_bounds, uint i)
+SHARED void sweep_gather_item(GLOBAL const float4 *bounds, GLOBAL const uint *sort_value, GLOBAL float4 *sweep_bounds,
+                              uint i)
 {
-  store_row(sweep_bounds, 2u * i, load_row(bounds, 2u * sort_value[i]));
-  store_row(sweep_bounds, 2u * i + 1u, load_row(bounds, 2u * sort_value[i] + 1u));
+  store_float4(sweep_bounds, 2u * i, load_float4(bounds, 2u * sort_value[i]));
+  store_float4(sweep_bounds, 2u * i + 1u, load_float4(bounds, 2u * sort_value[i] + 1u));
 }
 
 /* Finds the large bodies before the searching one, which is that of item i, and the small ones that start within its
  * interval. */
-FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const row *grid, GLOBAL const row *sweep_bounds,
-                                 GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL const uint *counts,
-                                 uint i, const find_list *list, uint at)
+FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const float4 *grid,
+                                 GLOBAL const float4 *sweep_bounds, GLOBAL const uint *sort_key,
+                                 GLOBAL const uint *sort_value, GLOBAL const uint *counts, uint i,
+                                 const find_list *list, uint at)
 {
   uint large = counts[COUNT_LARGE], small = counts[COUNT_SMALL];
   at = find_among_first(search, large, list, at);
@@ -91,26 +93,27 @@ FORCE_INLINE uint search_forward(const pair_search *search, GLOBAL const row *gr
   return at;
 }
 
-SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                             GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                             GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *counts, GLOBAL uint *sweep_start, uint i)
+SHARED void sweep_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                             GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
+                             GLOBAL const float4 *sweep_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *key_start, uint i)
 {
   uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
-  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
-  find_list list = no_finds();
-  sweep_start[i] = search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, 0u);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, body);
+  find_list list = no_neighbors();
+  key_start[i] = search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, 0u);
 }
 
-SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                             GLOBAL const uint *body_filter, GLOBAL const row *bounds, GLOBAL const row *grid,
-                             GLOBAL const row *sweep_bounds, GLOBAL const uint *sort_key, GLOBAL const uint *sort_value,
-                             GLOBAL const uint *counts, GLOBAL const uint *sweep_start, GLOBAL ulong *pair_key, uint i)
+SHARED void sweep_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                             GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, GLOBAL const float4 *grid,
+                             GLOBAL const float4 *sweep_bounds, GLOBAL const uint *sort_key,
+                             GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL const uint *key_start,
+                             GLOBAL ulong *pair_key, uint i)
 {
   uint body = searching_body(sort_value, counts[COUNT_LARGE], i);
-  pair_search search = search_of_body(parameters, body_traits, body_filter, bounds, body);
+  pair_search search = search_of_body(parameters, body_flags, body_filter, bounds, body);
   find_list list = finds_as_keys(pair_key, counts[CAPACITY_PAIRS]);
-  search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, sweep_start[i]);
+  search_forward(&search, grid, sweep_bounds, sort_key, sort_value, counts, i, &list, key_start[i]);
 }
 
 #endif

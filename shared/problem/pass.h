@@ -1,6 +1,6 @@
-/* sweep.h - one pass over the contacts of a friction problem: Gauss-Seidel, Jacobi, and the conjugate step over either.
+/* pass.h - one pass over the contacts of a friction problem: Gauss-Seidel, Jacobi, and the conjugate step over either.
  *
- * problem_sweep is a projected Gauss-Seidel pass in the order of the contacts, made parallel without changing it: the
+ * problem_pass is a projected Gauss-Seidel pass in the order of the contacts, made parallel without changing it: the
  * host sorts contacts into levels, 1 + the highest level among lower-numbered neighbours, and launches level by level.
  * Within one no contact reads what another writes, so the bits are those of the plain loop:
  *
@@ -15,21 +15,21 @@
  * 2010): the change made by a pass stands for the negative gradient, directions are joined after Fletcher and Reeves,
  * and a change that grows restarts.
  */
-#ifndef TANDEM_SHARED_PROBLEM_SWEEP_H
-#define TANDEM_SHARED_PROBLEM_SWEEP_H
+#ifndef TANDEM_SHARED_PROBLEM_PASS_H
+#define TANDEM_SHARED_PROBLEM_PASS_H
 
 #include "shared/problem/friction_problem.h"
 
 SHARED real block_size(delassus_block b)
 {
-  return square_root(inner(b.normal, b.normal) + inner(b.first, b.first) + inner(b.second, b.second));
+  return square_root(dot3(b.normal, b.normal) + dot3(b.first, b.first) + dot3(b.second, b.second));
 }
 
 /* problem_step: inverse normal mass, inverse tangent mass, share of a pass in which all move at once. The tangent mass
  * is the trace of the 2x2 block, which no direction exceeds. */
 SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                                 GLOBAL const row *problem_block, GLOBAL const row *problem_free,
-                                 GLOBAL row *problem_step, GLOBAL memory_real *trace, GLOBAL memory_real *reference,
+                                 GLOBAL const float4 *problem_block, GLOBAL const float4 *problem_free,
+                                 GLOBAL float4 *problem_step, GLOBAL memory_real *trace, GLOBAL memory_real *reference,
                                  uint i)
 {
   const uint own = problem_start[i];
@@ -40,10 +40,10 @@ SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const 
     real other = block_size(load_block(problem_block, problem_start[problem_column[k]]));
     coupling = coupling + size / square_root(own_size * other);
   }
-  store_row(problem_step, i,
-            make_vec4(R(1.0) / b.normal.x, R(1.0) / (b.first.y + b.second.z), R(1.0) / coupling, R(0.0)));
+  store_float4(problem_step, i,
+               make_vec4(R(1.0) / b.normal.x, R(1.0) / (b.first.y + b.second.z), R(1.0) / coupling, R(0.0)));
   trace[i] = b.normal.x + b.first.y + b.second.z;
-  vec4 q = load_row(problem_free, i);
+  vec4 q = load_float4(problem_free, i);
   reference[i] = length_squared(corrected_velocity(xyz(q), q.w));
 }
 
@@ -59,60 +59,60 @@ SHARED vec3 solve_contact(delassus_block own, vec4 step, real share, real fricti
 }
 
 SHARED void solve_problem_contact(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                                  GLOBAL const row *problem_block, GLOBAL const row *problem_free,
-                                  GLOBAL const row *problem_step, GLOBAL const row *from, GLOBAL row *to,
+                                  GLOBAL const float4 *problem_block, GLOBAL const float4 *problem_free,
+                                  GLOBAL const float4 *problem_step, GLOBAL const float4 *from, GLOBAL float4 *to,
                                   mask all_at_once, uint i)
 {
-  vec4 q = load_row(problem_free, i), step = load_row(problem_step, i);
+  vec4 q = load_float4(problem_free, i), step = load_float4(problem_step, i);
   vec3 velocity = velocity_of(problem_start, problem_column, problem_block, xyz(q), from, i);
   vec3 impulse = solve_contact(load_block(problem_block, problem_start[i]), step,
-                               choose(all_at_once, step.z, (real)R(1.0)), q.w, velocity, xyz(load_row(from, i)));
-  store_row(to, i, extend(impulse, R(0.0)));
+                               choose(all_at_once, step.z, (real)R(1.0)), q.w, velocity, xyz(load_float4(from, i)));
+  store_float4(to, i, extend(impulse, R(0.0)));
 }
 
-SHARED void problem_sweep_item(GLOBAL const uint *problem_order, GLOBAL const uint *problem_start,
-                               GLOBAL const uint *problem_column, GLOBAL const row *problem_block,
-                               GLOBAL const row *problem_free, GLOBAL const row *problem_step,
-                               GLOBAL row *problem_impulse, uint i)
+SHARED void problem_pass_item(GLOBAL const uint *problem_order, GLOBAL const uint *problem_start,
+                              GLOBAL const uint *problem_column, GLOBAL const float4 *problem_block,
+                              GLOBAL const float4 *problem_free, GLOBAL const float4 *problem_step,
+                              GLOBAL float4 *problem_impulse, uint i)
 {
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, problem_impulse,
                         problem_impulse, 0, problem_order[i]);
 }
 
 SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
-                                GLOBAL const row *problem_block, GLOBAL const row *problem_free,
-                                GLOBAL const row *problem_step, GLOBAL const row *from, GLOBAL row *to, uint i)
+                                GLOBAL const float4 *problem_block, GLOBAL const float4 *problem_free,
+                                GLOBAL const float4 *problem_step, GLOBAL const float4 *from, GLOBAL float4 *to, uint i)
 {
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, from, to, 1, i);
 }
 
 /* What a pass has changed, squared, in the metric in which the pass descends: over the steps, so that normal and
  * tangents count by their masses. */
-SHARED void problem_change_item(GLOBAL const row *problem_step, GLOBAL const row *problem_impulse,
-                                GLOBAL const row *problem_previous, GLOBAL memory_real *change, uint i)
+SHARED void problem_change_item(GLOBAL const float4 *problem_step, GLOBAL const float4 *problem_impulse,
+                                GLOBAL const float4 *problem_previous, GLOBAL memory_real *change, uint i)
 {
-  vec4 step = load_row(problem_step, i);
-  vec3 moved = subtract(xyz(load_row(problem_impulse, i)), xyz(load_row(problem_previous, i)));
+  vec4 step = load_float4(problem_step, i);
+  vec3 moved = subtract(xyz(load_float4(problem_impulse, i)), xyz(load_float4(problem_previous, i)));
   change[i] = moved.x * moved.x / step.x + (moved.y * moved.y + moved.z * moved.z) / step.y;
 }
 
 /* now, before: the squared changes of this pass and of the one before; the first pass has none before it. */
 SHARED void problem_conjugate_item(GLOBAL const memory_real *now, GLOBAL const memory_real *before,
-                                   GLOBAL row *problem_impulse, GLOBAL row *problem_previous,
-                                   GLOBAL row *problem_direction, uint first_pass, uint i)
+                                   GLOBAL float4 *problem_impulse, GLOBAL float4 *problem_previous,
+                                   GLOBAL float4 *problem_direction, uint first_pass, uint i)
 {
-  vec3 impulse = xyz(load_row(problem_impulse, i));
-  vec3 change = subtract(impulse, xyz(load_row(problem_previous, i)));
+  vec3 impulse = xyz(load_float4(problem_impulse, i));
+  vec3 change = subtract(impulse, xyz(load_float4(problem_previous, i)));
   vec3 direction = make_vec3(R(0.0), R(0.0), R(0.0));
   if (first_pass != 0u) direction = change;
   else if (now[0] <= before[0] && before[0] > R(0.0)) {
-    vec3 kept = scale(xyz(load_row(problem_direction, i)), now[0] / before[0]);
+    vec3 kept = scale(xyz(load_float4(problem_direction, i)), now[0] / before[0]);
     impulse = add(impulse, kept);
     direction = add(kept, change);
   }
-  store_row(problem_impulse, i, extend(impulse, R(0.0)));
-  store_row(problem_previous, i, extend(impulse, R(0.0)));
-  store_row(problem_direction, i, extend(direction, R(0.0)));
+  store_float4(problem_impulse, i, extend(impulse, R(0.0)));
+  store_float4(problem_previous, i, extend(impulse, R(0.0)));
+  store_float4(problem_direction, i, extend(direction, R(0.0)));
 }
 
 #endif

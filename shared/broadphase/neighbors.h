@@ -1,20 +1,20 @@
-/* finds.h - one body's search for its pairs, and the list that its finds go to.
+/* neighbors.h - one body's search for its pairs, and the list that its finds go to.
  *
  * A broadphase runs the same search twice: a kernel that counts says how many finds each item has, a scan turns the
- * counts into places, and a kernel that writes puts the finds there. Both call the same function with another list:
+ * counts into places, and a kernel that writes puts the neighbors there. Both call the same function with another list:
  *
- *     count kernel    search(..., list)     list counts, and keeps the first FINDS_KEPT finds
+ *     count kernel    search(..., list)     list counts, and keeps the first NEIGHBORS_KEPT finds
  *     write kernel    search(..., list)     list writes partners, or keys of pairs, as far as there is room
  *
  * Most bodies have few neighbours. Where the first few finds are all of them, the write kernel takes those that the
  * count kernel kept, and does not search again.
  */
-#ifndef TANDEM_SHARED_BROADPHASE_FINDS_H
-#define TANDEM_SHARED_BROADPHASE_FINDS_H
+#ifndef TANDEM_SHARED_BROADPHASE_NEIGHBORS_H
+#define TANDEM_SHARED_BROADPHASE_NEIGHBORS_H
 
 #include "shared/broadphase/overlap.h"
 
-#define FINDS_KEPT 8u
+#define NEIGHBORS_KEPT 8u
 
 /* --- who searches ---------------------------------------------------------------------------------------- */
 
@@ -28,22 +28,22 @@ SHARED uint searching_body(GLOBAL const uint *sorted_body, uint first, uint i)
 /* The body whose pairs are looked for, its box, and the tables that say whom it may meet. */
 typedef struct {
   GLOBAL const Parameters *parameters;
-  GLOBAL const uint *body_traits, *body_filter;
-  GLOBAL const row *bounds;
+  GLOBAL const uint *body_flags, *body_filter;
+  GLOBAL const float4 *bounds;
   uint body;
   box_bounds box;
 } pair_search;
 
-FORCE_INLINE pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_traits,
-                                        GLOBAL const uint *body_filter, GLOBAL const row *bounds, uint body)
+FORCE_INLINE pair_search search_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                        GLOBAL const uint *body_filter, GLOBAL const float4 *bounds, uint body)
 {
-  pair_search search = {parameters, body_traits, body_filter, bounds, body, load_bounds(bounds, body)};
+  pair_search search = {parameters, body_flags, body_filter, bounds, body, load_bounds(bounds, body)};
   return search;
 }
 
 FORCE_INLINE mask may_meet(const pair_search *search, uint other)
 {
-  return pair_allowed(search->parameters, search->body_traits, search->body_filter, search->body, other);
+  return pair_allowed(search->parameters, search->body_flags, search->body_filter, search->body, other);
 }
 
 FORCE_INLINE mask meets(const pair_search *search, uint other)
@@ -64,14 +64,14 @@ typedef struct {
   uint capacity;
 } find_list;
 
-SHARED find_list no_finds(void)
+SHARED find_list no_neighbors(void)
 {
   find_list list = {FINDS_AS_BODIES, 0, 0, 0, 0u};
   return list;
 }
-SHARED find_list first_finds(GLOBAL uint *finds, uint i)
+SHARED find_list first_neighbors(GLOBAL uint *neighbors, uint i)
 {
-  find_list list = {FINDS_AS_BODIES, 0, finds + FINDS_KEPT * i, 0, FINDS_KEPT};
+  find_list list = {FINDS_AS_BODIES, 0, neighbors + NEIGHBORS_KEPT * i, 0, NEIGHBORS_KEPT};
   return list;
 }
 SHARED find_list finds_as_bodies(GLOBAL uint *bodies, uint capacity)
@@ -117,28 +117,28 @@ FORCE_INLINE uint find_among_first(const pair_search *search, uint end, const fi
 
 /* --- finds that the count kernel kept ---------------------------------------------------------------------- */
 
-/* The finds of item i, which are few, as keys from place `first` to `end`. */
-SHARED void write_kept_keys(GLOBAL const uint *finds, uint i, uint body, GLOBAL ulong *pair_key, uint first, uint end,
-                            uint capacity)
+/* The neighbors of item i, which are few, as keys from place `first` to `end`. */
+SHARED void write_kept_keys(GLOBAL const uint *neighbors, uint i, uint body, GLOBAL ulong *pair_key, uint first,
+                            uint end, uint capacity)
 {
   for (uint k = 0u; k < end - first; ++k)
-    if (first + k < capacity) pair_key[first + k] = key_of_pair(body, finds[FINDS_KEPT * i + k]);
+    if (first + k < capacity) pair_key[first + k] = key_of_pair(body, neighbors[NEIGHBORS_KEPT * i + k]);
 }
 
 /* The same as pairs of their owner, for a body that finds only pairs of its own. */
-SHARED void write_kept_pairs(GLOBAL const uint *finds, uint i, uint body, write_pairs pairs, uint first, uint end,
+SHARED void write_kept_pairs(GLOBAL const uint *neighbors, uint i, uint body, write_pairs pairs, uint first, uint end,
                              uint capacity)
 {
   uint used = 0u;
   for (uint k = 0u; k < end - first; ++k)
-    used = append_pair(pairs.a, pairs.b, first, used, capacity, body, finds[FINDS_KEPT * i + k]);
+    used = append_pair(pairs.a, pairs.b, first, used, capacity, body, neighbors[NEIGHBORS_KEPT * i + k]);
 }
 
 /* Finishes the range of such a body: sorts its partners, as far as there was room for them. */
 SHARED void sort_own_pairs(write_pairs pairs, uint first, uint end, uint capacity)
 {
   uint last = end < capacity ? end : capacity;
-  if (first < last) sort_stretch(pairs.b + first, last - first);
+  if (first < last) sort_range(pairs.b + first, last - first);
 }
 
 #endif

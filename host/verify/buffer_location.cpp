@@ -1,5 +1,5 @@
-/* buffer_place.cpp - see buffer_place.h. */
-#include "host/verify/buffer_place.h"
+/* buffer_location.cpp - see buffer_location.h. */
+#include "host/verify/buffer_location.h"
 
 #include <cmath>
 #include <cstring>
@@ -16,12 +16,12 @@ namespace tandem {
 bool holds_reals(Buffer buffer)
 {
   const Element element = row_of(buffer).element;
-  return element == Element::row || element == Element::real;
+  return element == Element::float4 || element == Element::real;
 }
 
 namespace {
 
-uint32_t scalars_per_element(Buffer buffer) { return row_of(buffer).element == Element::row ? 4 : 1; }
+uint32_t scalars_per_element(Buffer buffer) { return row_of(buffer).element == Element::float4 ? 4 : 1; }
 
 std::vector<std::string> field_names(Buffer buffer)
 {
@@ -92,20 +92,20 @@ size_t scalar_bytes(Buffer buffer)
   return size_of(element) / scalars_per_element(buffer);
 }
 
-BufferPlace place_in(Buffer buffer, size_t scalar, size_t capacity)
+BufferLocation location_in(Buffer buffer, size_t scalar, size_t capacity)
 {
   const BufferRow &row = row_of(buffer);
   const uint32_t width = scalars_per_element(buffer);
   const std::vector<std::string> names = field_names(buffer);
   const bool planes = lies_in_planes(buffer, names.size()) && capacity > 0;
-  BufferPlace place{};
-  place.element = scalar / width;
-  place.item = planes ? place.element % capacity : place.element / row.per_item;
-  place.part = static_cast<uint32_t>(planes ? place.element / capacity : place.element % row.per_item);
-  const size_t within = place.part * width + scalar % width;
-  if (within < names.size() && names.size() == row.per_item * width) place.field = names[within];
-  else if (!names.empty()) place.field = fmt::format("{}[{}]", names[scalar % width % names.size()], place.part);
-  return place;
+  BufferLocation location{};
+  location.element = scalar / width;
+  location.item = planes ? location.element % capacity : location.element / row.per_item;
+  location.part = static_cast<uint32_t>(planes ? location.element / capacity : location.element % row.per_item);
+  const size_t within = location.part * width + scalar % width;
+  if (within < names.size() && names.size() == row.per_item * width) location.field = names[within];
+  else if (!names.empty()) location.field = fmt::format("{}[{}]", names[scalar % width % names.size()], location.part);
+  return location;
 }
 
 BufferValue value_at(Buffer buffer, const void *scalar)

@@ -1,5 +1,4 @@
-/* limit_motion.h - what was solved is not trusted to be free of walls: a body with continuous collision stops before it
- * passes one.
+/* clamp_to_time_of_impact.h - cuts the solved motion of a body with continuous collision before the body passes a wall.
  *
  *     start  o - - - .          The contacts of a step are those of the straight ways. A body that one of them turns
  *                 /   \         aside, or sets spinning, comes where no contact was made: a second wall in a corner,
@@ -7,14 +6,15 @@
  *                   |wall       once more, against what no impulse moves, and cut where it would pass; its velocity
  *                               stays, for the contact of the next step.
  *
- * Twice, as in Box2D 3 (Catto, 2024): with the whole shape, if it starts free. One that starts touching has its
- * contacts already, and would be held by every graze; of it a ball in its middle must not pass.
+ * As in Box2D 3 (Catto, 2024), the test depends on the start. A shape that starts free is followed whole. A shape that
+ * starts touching has its contacts already and would be held by every graze, so only a ball in its middle must not
+ * pass.
  *
- * Each pair has a say in how much of the motion is left, and the least holds: a minimum of whole numbers is free of
- * order.
+ * Each pair limits the fraction of the motion that is kept, and the lowest fraction holds. Fractions are whole numbers,
+ * so their minimum does not depend on order.
  */
-#ifndef TANDEM_SHARED_NARROWPHASE_LIMIT_MOTION_H
-#define TANDEM_SHARED_NARROWPHASE_LIMIT_MOTION_H
+#ifndef TANDEM_SHARED_NARROWPHASE_CLAMP_TO_TIME_OF_IMPACT_H
+#define TANDEM_SHARED_NARROWPHASE_CLAMP_TO_TIME_OF_IMPACT_H
 
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/narrowphase/middle_ball.h"
@@ -27,7 +27,7 @@ typedef struct {
   real height;
 } wall;
 
-SHARED journey way_past(const moving_convex *body, const wall *w)
+SHARED toi_input way_past(const moving_convex *body, const wall *w)
 {
   vec3 linear = w->is_plane ? w->linear : w->shape.linear;
   real swing = fastest_swing(body);
@@ -37,7 +37,7 @@ SHARED journey way_past(const moving_convex *body, const wall *w)
     least = minimum(least, least_size(&w->shape.shape));
     swing = swing + fastest_swing(&w->shape);
   }
-  return journey_of(length_of(subtract(body->linear, linear)) + swing, R(1.0), least, size);
+  return toi_input_of(length_of(subtract(body->linear, linear)) + swing, R(1.0), least, size);
 }
 SHARED impact impact_on(const moving_convex *body, const wall *w)
 {
@@ -50,8 +50,8 @@ SHARED real gap_at_end(const moving_convex *body, const wall *w, vec3 normal)
 {
   convex shape = shape_at(body, body->linear, R(1.0));
   if (w->is_plane) {
-    real height = w->height + inner(w->up, subtract(w->linear, body->linear));
-    return inner(w->up, support_of(&shape, normal)) - core_radius(&shape) - height;
+    real height = w->height + dot3(w->up, subtract(w->linear, body->linear));
+    return dot3(w->up, support_of(&shape, normal)) - core_radius(&shape) - height;
   }
   convex other = shape_at(&w->shape, body->linear, R(1.0));
   return gap_along(&shape, &other, normal) - core_radius(&shape) - core_radius(&other);
@@ -83,44 +83,45 @@ SHARED real free_share(const moving_convex *body, const wall *w, real slop)
 SHARED mask comes_from_behind(const moving_convex *body, const wall *w)
 {
   if (w->is_plane || w->shape.shape.kind != (uint)SHAPE_TRIANGLE) return 0;
-  return inner(from_shape_axes(&w->shape.shape, normal_of_triangle(&w->shape.shape)),
-               subtract(body->linear, w->shape.linear)) > R(0.0);
+  return dot3(from_shape_axes(&w->shape.shape, normal_of_triangle(&w->shape.shape)),
+              subtract(body->linear, w->shape.linear)) > R(0.0);
 }
 
-SHARED moving_convex solved_motion(GLOBAL const row *deltas, const convex *shape, vec3 pivot, real radius, uint body)
+SHARED moving_convex solved_motion(GLOBAL const float4 *deltas, const convex *shape, vec3 pivot, real radius, uint body)
 {
-  return moving_convex_of(shape, pivot, xyz(load_row(deltas, body * 2u)), xyz(load_row(deltas, body * 2u + 1u)),
+  return moving_convex_of(shape, pivot, xyz(load_float4(deltas, body * 2u)), xyz(load_float4(deltas, body * 2u + 1u)),
                           radius);
 }
 
-SHARED void limit_motion_item(GLOBAL const Parameters *parameters, read_listed_part_pairs pairs, read_shapes shapes,
-                              read_surfaces surfaces, GLOBAL const row *positions, GLOBAL const row *orientations,
-                              GLOBAL const row *deltas, GLOBAL uint *shares, uint i)
+SHARED void clamp_to_time_of_impact_item(GLOBAL const Parameters *parameters, read_listed_part_pairs pairs,
+                                         read_shapes shapes, read_surfaces surfaces, GLOBAL const float4 *positions,
+                                         GLOBAL const float4 *orientations, GLOBAL const float4 *deltas,
+                                         GLOBAL uint *shares, uint i)
 {
   if (!HAS_FEATURE(parameters, CONTINUOUS)) return;
   uint pair = pair_of_item(parameters, pairs.of_kind, i), a = pairs.a[pair], b = pairs.b[pair];
-  mask moves_a = motion_of(shapes.traits[a]) == (uint)MOTION_DYNAMIC,
-       moves_b = motion_of(shapes.traits[b]) == (uint)MOTION_DYNAMIC;
+  mask moves_a = body_type_of(shapes.flags[a]) == (uint)BODY_TYPE_DYNAMIC,
+       moves_b = body_type_of(shapes.flags[b]) == (uint)BODY_TYPE_DYNAMIC;
   uint body = moves_a ? a : b, other = moves_a ? b : a;
-  if ((moves_a && moves_b) || !is_continuous(shapes.traits[body])) return;
+  if ((moves_a && moves_b) || !is_continuous(shapes.flags[body])) return;
   hull_tables tables = tables_of(surfaces, SUPPORT_BRUTE_FORCE);
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), offset = offset_between(positions, body, other);
   convex shape = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, none,
                              part_of_pair(parameters, pairs.leaf, body, pair, moves_a ? 0u : 1u));
-  moving_convex moving = solved_motion(deltas, &shape, none, load_row(shapes.size, body).w, body);
+  moving_convex moving = solved_motion(deltas, &shape, none, load_float4(shapes.size, body).w, body);
   if (length_of(moving.linear) + fastest_swing(&moving) <= FAR_SHARE * least_size(&shape)) return;
   wall w;
-  w.is_plane = shape_of(shapes.traits[other]) == (uint)SHAPE_HALF_SPACE;
-  w.up = axis_y(rotation_of(quat_from(load_row(orientations, other))));
-  w.linear = xyz(load_row(deltas, other * 2u));
-  w.height = inner(w.up, offset);
+  w.is_plane = shape_of(shapes.flags[other]) == (uint)SHAPE_HALF_SPACE;
+  w.up = axis_y(rotation_of(quat_from(load_float4(orientations, other))));
+  w.linear = xyz(load_float4(deltas, other * 2u));
+  w.height = dot3(w.up, offset);
   convex of_wall = load_convex(shapes.size, shapes.convex, shapes.pose, orientations, tables, offset,
                                part_of_pair(parameters, pairs.leaf, other, pair, moves_a ? 1u : 0u));
-  w.shape = solved_motion(deltas, &of_wall, offset, load_row(shapes.size, other).w, other);
+  w.shape = solved_motion(deltas, &of_wall, offset, load_float4(shapes.size, other).w, other);
   if (comes_from_behind(&moving, &w)) return;
   real least = w.is_plane ? least_size(&shape) : minimum(least_size(&shape), least_size(&of_wall));
   real share = free_share(&moving, &w, minimum(parameters->slop, parameters->slop_share * least));
-  if (share < R(1.0)) ATOMIC_MIN(shares + body, to_natural(share * R(16777216.0)));
+  if (share < R(1.0)) ATOMIC_MIN(shares + body, to_uint(share * R(16777216.0)));
 }
 
 #endif

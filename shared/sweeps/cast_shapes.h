@@ -1,21 +1,22 @@
-/* sweep_shape.h - the first body that a convex shape touches on each of many straight ways.
+/* cast_shapes.h - the first body that a convex shape touches on each of many straight ways.
  *
  * By conservative advancement (narrowphase/conservative_advancement.h): without turning, its bound is exact along the
  * normal, and a few distance queries a body are enough. The way ends up to the touching distance of that method before
  * the body, never behind.
  */
-#ifndef TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
-#define TANDEM_SHARED_SWEEPS_SWEEP_SHAPE_H
+#ifndef TANDEM_SHARED_SWEEPS_CAST_SHAPES_H
+#define TANDEM_SHARED_SWEEPS_CAST_SHAPES_H
 
 #include "shared/queries/body_parts.h"
 
 /* Of the least size: a query is not served by the broad margin of a contact. */
-#define SWEEP_TOUCHING R(1e-5)
+#define CAST_TOUCHING R(1e-5)
 
-SHARED journey sweep_journey(real length, real horizon, real least, real size)
+SHARED toi_input cast_input(real length, real horizon, real least, real size)
 {
-  journey way = {horizon, SWEEP_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, R(0.0), 1};
-  return way;
+  toi_input input = {horizon, CAST_TOUCHING * least + R(16.0) * ROUNDING * (length * horizon + size), length, R(0.0),
+                     1};
+  return input;
 }
 
 /* Where the surface of b is then, that a touches. */
@@ -28,7 +29,7 @@ SHARED vec3 touched_point(const convex *a, const convex *b, impact met)
 }
 
 /* moving: seen from its start; body: standing, seen from the same place. */
-SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, mask is_plane, real reach, uint number)
+SHARED first_hit cast_against(const moving_convex *moving, const convex *body, mask is_plane, real reach, uint number)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
   real length = length_of(moving->linear), least = least_size(&moving->shape),
@@ -37,13 +38,13 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
   impact met;
   if (is_plane) {
     vec3 up = axis_y(body->rotation);
-    met = first_impact_on_plane(moving, up, inner(up, body->center), none, sweep_journey(length, reach, least, size));
+    met = first_impact_on_plane(moving, up, dot3(up, body->center), none, cast_input(length, reach, least, size));
     convex arrived = shape_at(moving, none, met.at.time);
     hit.point = add_scaled(support_of(&arrived, met.normal), met.normal, core_radius(&arrived) + met.gap);
   } else {
     moving_convex standing = moving_convex_of(body, body->center, none, none, R(0.0));
     met = first_impact(&standing, moving,
-                       sweep_journey(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
+                       cast_input(length, reach, minimum(least, least_size(body)), size + bounding_radius_of(body)));
     met.normal = negate(met.normal);
     convex arrived = shape_at(moving, none, met.at.time);
     if (met.at.hits) hit.point = touched_point(&arrived, body, met);
@@ -59,46 +60,46 @@ SHARED first_hit sweep_against(const moving_convex *moving, const convex *body, 
 }
 
 /* Query i against all parts of a body. radius: of what is swept. */
-SHARED first_hit sweep_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body,
-                                    uint i)
+SHARED first_hit cast_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body,
+                                   uint i)
 {
   first_hit nearest = nothing_hit();
-  if (!may_hit(scene->traits, scene->query_body, scene->query_filter, body, i)) return nearest;
-  vec3 center = seen_from(scene->positions, body, load_place(scene->query_start, i));
-  mask is_plane = shape_of(scene->traits[body]) == (uint)SHAPE_HALF_SPACE;
-  if (!is_plane && !passes_near(center, moving->linear, load_row(scene->shapes, body).w + radius)) return nearest;
+  if (!may_hit(scene->flags, scene->query_body, scene->query_filter, body, i)) return nearest;
+  vec3 center = seen_from(scene->positions, body, load_position(scene->query_start, i));
+  mask is_plane = shape_of(scene->flags[body]) == (uint)SHAPE_HALF_SPACE;
+  if (!is_plane && !passes_near(center, moving->linear, load_float4(scene->shapes, body).w + radius)) return nearest;
   part_walk walk = walk_parts(scene, body, center, moving->linear, radius);
   convex part;
   while (next_part(scene, &walk, &part))
-    nearest = nearer_hit(nearest, sweep_against(moving, &part, is_plane, R(1.0), scene->query_body[4u * body]));
+    nearest = nearer_hit(nearest, cast_against(moving, &part, is_plane, R(1.0), scene->query_body[4u * body]));
   return nearest;
 }
 
 /* vertices: of the swept shape, if it is a hull; its size and bounding radius in shape_queries.shape. */
-SHARED void sweep_shape_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
+SHARED void cast_shapes_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                              read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                              read_shape_queries shape_queries, write_hits hits, uint kind, uint vertices,
                              uint structure, uint i)
 {
-  read_queries queries = {shape_queries.body, shape_queries.filter, shape_queries.start, shape_queries.way};
+  read_queries queries = {shape_queries.body, shape_queries.filter, shape_queries.start, shape_queries.displacement};
   query_scene scene =
       query_scene_of(parameters, search_structures, shapes, surfaces, trees, bodies, queries, structure);
-  hull_tables own = {0, shape_queries.vertex, 0, 0, 0, 0, shape_queries.strip, 0, 0, 0, SUPPORT_BRUTE_FORCE};
-  place start = load_place(shape_queries.start, i);
-  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), way = xyz(load_row(shape_queries.way, i));
-  vec4 size = load_row(shape_queries.shape, 0u);
-  mat3 rotation = rotation_of(quat_from(load_row(shape_queries.turn, i)));
+  hull_tables own = {0, shape_queries.vertex, 0, 0, 0, 0, shape_queries.chunk, 0, 0, 0, SUPPORT_BRUTE_FORCE};
+  double_float3 start = load_position(shape_queries.start, i);
+  vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), displacement = xyz(load_float4(shape_queries.displacement, i));
+  vec4 size = load_float4(shape_queries.shape, 0u);
+  mat3 rotation = rotation_of(quat_from(load_float4(shape_queries.turn, i)));
   convex swept = convex_of(SHAPE_BOX, xyz(size), rotation, none, none, 0u, own);
   swept.kind = kind;
   swept.hull.vertices = vertices;
-  moving_convex moving = moving_convex_of(&swept, none, way, none, R(0.0));
+  moving_convex moving = moving_convex_of(&swept, none, displacement, none, R(0.0));
   first_hit nearest = nothing_hit();
   real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
   body_walk walk;
-  start_body_walk(&walk, &scene.bodies, start, way, make_vec3(slack, slack, slack));
-  for (uint body = next_body_on_way(&walk, &scene.bodies, reach); body != INDEX_NONE;
-       body = next_body_on_way(&walk, &scene.bodies, reach)) {
-    nearest = nearer_hit(nearest, sweep_against_body(&scene, &moving, size.w, body, i));
+  start_body_walk(&walk, &scene.bodies, start, displacement, make_vec3(slack, slack, slack));
+  for (uint body = next_body_on_path(&walk, &scene.bodies, reach); body != INDEX_NONE;
+       body = next_body_on_path(&walk, &scene.bodies, reach)) {
+    nearest = nearer_hit(nearest, cast_against_body(&scene, &moving, size.w, body, i));
     if (nearest.body != INDEX_NONE) reach = minimum(R(1.0), nearest.fraction);
   }
   store_hit(nearest, hits, i);

@@ -1,4 +1,4 @@
-/* straight_way.h - what every structure of bodies tests its boxes against: a ray, or a box that goes straight.
+/* straight_path.h - what every structure of bodies tests its boxes against: a ray, or a box that goes straight.
  *
  *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own
  *       |  |- - - ->  [   ]     half extents (Minkowski). One that stands still goes a way of length 0.
@@ -8,8 +8,8 @@
  * much. One test for all structures: which bodies are asked, hence every bit of an answer, must not depend on the
  * structure.
  */
-#ifndef TANDEM_SHARED_QUERIES_STRAIGHT_WAY_H
-#define TANDEM_SHARED_QUERIES_STRAIGHT_WAY_H
+#ifndef TANDEM_SHARED_QUERIES_STRAIGHT_PATH_H
+#define TANDEM_SHARED_QUERIES_STRAIGHT_PATH_H
 
 #include "shared/broadphase/overlap.h"
 #include "shared/queries/ray_shape.h"
@@ -18,46 +18,47 @@
  * start_high. */
 typedef struct {
   vec3 start_low, start_high, inverse;
-} straight_way;
+} straight_path;
 
 /* As good as infinite where the way runs along a face; 0 times it is still 0. */
-SHARED real inverse_of_way(real way)
+SHARED real inverse_of_component(real component)
 {
-  return magnitude(way) > R(1e-30) ? R(1.0) / way : way < R(0.0) ? -ENDLESS : ENDLESS;
+  return magnitude(component) > R(1e-30) ? R(1.0) / component : component < R(0.0) ? -ENDLESS : ENDLESS;
 }
 
 /* extent: half of a box that goes along the way, 0 for a ray. */
-SHARED straight_way straight_way_of(place start, vec3 way, vec3 extent)
+SHARED straight_path straight_path_of(double_float3 start, vec3 displacement, vec3 extent)
 {
   vec3 widening = add(extent, scale(absolute(start.high), R(2.4e-7)));
-  straight_way w = {add(start.high, widening), subtract(start.high, widening),
-                    make_vec3(inverse_of_way(way.x), inverse_of_way(way.y), inverse_of_way(way.z))};
+  straight_path w = {add(start.high, widening), subtract(start.high, widening),
+                     make_vec3(inverse_of_component(displacement.x), inverse_of_component(displacement.y),
+                               inverse_of_component(displacement.z))};
   return w;
 }
 
 /* From where to where along the way it is in the box, within 0 and `reach`. */
 typedef struct {
   real enter, leave;
-} way_part;
+} path_part;
 
-SHARED way_part part_in_box(const straight_way *way, box_bounds box, real reach)
+SHARED path_part part_in_box(const straight_path *path, box_bounds box, real reach)
 {
-  vec3 low = multiply(subtract(box.lower, way->start_low), way->inverse),
-       high = multiply(subtract(box.upper, way->start_high), way->inverse);
-  way_part part;
+  vec3 low = multiply(subtract(box.lower, path->start_low), path->inverse),
+       high = multiply(subtract(box.upper, path->start_high), path->inverse);
+  path_part part;
   part.enter =
       maximum(maximum(minimum(low.x, high.x), minimum(low.y, high.y)), maximum(minimum(low.z, high.z), R(0.0)));
   part.leave = minimum(minimum(maximum(low.x, high.x), maximum(low.y, high.y)), minimum(maximum(low.z, high.z), reach));
   return part;
 }
-SHARED mask is_part(way_part part) { return part.enter <= part.leave + R(1e-6) * magnitude(part.leave); }
+SHARED mask is_part(path_part part) { return part.enter <= part.leave + R(1e-6) * magnitude(part.leave); }
 
 /* Where along the way it enters the box; ENDLESS where it misses it, or enters behind `reach`. */
-SHARED real way_into_box(const straight_way *way, box_bounds box, real reach)
+SHARED real fraction_into_box(const straight_path *path, box_bounds box, real reach)
 {
   /* What is no box, or is turned inside out as that of an empty node, would seem endless. */
   mask is_box = box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
-  way_part part = part_in_box(way, box, reach);
+  path_part part = part_in_box(path, box, reach);
   return is_box && is_part(part) ? part.enter : ENDLESS;
 }
 

@@ -1,4 +1,4 @@
-/* buffer_place.h - what one number inside a buffer means: whose it is, which field, which value.
+/* buffer_location.h - what one number inside a buffer means: whose it is, which field, which value.
  *
  * Buffers are flat arrays; buffers.def knows how an item lies in them. The comparison of backends
  * (tandem/compare.h) uses this to turn "word 8193 differs" into "constraint 17, plane 2, separation".
@@ -22,7 +22,7 @@ namespace tandem {
 size_t scalar_bytes(Buffer buffer);
 
 /* `capacity`: items there is room for, the stride of planes. */
-BufferPlace place_in(Buffer buffer, size_t scalar, size_t capacity);
+BufferLocation location_in(Buffer buffer, size_t scalar, size_t capacity);
 
 /* One number as its bytes say. */
 BufferValue value_at(Buffer buffer, const void *scalar);

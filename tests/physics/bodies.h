@@ -1,4 +1,4 @@
-/* solids.h - bodies of any convex shape for the tests of physics: placed by their shape, weighed, and seen by their
+/* bodies.h - bodies of any convex shape for the tests of physics: placed by their shape, weighed, and seen by their
  * shape's axis. */
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace tandem::physics_tests {
 
 /* `at` and `turn` place the shape's own frame; the body's frame follows from its mass. */
-inline Body &add_solid(Scene &scene, const Shape &shape, const Vector &at, const Quat &turn = {0, 0, 0, 1},
-                       float mass = 1)
+inline Body &add_dynamic_body(Scene &scene, const Shape &shape, const Vector &at, const Quat &turn = {0, 0, 0, 1},
+                              float mass = 1)
 {
-  Body &body = add_body(scene, Motion::dynamic, shape, point_of(at));
+  Body &body = add_body(scene, BodyType::dynamic, shape, point_of(at));
   body.orientation = turn;
   body.mass = mass;
   take_mass_properties(scene, body);
@@ -39,7 +39,7 @@ inline Vector axis_of(const Body &body, const BodyState &state)
 }
 
 /* A hull of points of an ellipsoid, none of its half axes above `size`. */
-inline Shape stone(Random &random, int points, double size)
+inline Shape random_hull_shape(Random &random, int points, double size)
 {
   const Vector axes(random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1));
   std::vector<Vec3> cloud;
@@ -73,7 +73,7 @@ inline double mechanical_energy(World &world)
   double energy = world.statistics().kinetic_energy;
   const std::vector<BodyState> states = world.bodies();
   for (size_t i = 0; i < states.size(); ++i)
-    if (const Body &body = world.scene().bodies[i]; body.motion == Motion::dynamic)
+    if (const Body &body = world.scene().bodies[i]; body.type == BodyType::dynamic)
       energy += body.mass * gravity * states[i].position[1];
   return energy;
 }

@@ -1,4 +1,4 @@
-/* hull_strips.h - the tables of a hull that its vertices, planes and faces imply: shared/strip.h, and the links of
+/* hull_chunks.h - the tables of a hull that its vertices, planes and faces imply: shared/float8.h, and the links of
  * shared/narrowphase/convex.h. For any record of four numbers, as the reference build has its own. */
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace tandem {
 
 /* Rows of so many entries of so many numbers each. */
-inline uint32_t strip_rows(size_t entries, uint32_t numbers)
+inline uint32_t chunk_float4s(size_t entries, uint32_t numbers)
 {
   return static_cast<uint32_t>((entries + 7) / 8) * 2 * numbers;
 }
 
-/* The first 3 or 4 numbers of each entry, eight entries a strip; the last strip is filled up with the first entry. */
+/* The first 3 or 4 numbers of each entry, eight entries a chunk; the last chunk is filled up with the first entry. */
 template <class Row>
-void append_strips(std::vector<Row> &strips, std::span<const std::type_identity_t<Row>> entries, int numbers)
+void append_chunks(std::vector<Row> &chunks, std::span<const std::type_identity_t<Row>> entries, int numbers)
 {
   const auto number = [&](size_t entry, int k) {
     const Row &r = entries[entry < entries.size() ? entry : 0];
@@ -29,7 +29,7 @@ void append_strips(std::vector<Row> &strips, std::span<const std::type_identity_
   for (size_t first = 0; first < entries.size(); first += 8)
     for (int k = 0; k < numbers; ++k)
       for (size_t half = first; half < first + 8; half += 4)
-        strips.push_back({number(half, k), number(half + 1, k), number(half + 2, k), number(half + 3, k)});
+        chunks.push_back({number(half, k), number(half + 1, k), number(half + 2, k), number(half + 3, k)});
 }
 
 /* faces: corners of each; edges: from, to, left, right. A corner whose side is no edge (a flat hull) names

@@ -1,0 +1,199 @@
+/* candidate_pairs.h - the pairs whose fat boxes overlap, kept from step to step, and those of them whose bounds do: the
+ * list.
+ *
+ *     kept list (neither of the two left its box)  +  what those who left find in both trees  ->  its other side
+ *     kept list (bounds overlap)                                                              ->  pair_a, pair_b
+ *
+ * A step in which no body left its fat box does the second line alone. The kept list has two sides: one is read while
+ * the other is written, and then they change places. Each owner's range is sorted, as that of the pair list is. If
+ * both bodies of a pair left their fat boxes, the one with the higher number finds the pair, so that it is found once.
+ * A body that the scene calls large may meet thousands of others. Each of these looks at the large body, so that no
+ * single work-item has to find them all.
+ */
+#ifndef TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
+#define TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
+
+#include "shared/broadphase/candidate_limits.h"
+#include "shared/broadphase/fat_aabbs.h"
+#include "shared/broadphase/hierarchy_walks.h"
+#include "shared/broadphase/pair_keys.h"
+#include "shared/parallel/length.h"
+
+SHARED uint candidate_capacity(GLOBAL const uint *counts) { return CANDIDATES_PER_PAIR * counts[CAPACITY_PAIRS]; }
+
+/* --- what those who left find -------------------------------------------------------------------------- */
+
+/* Whether body y finds the pair that it makes with large body b, which is new only if b left its fat box. */
+SHARED mask searches_large(GLOBAL const uint *body_left, uint large, uint y, uint b)
+{
+  if (body_left[b] == 0u || y == b) return 0;
+  return body_left[y] == 0u || (y < large && b < y);
+}
+
+/* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the one of the higher number
+ * finds the pair, so that it is found once. */
+FORCE_INLINE uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
+                                    read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
+                                    const find_list *list, uint at)
+{
+  searched_tree tree = {hierarchy_nodes.box, hierarchy_nodes.link, UNBOUNDED};
+  uint next = root_slot(counts), i = search->body;
+  for (uint leaf = next_by_skipping(search, &tree, &next); leaf != INDEX_NONE;
+       leaf = next_by_skipping(search, &tree, &next)) {
+    uint b = hierarchy_nodes.leaf_body[leaf / 2u];
+    mask reports_pair = b < i || body_left[b] == 0u;
+    if (b != i && reports_pair && may_meet(search, b)) at = add_find(list, at, i, b);
+  }
+  return at;
+}
+
+/* The pairs that the searching body finds. Its box and those of the others are fat. */
+FORCE_INLINE uint search_near(const pair_search *search, GLOBAL const uint *body_left,
+                              read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
+                              uint at)
+{
+  uint i = search->body, large = counts[COUNT_LARGE];
+  for (uint b = 0u; b < counts[COUNT_LARGE_LEFT]; ++b)
+    if (searches_large(body_left, large, i, b) && meets(search, b)) at = add_find(list, at, i, b);
+  if (body_left[i] == 0u || i < large) return at;
+  for (uint b = 0u; b < counts[COUNT_UNBOUNDED]; ++b)
+    if (meets(search, b)) at = add_find(list, at, i, b);
+  return find_among_leaves(search, body_left, hierarchy_nodes, counts, list, at);
+}
+
+SHARED void candidate_count_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *fat_bounds,
+                                 GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
+                                 GLOBAL const uint *counts, GLOBAL uint *key_start, uint i)
+{
+  pair_search search = search_of_body(parameters, body_flags, body_filter, fat_bounds, i);
+  find_list list = no_neighbors();
+  key_start[i] = search_near(&search, body_left, hierarchy_nodes, counts, &list, 0u);
+}
+
+SHARED void candidate_write_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
+                                 GLOBAL const uint *body_filter, GLOBAL const float4 *fat_bounds,
+                                 GLOBAL const uint *body_left, read_hierarchy_nodes hierarchy_nodes,
+                                 GLOBAL const uint *counts, GLOBAL const uint *key_start, GLOBAL ulong *candidate_key,
+                                 uint i)
+{
+  if (key_start[i] == key_start[i + 1u]) return; /* most bodies find nothing and need not search again */
+  pair_search search = search_of_body(parameters, body_flags, body_filter, fat_bounds, i);
+  find_list list = finds_as_keys(candidate_key, candidate_capacity(counts));
+  search_near(&search, body_left, hierarchy_nodes, counts, &list, key_start[i]);
+}
+
+/* The keys to sort are those that there was room for. */
+SHARED void count_candidate_keys_item(GLOBAL const uint *key_start, GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  uint found = counts[COUNT_CHANGED] != 0u ? key_start[counts[COUNT_CHANGED]] : 0u,
+       capacity = candidate_capacity(counts);
+  counts[COUNT_CANDIDATE_KEYS] = found < capacity ? found : capacity;
+  counts[COUNT_CANDIDATES_NEEDED] = found;
+}
+
+/* --- the kept list -------------------------------------------------------------------------------------- */
+
+/* Side 0 or 1 of the kept list. start[a] is where the range of body `a` starts in b, which holds the lower numbers of
+ * its pairs. */
+typedef struct {
+  GLOBAL const uint *start, *b;
+} candidate_list;
+
+SHARED uint candidate_side(GLOBAL const uint *counts) { return counts[COUNT_CANDIDATE_SIDE]; }
+SHARED candidate_list candidate_list_of(GLOBAL const uint *candidate_start, GLOBAL const uint *candidate_b,
+                                        GLOBAL const uint *counts, uint side)
+{
+  candidate_list list = {candidate_start + side * (counts[COUNT_BODIES] + 1u),
+                         candidate_b + side * candidate_capacity(counts)};
+  return list;
+}
+
+/* The partners of body `a`, ascending: those kept, if neither of the two left, and those newly found. */
+FORCE_INLINE uint merge_near(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key, candidate_list kept,
+                             GLOBAL const uint *counts, uint a, const find_list *list, uint at)
+{
+  uint keys = counts[COUNT_CANDIDATE_KEYS], key = first_key_of(candidate_key, keys, a);
+  mask keeps = counts[COUNT_KEPT] != 0u && body_left[a] == 0u;
+  uint end = keeps ? kept.start[a + 1u] : 0u;
+  for (uint k = keeps ? kept.start[a] : 0u; k < end; ++k) {
+    uint stays = kept.b[k];
+    if (body_left[stays] != 0u) continue;
+    for (; key < keys && candidate_key[key] < key_of_pair(a, stays); ++key)
+      at = add_find(list, at, a, (uint)candidate_key[key]);
+    at = add_find(list, at, a, stays);
+  }
+  for (; key < keys && (uint)(candidate_key[key] >> 32) == a; ++key)
+    at = add_find(list, at, a, (uint)candidate_key[key]);
+  return at;
+}
+
+SHARED void merge_candidate_count_item(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key,
+                                       GLOBAL const uint *candidate_start, GLOBAL const uint *candidate_b,
+                                       GLOBAL const uint *counts, GLOBAL uint *key_start, uint a)
+{
+  find_list list = no_neighbors();
+  candidate_list kept = candidate_list_of(candidate_start, candidate_b, counts, candidate_side(counts));
+  key_start[a] = merge_near(body_left, candidate_key, kept, counts, a, &list, 0u);
+}
+
+SHARED void merge_candidate_write_item(GLOBAL const uint *body_left, GLOBAL const ulong *candidate_key,
+                                       GLOBAL const uint *key_start, GLOBAL const uint *counts,
+                                       GLOBAL uint *candidate_start, GLOBAL uint *candidate_b, uint a)
+{
+  uint capacity = candidate_capacity(counts), side = candidate_side(counts), to = key_start[a], end = key_start[a + 1u];
+  GLOBAL uint *start = candidate_start + (1u - side) * (counts[COUNT_BODIES] + 1u);
+  start[a] = to < capacity ? to : capacity;
+  if (a + 1u == counts[COUNT_BODIES]) start[a + 1u] = end < capacity ? end : capacity;
+  find_list list = finds_as_bodies(candidate_b + (1u - side) * capacity, capacity);
+  merge_near(body_left, candidate_key, candidate_list_of(candidate_start, candidate_b, counts, side), counts, a, &list,
+             to);
+}
+
+/* A merge makes the other side the kept one. */
+SHARED void swap_candidate_lists_item(GLOBAL const uint *key_start, GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  if (counts[COUNT_CHANGED] == 0u) return;
+  uint merged = key_start[counts[COUNT_BODIES]], found = counts[COUNT_CANDIDATES_NEEDED];
+  counts[COUNT_CANDIDATES_NEEDED] = merged > found ? merged : found;
+  counts[COUNT_CANDIDATE_SIDE] = 1u - candidate_side(counts);
+}
+
+/* --- the pair list -------------------------------------------------------------------------------------- */
+
+/* Packs the partners of body `a` whose bounds overlap its own at the start of its range. */
+SHARED void filter_candidates_item(GLOBAL const float4 *bounds, GLOBAL const uint *candidate_start,
+                                   GLOBAL const uint *candidate_b, GLOBAL const uint *counts,
+                                   GLOBAL uint *candidate_found, GLOBAL uint *pair_start, uint a)
+{
+  candidate_list kept = candidate_list_of(candidate_start, candidate_b, counts, candidate_side(counts));
+  uint first = kept.start[a], end = kept.start[a + 1u], to = first;
+  box_bounds own = load_bounds(bounds, a);
+  for (uint at = first; at < end; ++at)
+    if (bounds_overlap(own, load_bounds(bounds, kept.b[at]))) candidate_found[to++] = kept.b[at];
+  pair_start[a] = to - first;
+}
+
+SHARED void take_candidates_item(GLOBAL const uint *candidate_start, GLOBAL const uint *candidate_found,
+                                 GLOBAL const uint *pair_start, GLOBAL const uint *counts, GLOBAL uint *pair_a,
+                                 GLOBAL uint *pair_b, uint a)
+{
+  uint from = candidate_start[candidate_side(counts) * (counts[COUNT_BODIES] + 1u) + a], first = pair_start[a],
+       used = 0u, found = pair_start[a + 1u] - first;
+  for (uint k = 0u; k < found; ++k)
+    used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, candidate_found[from + k]);
+}
+
+/* If the kept list was short of room, the room for pairs grows, on which its own depends, and nothing is kept: the step
+ * runs again and finds all pairs anew. */
+SHARED void keep_candidates_item(GLOBAL uint *counts, uint i)
+{
+  (void)i;
+  uint needed = units_of(counts[COUNT_CANDIDATES_NEEDED], CANDIDATES_PER_PAIR);
+  if (needed > counts[CAPACITY_PAIRS] && needed > counts[COUNT_PAIRS_NEEDED]) counts[COUNT_PAIRS_NEEDED] = needed;
+  counts[COUNT_KEPT] = needed > counts[CAPACITY_PAIRS] ? 0u : 1u;
+}
+
+#endif
