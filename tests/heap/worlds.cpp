@@ -100,7 +100,8 @@ void check_nothing_happened(World &world, const Story &story)
   if (story.settings.events) CHECK(world.contact_events().empty());
 }
 
-void fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
+/* How many attempts failed: none of a step that allocates nothing. */
+uint64_t fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
 {
   const std::vector<uint64_t> undisturbed = undisturbed_hashes(story);
   uint64_t failures = 0;
@@ -116,7 +117,12 @@ void fail_everywhere_in_step(const Story &story, uint64_t stride = 1)
       check_goes_on(*world, undisturbed, outcome.thrown ? 0 : 1);
       if (!outcome.struck) break;
     }
-  CHECK(failures > 0);
+  return failures;
+}
+
+void check_fails_everywhere_in_step(const Story &story, uint64_t stride = 1)
+{
+  CHECK(fail_everywhere_in_step(story, stride) > 0);
 }
 
 /* Long capsules side by side, slanted, so that all bounds overlap and none touch: many pairs, and little to do.
@@ -222,8 +228,10 @@ TEST_CASE(
 {
   for (const Case &c : heap_cases())
     for (const size_t at : {0, 2}) {
-      fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, at});
-      fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, at}, 7);
+      const bool allocates = at == 0 || c.settings.solver == Solver::direct; /* room is made in the first step */
+      CAPTURE(c.what, at);
+      CHECK(((fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, at}) > 0) || !allocates));
+      CHECK(((fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, at}, 7) > 0) || !allocates));
     }
 }
 
@@ -236,11 +244,12 @@ TEST_CASE("heap: a step in which buffers grow leaves the state as it was where i
       const Scene scene = slanted_rods(meeting);
       const size_t at = first_growth(scene, settings);
       CHECK((at > 0) == (meeting > 0));
-      fail_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
-      fail_everywhere_in_step({scene, settings, two_threads, at}, 53);
+      check_fails_everywhere_in_step({scene, settings, serial, at}, meeting > 0 ? stride : 17);
+      check_fails_everywhere_in_step({scene, settings, two_threads, at}, 53);
     }
-  fail_everywhere_in_step({dense_cluster(52), short_step(with(Solver::soft_step, Broadphase::grid, true)), serial, 0},
-                          131); /* more colours than there are launches for, too */
+  check_fails_everywhere_in_step(
+      {dense_cluster(52), short_step(with(Solver::soft_step, Broadphase::grid, true)), serial, 0},
+      131); /* more colours than there are launches for, too */
 }
 
 TEST_CASE("heap: a step that takes a body out leaves it in where it fails")
@@ -248,7 +257,7 @@ TEST_CASE("heap: a step that takes a body out leaves it in where it fails")
   for (const Case &c : heap_cases()) {
     const Story story{load_scene(c.scene), c.settings, serial, 1,
                       [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }};
-    fail_everywhere_in_step(story);
+    check_fails_everywhere_in_step(story);
   }
 }
 
@@ -256,14 +265,14 @@ TEST_CASE("heap: a step that takes a body out leaves it in where it fails")
 TEST_CASE("heap: steps that fail here and there leave nothing behind", "[sanitizer]")
 {
   for (const Case &c : heap_cases()) {
-    fail_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, 0}, 61);
-    fail_everywhere_in_step({load_scene(c.scene), c.settings, serial, 1,
-                             [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }},
-                            61);
+    check_fails_everywhere_in_step({load_scene(c.scene), c.settings, two_threads, 0}, 61);
+    check_fails_everywhere_in_step({load_scene(c.scene), c.settings, serial, 1,
+                                    [](World &world) { world.set_body_unchecked(1, spoilt(world.bodies()[1])); }},
+                                   61);
   }
   const Settings settings = short_step(with(Solver::soft_step, Broadphase::grid, true));
   const Scene scene = slanted_rods(2);
-  fail_everywhere_in_step({scene, settings, serial, first_growth(scene, settings)}, 211);
+  check_fails_everywhere_in_step({scene, settings, serial, first_growth(scene, settings)}, 211);
 }
 
 TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on any backend")
