@@ -187,8 +187,9 @@ private:
    * any limit (docs/results/2026-11-23-h200-registers). */
   std::string registers_for(Stage stage, Features features) const
   {
+    constexpr Features general_pairs = FEATURE_CONVEX_CONVEX | FEATURE_CONVEX_HALF_SPACE; /* among those read */
     const bool waits = stage == Stage::setup || stage == Stage::integrate ||
-                       (stage == Stage::narrowphase && !(features & FEATURE_CONVEX));
+                       (stage == Stage::narrowphase && !(features & general_pairs));
     return waits && context_.info.platform_name.starts_with("NVIDIA") ? " -cl-nv-maxrregcount=128" : "";
   }
 
