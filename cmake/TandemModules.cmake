@@ -3,10 +3,10 @@
 #   tandem_add_module(NAME KERNELS list.def [BUFFERS list.def] [HEADERS item.h ...] [LANES_HEADERS lanes.h ...]
 #                     [LINK target])
 #
-# NAME is a word of C and the stage of every row in KERNELS. HEADERS hold the functions of ITEM and GROUP kernels,
-# LANES_HEADERS those of LANES kernels, which are compiled in every width. Whoever links the library NAME includes
-# "NAME.h": NAME::module(), NAME::kernel::ROW and NAME::buffer::ROW. LINK is Tandem::tandem_shared where the shared form
-# is wanted.
+# NAME is a word of C, no stage of the pipeline, and the stage of every row in KERNELS. HEADERS hold the functions of
+# ITEM and GROUP kernels, LANES_HEADERS those of LANES kernels, which are compiled in every width. Whoever links the
+# library NAME includes "NAME.h": NAME::module(), NAME::kernel::ROW() and NAME::buffer::ROW(). LINK is
+# Tandem::tandem_shared where the shared form is wanted.
 #
 # TANDEM_MODULE_ROOT (shared/, minicl/ and host/runtime/interface/ lie there) and TANDEM_MODULE_TEMPLATES are set by who
 # includes this file: the tree itself, or the installed package.
@@ -86,8 +86,6 @@ function(tandem_add_module module)
   if(TARGET Tandem::embed_kernels)
     set(embedder Tandem::embed_kernels)
   endif()
-  list(TRANSFORM MODULE_HEADERS PREPEND ${MODULE_SOURCES}/)
-  list(TRANSFORM MODULE_LANES_HEADERS PREPEND ${MODULE_SOURCES}/)
   file(RELATIVE_PATH kernels ${MODULE_SOURCES} ${MODULE_KERNELS})
   file(RELATIVE_PATH buffers ${MODULE_SOURCES} ${MODULE_BUFFERS_PATH})
   add_custom_command(
@@ -95,8 +93,8 @@ function(tandem_add_module module)
     COMMAND ${CMAKE_COMMAND} -E make_directory ${MODULE_FOLDER}/generated
     COMMAND ${embedder} ${TANDEM_MODULE_ROOT} ${MODULE_FOLDER}/generated --module ${module} ${MODULE_SOURCES}
       ${kernels} ${buffers} ${MODULE_FOLDER}/${module}.cl
-    DEPENDS ${embedder} ${MODULE_KERNELS} ${MODULE_BUFFERS_PATH} ${MODULE_HEADERS} ${MODULE_LANES_HEADERS}
-      ${MODULE_FOLDER}/${module}.cl
+    DEPENDS ${embedder} ${MODULE_KERNELS} ${MODULE_BUFFERS_PATH} ${MODULE_FOLDER}/${module}.cl
+    DEPFILE ${MODULE_FOLDER}/generated/${module}_programs.cpp.d # every header, those of headers too
     COMMENT "Embedding OpenCL kernels of ${module}"
     VERBATIM)
 

@@ -103,6 +103,10 @@ void check_extensions(const std::vector<Extension> &extensions)
 {
   for (size_t i = 0; i < extensions.size(); ++i) {
     if (!extensions[i].module) throw InputError(fmt::format("extension {}: it names no module", i));
+    for (const auto &[point, launch] : extensions[i].launches)
+      if (!launch || point > StepPoint::commit)
+        throw InputError(fmt::format("extension {}: a launch of module '{}' has no function, or no point of the step",
+                                     i, extensions[i].module->name()));
     for (size_t before = 0; before < i; ++before)
       if (extensions[before].module == extensions[i].module)
         throw InputError(fmt::format("extension {}: module '{}' is given twice; give all its launches in one", i,

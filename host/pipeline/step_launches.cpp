@@ -4,9 +4,6 @@
 #include <stdexcept>
 #include <string>
 
-#include <tandem/error.h>
-#include <tandem/module.h>
-
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/scene_counts.h"
 #include "shared/broadphase/sweep_limits.h"
@@ -37,8 +34,7 @@ void StepLaunches::run_pairs(Kernel kernel, uint32_t pair_kind, const Values &va
   run_pairs(kernel, pair_kind, pair_kind, values);
 }
 
-void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind,
-                             const Values &values)
+void StepLaunches::run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values)
 {
   const bool listed = has(FEATURE_PAIR_KINDS);
   const uint32_t first = listed ? KIND_START + first_kind : uint32_t{COUNT_ZERO};
@@ -61,12 +57,6 @@ void StepLaunches::for_each_color(Kernel kernel, Kernel overflow, const Values &
   if (plan_.colors > COLOR_LIMIT) run(overflow, values);
 }
 
-uint32_t StepLaunches::most_items(Kernel kernel) const
-{
-  const uint32_t items = row_of(kernel).items;
-  return is_told_by_scene(items) ? plan_.known[items] : std::max(plan_.capacity_pairs, plan_.bodies + 1);
-}
-
 void StepLaunches::begin_substep(uint32_t substep)
 {
   if (has(FEATURE_EVENTS)) run(Kernel::sum_impulses, {substep});
@@ -79,41 +69,6 @@ void StepLaunches::scan_pairs(Buffer starts, uint32_t length)
   const uint32_t capacity = length == COUNT_BODIES ? plan_.bodies : SWEEP_SHARES * plan_.bodies;
   exclusive_scan(launcher_, starts, starts, Buffer::scan_sums, length, capacity);
   run_range(Kernel::count_pairs, COUNT_ZERO, COUNT_ONE, {length}, {starts});
-}
-
-namespace {
-
-class ExtensionLaunches : public Launches {
-public:
-  explicit ExtensionLaunches(StepLaunches &step) : step_(step) {}
-  void run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots) override
-  {
-    step_.run_of_module(kernel, values, slots);
-  }
-  const Settings &settings() const override { return step_.settings(); }
-
-private:
-  StepLaunches &step_;
-};
-
-} // namespace
-
-void StepLaunches::run_of_module(Kernel kernel, const Values &values, const Slots &slots)
-{
-  if (row_of(kernel).items == items_given)
-    throw InputError(std::string("kernel '") + row_of(kernel).name +
-                     "' has GIVEN items, which the pipeline's own launches give alone; name a count in its row");
-  if (row_of(kernel).execution == Execution::group) run_at_most(kernel, most_items(kernel), values, slots);
-  else run(kernel, values, slots);
-}
-
-void StepLaunches::run_extensions(StepPoint point)
-{
-  if (settings_.extensions.empty()) return;
-  ExtensionLaunches launches(*this);
-  for (const Extension &extension : settings_.extensions)
-    for (const auto &[at, launch] : extension.launches)
-      if (at == point) launch(launches);
 }
 
 void StepLaunches::sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit,

@@ -3,6 +3,8 @@
  * host/pipeline/step.cpp writes the pipeline with them, and each file of host/pipeline/solvers/ a solver. */
 #pragma once
 
+#include <optional>
+
 #include "host/pipeline/step.h"
 
 namespace tandem {
@@ -37,10 +39,8 @@ public:
   void begin_substep(uint32_t substep);
   /* From how many pairs each of so many finds to where its first goes, and to how many there are. */
   void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);
-  /* No more items of the kernel's row than this in the whole step. */
-  uint32_t most_items(Kernel kernel) const;
-  /* A kernel of a module over the items of its row. InputError where the row leaves them to the launch. */
-  void run_of_module(Kernel kernel, const Values &values, const Slots &slots);
+  /* A kernel of an extension over the items of its row; no point: between steps. InputError says what does not fit. */
+  void run_of_module(Kernel kernel, const Values &values, const Slots &slots, std::optional<StepPoint> point);
   /* What modules launch at this point of the step (Settings::extensions). */
   void run_extensions(StepPoint point);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);

@@ -1,11 +1,18 @@
 /* launcher.cpp - binds a launch's arguments in the order of its kernel's row. */
 #include "host/runtime/launcher.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "host/runtime/interface/debug.h"
 
 namespace tandem {
+
+void PlacedLauncher::note_written(Buffer buffer)
+{
+  if (index_of(buffer) >= buffer_count && std::find(written_.begin(), written_.end(), buffer) == written_.end())
+    written_.push_back(buffer);
+}
 
 void PlacedLauncher::launch(const Launch &launch)
 {
@@ -23,8 +30,10 @@ void PlacedLauncher::launch(const Launch &launch)
     switch (argument.kind) {
     case Argument::Kind::buffer:
       bound_.push_back({memory_.acquire(argument.buffer, backend.storage(), argument.access), 0});
+      if (argument.access != Access::in) note_written(argument.buffer);
       break;
     case Argument::Kind::slot:
+      if (argument.access != Access::in) note_written(launch.slots.at(slot));
       bound_.push_back({memory_.acquire(launch.slots.at(slot++), backend.storage(), argument.access), 0});
       break;
     case Argument::Kind::value: bound_.push_back({nullptr, launch.values.at(value++)}); break;

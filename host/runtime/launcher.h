@@ -4,6 +4,8 @@
  */
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -20,6 +22,8 @@ public:
   virtual void launch(const Launch &launch) = 0;
   /* From here on what is launched writes the state that the next step starts from (host/world/carried.h). */
   virtual void begin_commit() {}
+  /* Room of a buffer, where launches run; without end where they are only recorded. */
+  virtual size_t bytes(Buffer) const { return SIZE_MAX; }
 };
 
 class TANDEM_API PlacedLauncher : public Launcher {
@@ -31,8 +35,12 @@ public:
   void launch(const Launch &launch) override;
   void begin_commit() override
   {
+    written_.clear();
     if (on_commit_) on_commit_();
   }
+  size_t bytes(Buffer buffer) const override { return memory_.bytes(buffer); }
+  /* Buffers of modules other than the pipeline that launches have written since the last begin_commit. */
+  const std::vector<Buffer> &written_by_modules() const { return written_; }
   void set_observer(Observer observer) { observer_ = std::move(observer); }
   void set_on_commit(std::function<void()> on_commit) { on_commit_ = std::move(on_commit); }
   void set_step(uint64_t step) { step_ = step; } /* for debuggers: host/runtime/interface/debug.h */
@@ -43,7 +51,10 @@ private:
   Observer observer_;
   std::function<void()> on_commit_;
   uint64_t step_ = 0;
+  void note_written(Buffer buffer);
+
   std::vector<BoundArgument> bound_;
+  std::vector<Buffer> written_;
 };
 
 /* Everything on one backend: for tests and benchmarks of single kernels. */

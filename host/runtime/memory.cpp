@@ -57,6 +57,19 @@ void Memory::grow(Buffer buffer, size_t bytes)
   entry = std::move(grown);
 }
 
+void Memory::assign(Buffer buffer, const void *from, size_t bytes)
+{
+  Entry &entry = entries_[index_of(buffer)];
+  Entry other{entry.element, bytes, {}};
+  if (bytes > 0) {
+    other.copies.reserve(1);
+    other.copies.push_back({&host_storage(), allocate(entry, bytes, host_storage(), nullptr), true});
+    std::memcpy(other.copies.front().handle, from, bytes);
+  }
+  release(entry);
+  entry = std::move(other);
+}
+
 void Memory::reserve(Buffer buffer, Storage &storage)
 {
   Entry &entry = entries_[index_of(buffer)];

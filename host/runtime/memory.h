@@ -28,6 +28,8 @@ public:
   void resize(Buffer buffer, size_t bytes);
   /* Keeps the contents. Where there is no room (OutOfMemory) the buffer is as it was. */
   void grow(Buffer buffer, size_t bytes);
+  /* Other contents of another size. Where there is no room (OutOfMemory) the buffer is as it was. */
+  void assign(Buffer buffer, const void *from, size_t bytes);
   /* Makes room in a storage before anything runs: OutOfMemory here leaves every content as it was. */
   void reserve(Buffer buffer, Storage &storage);
   /* After this uploads to the buffer cannot fail. */

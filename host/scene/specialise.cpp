@@ -277,7 +277,7 @@ Features all_features()
 Specialisation specialise(const Scene &scene, const Settings &settings)
 {
   Specialisation result;
-  const uint32_t pairs = pair_features(presence_of(scene));
+  const Features pairs = pair_features(presence_of(scene));
   result.features = pairs | list_features(pairs) | convex_features(scene) | body_features(scene);
   result.features |=
       narrowphase_features(scene, result.features, settings) | support_features(result.features, settings);

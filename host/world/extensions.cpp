@@ -1,4 +1,6 @@
 /* extensions.cpp - modules of users in a world: their buffers, and their kernels between steps. */
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <tandem/error.h>
@@ -18,13 +20,6 @@ void World::Implementation::note_rows(Recorder &recorder, const Module &module) 
   for (size_t i = 0; i < module.buffers(); ++i) recorder.touched[index_of(module.buffer(i))] = true;
 }
 
-void World::Implementation::check_kernel(Kernel kernel) const
-{
-  for (const Extension &extension : settings.extensions)
-    if (row_of(kernel).stage == extension.module->stage()) return;
-  throw InputError(fmt::format("run: kernel '{}' is of no module in Settings::extensions", row_of(kernel).name));
-}
-
 void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offset) const
 {
   const BufferRow &row = row_of(buffer);
@@ -32,7 +27,8 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
       !buffers.needs().touched[index_of(buffer)])
     throw InputError(fmt::format("write: buffer '{}' is of no module in Settings::extensions", row.name));
   const size_t unit = row.per_item * size_of(row.element);
-  if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0) return;
+  constexpr uint64_t most = uint64_t{1} << 32; /* elements that kernels can number */
+  if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0 && bytes / size_of(row.element) <= most) return;
   if (offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
     throw InputError(fmt::format("write: buffer '{}' has {} bytes, not {} from byte {} on; an item has {}", row.name,
                                  memory.bytes(buffer), bytes, offset, unit));
@@ -41,21 +37,28 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
 void World::Implementation::write(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   check_write(buffer, bytes, offset);
-  if (is_sized_by_writes(buffer) && memory.bytes(buffer) != bytes) {
-    memory.resize(buffer, bytes);
-    buffers.changed();
-  }
-  memory.upload(buffer, from, bytes, offset);
+  if (!is_sized_by_writes(buffer) || memory.bytes(buffer) == bytes) return memory.upload(buffer, from, bytes, offset);
+  memory.assign(buffer, from, bytes);
+  buffers.changed();
+}
+
+/* A step turns both sides of all that is carried over; what no kernel of the module wrote turns back. */
+void World::Implementation::keep_unwritten() noexcept
+{
+  const std::vector<Buffer> &written = launcher.written_by_modules();
+  for (const CarriedBuffer &buffer : buffers.carried())
+    if (index_of(buffer.now) >= buffer_count && std::find(written.begin(), written.end(), buffer.now) == written.end())
+      memory.exchange(buffer.now, buffer.previous);
 }
 
 /* Between two steps. What broadphases keep may be of bodies that the kernel has changed. */
 void World::Implementation::run(Kernel kernel, const Values &values, const Slots &slots)
 {
-  check_kernel(kernel);
+  restore_bodies(); /* where the last attempt of a step could not */
   buffers.make_ready(sizes());
   ++state;
   begin_launches();
-  StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots);
+  StepLaunches(launcher, plan, settings).run_of_module(kernel, values, slots, {});
   forget_kept(memory);
   launches_ended = true;
 }

@@ -145,7 +145,7 @@ QueryTarget World::Implementation::query_target()
     Recorder recorder;
     StepLaunches recorded(recorder, plan, settings), launches(launcher, plan, settings);
     launch_query_structure(recorded, structure);
-    for (size_t i = 0; i < recorder.touched.size(); ++i)
+    for (size_t i = 0; i < buffers.needs().touched.size(); ++i)
       if (recorder.touched[i] && !buffers.is_queried(buffer_at(i))) buffers.ensure_capacity(buffer_at(i), sizes());
     begin_launches();
     launch_query_structure(launches, structure);

@@ -70,9 +70,9 @@ struct World::Implementation {
 
   /* --- modules of users (host/runtime/interface/module.h): extensions.cpp -------------------------------------- */
   void note_rows(Recorder &recorder, const Module &module) const;
-  void check_kernel(Kernel kernel) const;
   void check_write(Buffer buffer, size_t bytes, size_t offset) const;
   void write(Buffer buffer, const void *from, size_t bytes, size_t offset);
+  void keep_unwritten() noexcept;
   void run(Kernel kernel, const Values &values, const Slots &slots);
 
   Scene scene;

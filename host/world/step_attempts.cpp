@@ -105,6 +105,8 @@ void World::Implementation::tell_why_step_failed() const
     throw;
   } catch (const OutOfMemory &error) {
     throw OutOfMemory(told(error.what()));
+  } catch (const InputError &error) {
+    throw InputError(told(error.what()));
   } catch (const std::bad_alloc &) {
     throw OutOfMemory(told("out of memory"));
   } catch (const std::runtime_error &error) {
@@ -124,6 +126,7 @@ void World::Implementation::begin_launches()
 void World::Implementation::accept()
 {
   if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
+  keep_unwritten();
   turned = false;
   taken_out.clear();
   ++statistics.steps;

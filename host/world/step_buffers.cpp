@@ -18,6 +18,7 @@ bool is_sized_by_writes(Buffer buffer)
 void StepBuffers::take_needs(Recorder recorder)
 {
   std::vector<bool> &touched = recorder.touched;
+  touched.resize(queried_.size()); /* modules that were added after this world are none of its own */
   for (const CarriedBuffer &buffer : carried_) {
     const bool needed = touched[index_of(buffer.now)] || touched[index_of(buffer.previous)];
     touched[index_of(buffer.now)] = touched[index_of(buffer.previous)] = needed;

@@ -119,6 +119,7 @@ void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t of
 
 size_t World::buffer_bytes(Buffer buffer) const
 {
+  row_of(buffer); /* InputError where there is none of this number */
   return index_of(buffer) < implementation_->buffers.needs().touched.size() ? implementation_->memory.bytes(buffer) : 0;
 }
 

@@ -24,13 +24,13 @@ const std::vector<float> gust{0.5f, 0, -0.25f, 0}; /* m/s a substep */
 Extension pushing(uint32_t times)
 {
   return {&probe::module(),
-          [](World &world) { world.write<float>(probe::buffer::probe_force, gust); },
+          [](World &world) { world.write<float>(probe::buffer::probe_force(), gust); },
           {{StepPoint::forces,
             [times](Launches &launches) {
               const uint32_t values[] = {times};
-              launches.run(probe::kernel::probe_push, values);
+              launches.run(probe::kernel::probe_push(), values);
             }},
-           {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count); }}}};
+           {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count()); }}}};
 }
 
 Settings with(const Extension &extension)
@@ -92,17 +92,17 @@ TEST_CASE("module: what a STATE buffer counts is counted once a step, also of a 
   const uint64_t before = world.state_hash();
   for (int i = 0; i < 3; ++i) world.step();
   REQUIRE(world.statistics().overflow > 0);
-  CHECK(world.read<uint32_t>(probe::buffer::probe_age) == std::vector<uint32_t>(dense_cluster.bodies.size(), 3));
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age()) == std::vector<uint32_t>(dense_cluster.bodies.size(), 3));
   CHECK(world.state_hash() != before);
 
   World other(dense_cluster, with(pushing(0)), {"tbb", {}});
   for (int i = 0; i < 3; ++i) other.step();
   CHECK(other.state_hash() == world.state_hash());
   const std::vector<uint32_t> one{7};
-  other.write<uint32_t>(probe::buffer::probe_age, one, dense_cluster.bodies.size() - 1);
+  other.write<uint32_t>(probe::buffer::probe_age(), one, dense_cluster.bodies.size() - 1);
   CHECK(other.state_hash() != world.state_hash());
   other.step();
-  CHECK(other.read<uint32_t>(probe::buffer::probe_age).back() == 8);
+  CHECK(other.read<uint32_t>(probe::buffer::probe_age()).back() == 8);
 }
 
 TEST_CASE("module: a kernel between steps changes what the next step starts from")
@@ -113,7 +113,7 @@ TEST_CASE("module: a kernel between steps changes what the next step starts from
     scene.bodies[1].linear_velocity = {0, 6, 0};
     World world(scene, with(pushing(0)), {backend, {}});
     world.step();
-    world.run(probe::kernel::probe_turn_back);
+    world.run(probe::kernel::probe_turn_back());
     CHECK(world.bodies()[1].linear_velocity[1] == -6);
     world.step();
     CHECK(world.bodies()[1].position[1] == Approx(0).margin(1e-6));
@@ -134,10 +134,10 @@ TEST_CASE("module: contacts that a kernel drops hold nothing")
   extension.prepare = [](World &world) {
     std::vector<uint32_t> ghosts;
     for (uint32_t i = 0; i < 5; ++i) ghosts.push_back(world.scene_body(i) == 2 ? 1 : 0);
-    world.write<uint32_t>(probe::buffer::probe_ghost, ghosts);
+    world.write<uint32_t>(probe::buffer::probe_ghost(), ghosts);
   };
   extension.launches = {
-      {StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop); }}};
+      {StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }}};
   for (const std::string &backend : all_backends()) {
     World world(scene, with(extension), {backend, {}});
     for (int i = 0; i < 60; ++i) world.step();
@@ -152,14 +152,14 @@ TEST_CASE("module: a group kernel takes the buffer that a launch names")
 {
   Extension extension = pushing(0);
   extension.launches.push_back({StepPoint::commit, [](Launches &launches) {
-                                  const Buffer slots[] = {probe::buffer::probe_age};
-                                  launches.run(probe::kernel::probe_sum, {}, slots);
+                                  const Buffer slots[] = {probe::buffer::probe_age()};
+                                  launches.run(probe::kernel::probe_sum(), {}, slots);
                                 }});
   for (const std::string &backend : all_backends()) {
     CAPTURE(backend);
     World world(balls(3000), with(extension), {backend, {}});
     for (int i = 0; i < 5; ++i) world.step();
-    const std::vector<uint32_t> totals = world.read<uint32_t>(probe::buffer::probe_total);
+    const std::vector<uint32_t> totals = world.read<uint32_t>(probe::buffer::probe_total());
     CHECK(std::accumulate(totals.begin(), totals.end(), 0u) == 5 * 3000);
   }
 }
@@ -171,35 +171,82 @@ TEST_CASE("module: its kernels are placed, profiled and compared as the pipeline
   world.step();
   uint64_t launches = 0;
   for (const KernelTime &time : world.take_kernel_times())
-    if (time.kernel == probe::kernel::probe_push) {
+    if (time.kernel == probe::kernel::probe_push()) {
       CHECK(time.backend == "serial");
       launches += time.launches;
     }
   CHECK(launches == 4);
-  CHECK(std::string(name_of(probe::kernel::probe_push)) == "probe_push");
+  CHECK(std::string(name_of(probe::kernel::probe_push())) == "probe_push");
 
   ComparisonRequest request{.settings = with(pushing(1)), .backends = all_backends(), .steps = 3};
   const Scene scene = load_scene("mixed:n=30");
   const Comparison same = compare_backends(scene, request);
   CHECK(same.equal);
   InjectedFault fault;
-  fault.kernel = probe::kernel::probe_push;
+  fault.kernel = probe::kernel::probe_push();
   fault.buffer = Buffer::solver_velocity;
   fault.step = 2;
   fault.scalar = 8 * 5;
   request.inject_fault = inject_fault(fault);
   const Comparison different = compare_backends(scene, request);
   REQUIRE(different.first_difference);
-  CHECK(different.first_difference->kernel == probe::kernel::probe_push);
+  CHECK(different.first_difference->kernel == probe::kernel::probe_push());
   CHECK_THAT(different.first_difference->breakpoint,
              Contains("probe_push_item if i == 5 && tandem::step_of_launch == 2"));
+}
+
+TEST_CASE("module: what no kernel writes in a step stays as it was")
+{
+  Extension extension = pushing(0);
+  int step = 0;
+  extension.launches.back().second = [&step](Launches &launches) {
+    if (step != 2) launches.run(probe::kernel::probe_count());
+  };
+  World world(balls(3), with(extension), {"tbb", {}});
+  std::vector<uint32_t> seen;
+  for (step = 0; step < 5; ++step) {
+    world.step();
+    seen.push_back(world.read<uint32_t>(probe::buffer::probe_age())[1]);
+  }
+  CHECK(seen == std::vector<uint32_t>{1, 2, 2, 3, 4});
+}
+
+TEST_CASE("module: a buffer of any size keeps what it had where there is no room for more, and grows else")
+{
+  World world(balls(3), with(pushing(0)), {"serial", {}});
+  const std::vector<uint32_t> three{1, 2, 3}, five{4, 5, 6, 7, 8};
+  world.write<uint32_t>(probe::buffer::probe_ghost(), three);
+  CHECK_THROWS_AS(world.write_bytes(probe::buffer::probe_ghost(), three.data(), size_t{1} << 60), InputError);
+  CHECK(world.read<uint32_t>(probe::buffer::probe_ghost()) == three);
+  world.step();
+  world.write<uint32_t>(probe::buffer::probe_ghost(), five);
+  CHECK(world.read<uint32_t>(probe::buffer::probe_ghost()) == five);
+  world.step();
+}
+
+TEST_CASE("module: lists that are added while a world lives are none of its own")
+{
+  World world(balls(400), with(pushing(0)), {"serial", {}});
+  static const std::vector<BufferRow> late(
+      100, {"late_buffer", Element::uint, Capacity::BODIES, 1, 0, Lifetime::SCRATCH, "value"});
+  static const KernelRow kernel{"late_kernel", own_stage, Execution::item, COUNT_BODIES, 0, {}};
+  static const std::vector<EmbeddedProgram> programs;
+  add_module({"late_module", {&kernel, 1}, late, {}, &programs});
+  for (uint32_t body = 0; body < 400; ++body) {
+    BodyState state = world.bodies()[body];
+    state.position = {1e-4 * body, 0, 0};
+    world.set_body(body, state);
+  }
+  world.step(); /* more pairs than there was room for */
+  CHECK(world.statistics().overflow > 0);
+  CHECK(world.buffer_bytes(buffer_named("late_buffer")) == 0);
 }
 
 TEST_CASE("module: a world without it neither holds nor runs anything of it")
 {
   World world(balls(3), {}, {"serial", {}});
   world.step();
-  CHECK(world.buffer_bytes(probe::buffer::probe_age) == 0);
+  CHECK(world.buffer_bytes(probe::buffer::probe_age()) == 0);
   for (const Kernel kernel : world.kernels()) CHECK(row_of(kernel).stage != probe::module().stage());
 }
 
@@ -207,14 +254,31 @@ TEST_CASE("module: what does not fit is refused by name")
 {
   World plain(balls(3), {}, {"serial", {}}), world(balls(3), with(pushing(1)), {"serial", {}});
   const std::vector<float> four(4), five(5);
-  CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push); }),
+  CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push()); }),
              Contains("kernel 'probe_push' is of no module"));
-  CHECK_THAT(message_of([&] { plain.write<float>(probe::buffer::probe_force, four); }), Contains("of no module"));
+  CHECK_THAT(message_of([&] { plain.write<float>(probe::buffer::probe_force(), four); }), Contains("of no module"));
   CHECK_THAT(message_of([&] { world.write<float>(Buffer::body_velocity, four); }), Contains("'body_velocity'"));
-  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force, five); }),
+  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force(), five); }),
              Contains("'probe_force' has 16 bytes, not 20"));
-  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force, four, 1); }), Contains("from byte 4 on"));
+  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force(), four, 1); }),
+             Contains("from byte 4 on"));
   CHECK_THAT(message_of([&] { world.run(Kernel::fill); }), Contains("kernel 'fill'"));
+  CHECK_THAT(message_of([&] { world.run(Kernel{30000}); }), Contains("kernel 30000 is of no module"));
+  CHECK_THAT(message_of([&] { world.read<float>(Buffer{30000}); }), Contains("buffer 30000 is of no module"));
+  CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force(), four, size_t{1} << 62); }),
+             Contains("has 16 bytes"));
+  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_drop()); }), Contains("'probe_ghost' is empty"));
+  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_push()); }), Contains("it takes 1 values and 0 slots"));
+  const auto sum = [&](Buffer slot) {
+    return message_of([&] { world.run(probe::kernel::probe_sum(), {}, {&slot, 1}); });
+  };
+  CHECK_THAT(sum(Buffer::body_velocity), Contains("elements of another type than the slot 'values'"));
+  CHECK_THAT(sum(buffer_named("kept_start")), Contains("has room for 0 elements"));
+  Extension early = pushing(0);
+  early.launches = {{StepPoint::begin, [](Launches &launches) { launches.run(probe::kernel::probe_count()); }}};
+  CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("lasts beyond the step"));
+  early.launches = {{StepPoint::begin, {}}};
+  CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("has no function"));
   Settings twice = with(pushing(1));
   twice.extensions.push_back(pushing(2));
   CHECK_THAT(message_of([&] { World(balls(1), twice, {"serial", {}}); }), Contains("module 'probe' is given twice"));

@@ -24,9 +24,13 @@ class Module;
 class World;
 struct Settings;
 
-/* Where in a step an extension may launch, in the order of the step. A step that overflows runs again from its begin,
- * so what is launched must find the same inputs then: the pipeline's solver buffers, which each attempt makes anew, and
- * of the module's own buffers those that no kernel has written before in the step. */
+/* By the name in its list, the pipeline's too: buffers for World::read and for slots. InputError if there is none. */
+TANDEM_API Kernel kernel_named(const std::string &name);
+TANDEM_API Buffer buffer_named(const std::string &name);
+
+/* Where in a step an extension may launch, in the order of the step. A step that overflows runs again from its begin.
+ * Inside a step, therefore, kernels write SCRATCH alone (the pipeline's solver_ and manifold_ buffers are), or KEPT,
+ * which decides no bit. What lasts is written at the commit, over COMMIT_ items: an attempt that runs again has none. */
 enum class StepPoint : uint8_t {
   begin,       /* bodies are prepared: solver_velocity and solver_inertia are as the last step left the bodies */
   pairs,       /* pair_a and pair_b list the pairs that may touch, sorted */
@@ -34,14 +38,18 @@ enum class StepPoint : uint8_t {
   constraints, /* constraints stand in the order of their colours */
   forces,      /* in each substep, before gravity: what is added to solver_velocity is pushed along */
   solved,      /* solver_velocity and solver_delta_pose are the step's result, not checked yet */
-  commit       /* the step is whole; STATE and CACHE buffers of the module are written from their previous_ sides */
+  commit       /* STATE and CACHE buffers of the module are written, all items, from their previous_ sides; what no
+                  kernel writes in a step stays as it was */
 };
 
 /* What an extension is given at a point of the step. */
 class Launches {
 public:
   virtual ~Launches() = default;
-  /* A kernel over the items of its row. values, slots: for the VALUE and SLOT_ arguments of the row, in its order. */
+  /* A kernel of the extension's modules over the items of its row; nothing if it is for a feature that the scene lacks.
+   * values, slots: for the VALUE and SLOT_ arguments of the row, in its order. InputError says what does not fit: a
+   * kernel of no extension, other numbers of arguments, a slot of another type or with room for fewer items, a buffer
+   * of capacity NOTHING before it is written, what may not be written here. */
   virtual void run(Kernel kernel, std::span<const uint32_t> values = {}, std::span<const Buffer> slots = {}) = 0;
   virtual const Settings &settings() const = 0;
 };

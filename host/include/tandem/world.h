@@ -121,11 +121,13 @@ public:
 
   /* Modules of Settings::extensions, between steps: a kernel over the items of its row, and the module's buffers.
    * InputError names the kernel or buffer where it is of no such module, or where the bytes do not fit; a buffer of
-   * capacity NOTHING takes any number of items. What is written counts from the next launch on. */
+   * capacity NOTHING takes any number of items. What is written counts from the next launch on. Before the first step
+   * there are no COMMIT_ items, and no pairs. */
   void run(Kernel kernel, std::span<const uint32_t> values = {}, std::span<const Buffer> slots = {});
   template <class T> void write(Buffer buffer, std::span<const T> values, size_t first = 0)
   {
-    write_bytes(buffer, values.data(), values.size_bytes(), first * sizeof(T));
+    write_bytes(buffer, values.data(), values.size_bytes(),
+                first > SIZE_MAX / sizeof(T) ? SIZE_MAX : first * sizeof(T));
   }
   /* Any buffer that this world has, the pipeline's too, whole: as the last launch left it. */
   template <class T> std::vector<T> read(Buffer buffer)
@@ -139,8 +141,10 @@ public:
   void read_bytes(Buffer buffer, void *to, size_t bytes);
 
   Statistics statistics();
-  uint64_t state_hash(); /* bodies, contact cache and counts: equal iff the next step will be equal */
-  uint64_t body_hash();  /* poses and velocities alone */
+  /* Bodies, the cache of contacts, and what is STATE or CACHE of modules. In worlds of equal scenes, settings and
+   * written buffers it is equal iff the next step will be equal. */
+  uint64_t state_hash();
+  uint64_t body_hash(); /* poses and velocities alone */
   const std::vector<Quarantine> &quarantined() const;
   const std::optional<BatchFault> &batch_fault() const; /* the first so far; only with Settings::check */
 

@@ -32,6 +32,7 @@ const SolverRow &row_of(Solver solver) { return row_in(solvers(), solver); }
 
 Settings settings_for(Solver solver)
 {
+  name_of(solver); /* InputError where there is none of this number */
   Settings settings;
   settings.solver = solver;
   settings.substeps = row_of(solver).substeps;

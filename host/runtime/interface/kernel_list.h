@@ -103,6 +103,7 @@ struct Argument {
   Access access;
   Buffer buffer; /* Kind::buffer only */
   const char *name;
+  Element element = Element::uint; /* of Kind::slot; that of a buffer stands in its own row */
 };
 
 constexpr uint32_t items_given = 0xffffffffu; /* the launch names both ends of the range */

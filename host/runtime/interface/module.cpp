@@ -56,6 +56,9 @@ void check(const ModuleLists &lists, const Registry &known)
     if (row.execution == Execution::host)
       refuse(lists, std::string("kernel '") + row.name + "' is of execution HOST, which the pipeline's own are alone");
   for (const BufferRow &row : lists.buffers)
+    if (row.per_item == 0)
+      refuse(lists, std::string("buffer '") + row.name + "' has no elements per item; use 1 or more");
+  for (const BufferRow &row : lists.buffers)
     if (row.capacity == Capacity::NOTHING && (row.lifetime == Lifetime::STATE || row.lifetime == Lifetime::CACHE))
       refuse(lists, std::string("buffer '") + row.name + "' has capacity NOTHING, so its lifetime is SCENE or KEPT");
   check_names(lists, "kernel", lists.kernels, known.kernel_total, kernel_at);
@@ -100,8 +103,34 @@ const Module &add_module(const ModuleLists &lists)
 
 size_t module_count() { return registry().module_total; }
 const Module &module_at(size_t number) { return *registry().modules.at(number); }
-const KernelRow &row_of_module(Kernel kernel) { return *registry().kernels.at(index_of(kernel)); }
-const BufferRow &row_of_module(Buffer buffer) { return *registry().buffers.at(index_of(buffer)); }
+
+const KernelRow &row_of_module(Kernel kernel)
+{
+  if (index_of(kernel) >= all_kernels())
+    throw InputError("kernel " + std::to_string(index_of(kernel)) + " is of no module; take kernels from its header");
+  return *registry().kernels[index_of(kernel)];
+}
+
+const BufferRow &row_of_module(Buffer buffer)
+{
+  if (index_of(buffer) >= all_buffers())
+    throw InputError("buffer " + std::to_string(index_of(buffer)) + " is of no module; take buffers from its header");
+  return *registry().buffers[index_of(buffer)];
+}
+
+Kernel kernel_named(const std::string &name)
+{
+  for (size_t i = 0; i < all_kernels(); ++i)
+    if (name == row_of(kernel_at(i)).name) return kernel_at(i);
+  throw InputError("no kernel is called '" + name + "'; shared/kernels.def has the pipeline's");
+}
+
+Buffer buffer_named(const std::string &name)
+{
+  for (size_t i = 0; i < all_buffers(); ++i)
+    if (name == row_of(buffer_at(i)).name) return buffer_at(i);
+  throw InputError("no buffer is called '" + name + "'; shared/buffers.def has the pipeline's");
+}
 
 size_t all_kernels() { return registry().kernel_total; }
 size_t all_buffers() { return registry().buffer_total; }

@@ -13,8 +13,8 @@ int main()
   for (int i = 0; i < 1000; ++i) scene.bodies[i].position = {1.0 + i, 0, 0};
   tandem::Settings settings;
   settings.extensions = {{&wind::module(),
-      [](tandem::World &world) { world.write<float>(wind::buffer::wind_whirl, std::array{0.0f, 1.0f, 0.0f, 0.5f}); },
-      {{tandem::StepPoint::forces, [](tandem::Launches &launches) { launches.run(wind::kernel::blow); }}}}};
+      [](tandem::World &world) { world.write<float>(wind::buffer::wind_whirl(), std::array{0.0f, 1.0f, 0.0f, 0.5f}); },
+      {{tandem::StepPoint::forces, [](tandem::Launches &launches) { launches.run(wind::kernel::blow()); }}}}};
   tandem::World world(scene, settings, {"tbb"});
   world.step(); /* four substeps: the wind is -1 m/s along z, one metre from its axis */
   const float speed = world.bodies()[0].linear_velocity[2], expected = -1 + std::pow(1 + 0.5f / 240, -4.0f);
