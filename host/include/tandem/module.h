@@ -30,7 +30,8 @@ TANDEM_API Buffer buffer_named(const std::string &name);
 
 /* Where in a step an extension may launch, in the order of the step. A step that overflows runs again from its begin.
  * Inside a step, therefore, kernels write SCRATCH alone (the pipeline's solver_ and manifold_ buffers are), or KEPT,
- * which decides no bit. What lasts is written at the commit, over COMMIT_ items: an attempt that runs again has none. */
+ * which decides no bit. What lasts is written at the commit, over COMMIT_ items: an attempt that runs again has none.
+ */
 enum class StepPoint : uint8_t {
   begin,       /* bodies are prepared: solver_velocity and solver_inertia are as the last step left the bodies */
   pairs,       /* pair_a and pair_b list the pairs that may touch, sorted */
