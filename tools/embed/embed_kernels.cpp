@@ -208,7 +208,10 @@ std::string rule_of(const std::string &target, const std::set<std::string> &file
     return text;
   };
   std::string rule = escaped(target) + ":";
-  for (const std::string &file : files) rule += " " + escaped(file);
+  for (const std::string &file : files) {
+    rule += ' ';
+    rule += escaped(file);
+  }
   return rule + "\n";
 }
 
