@@ -41,7 +41,14 @@ endfunction()
 
 if(TANDEM_SANITIZE MATCHES address)
   # Whole files of tests (Catch2's tag of a file), of which the command's run the instrumented program.
-  foreach(file IN LISTS reader_tests)
+  # Catch2 names a file without its folder, so files of one name are one test.
+  set(files)
+  foreach(path IN LISTS reader_tests)
+    cmake_path(GET path FILENAME file)
+    list(APPEND files ${file})
+  endforeach()
+  list(REMOVE_DUPLICATES files)
+  foreach(file IN LISTS files)
     sanitizer_test(${file} $<TARGET_FILE:tandem_tests> ${fail_without_tests} --filenames-as-tags "[#${file}]")
   endforeach()
 
