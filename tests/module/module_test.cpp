@@ -166,7 +166,8 @@ TEST_CASE("module: a group kernel takes the buffer that a launch names")
 
 TEST_CASE("module: its kernels are placed, profiled and compared as the pipeline's are")
 {
-  World world(balls(10), with(pushing(1)), {"tbb", parse_placement("probe=serial")});
+  const Settings settings = with(pushing(1)); /* which adds the module, so that its stage has a name */
+  World world(balls(10), settings, {"tbb", parse_placement("probe=serial")});
   world.set_profiling(true);
   world.step();
   uint64_t launches = 0;
@@ -255,7 +256,7 @@ TEST_CASE("module: what does not fit is refused by name")
   World plain(balls(3), {}, {"serial", {}}), world(balls(3), with(pushing(1)), {"serial", {}});
   const std::vector<float> four(4), five(5);
   CHECK_THAT(message_of([&] { plain.run(probe::kernel::probe_push()); }),
-             Contains("kernel 'probe_push' is of no module"));
+             Contains("kernel 'probe_push' cannot be launched: it is of no module"));
   CHECK_THAT(message_of([&] { plain.write<float>(probe::buffer::probe_force(), four); }), Contains("of no module"));
   CHECK_THAT(message_of([&] { world.write<float>(Buffer::body_velocity, four); }), Contains("'body_velocity'"));
   CHECK_THAT(message_of([&] { world.write<float>(probe::buffer::probe_force(), five); }),
@@ -289,6 +290,7 @@ TEST_CASE("module: lists are added once, and a name that is taken is refused")
 {
   const KernelRow mine{"module_test_kernel", own_stage, Execution::item, COUNT_BODIES, 0, {}};
   const BufferRow taken{"body_velocity", Element::float4, Capacity::BODIES, 1, 0, Lifetime::SCENE, ""};
+  CHECK(&probe::module() == &probe::module());
   const size_t modules = module_count();
   const auto added = [&](const char *name, std::span<const KernelRow> kernels, std::span<const BufferRow> buffers) {
     return message_of([&] { add_module({name, kernels, buffers, {}, nullptr}); });
