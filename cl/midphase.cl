@@ -1,7 +1,5 @@
 /* midphase.cl - entries of shared/midphase. */
 #include "cl/entry.h"
-#include "shared/midphase/leaf_pairs.h"
-#include "shared/midphase/subtree_pairs.h"
-#include "shared/midphase/internal_edges.h"
+#include "shared/midphase/kernels.h"
 
 ENTRIES(midphase)

@@ -1,6 +1,5 @@
 /* problem.cl - entries: frictional contact problems. */
 #include "cl/entry.h"
-#include "shared/problem/pass.h"
-#include "shared/problem/residual.h"
+#include "shared/problem/kernels.h"
 
 ENTRIES(problem)

@@ -1,6 +1,5 @@
 /* queries.cl - entries: rays and boxes against all bodies, between steps. */
 #include "cl/entry.h"
-#include "shared/queries/box_queries.h"
-#include "shared/queries/cast_rays.h"
+#include "shared/queries/kernels.h"
 
 ENTRIES(queries)

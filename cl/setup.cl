@@ -1,6 +1,5 @@
 /* setup.cl - entries: contact constraints. */
 #include "cl/entry.h"
-#include "shared/setup/contact.h"
-#include "shared/setup/rolling.h"
+#include "shared/setup/kernels.h"
 
 ENTRIES(setup)

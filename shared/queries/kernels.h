@@ -1,0 +1,12 @@
+/* kernels.h - rays and boxes against all bodies, between steps.
+ *
+ * cl/queries.cl and the widths of MiniCL (shared/kernels.h) include the kernels of this stage from here alone. */
+#ifndef TANDEM_SHARED_QUERIES_KERNELS_H
+#define TANDEM_SHARED_QUERIES_KERNELS_H
+
+#ifndef TANDEM_LANES /* ITEM and GROUP kernels take one item at a time */
+#include "shared/queries/box_queries.h"
+#include "shared/queries/cast_rays.h"
+#endif
+
+#endif
