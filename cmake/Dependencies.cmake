@@ -4,7 +4,6 @@ find_package(OpenCL REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(fmt REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(tinyobjloader REQUIRED)
 
@@ -14,5 +13,5 @@ if(TANDEM_BUILD_COMMAND)
 endif()
 
 add_library(tandem_dependencies INTERFACE)
-target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt spdlog::spdlog
+target_link_libraries(tandem_dependencies INTERFACE Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt
   TinyGLTF::TinyGLTF)

@@ -59,13 +59,12 @@ function(tandem_library)
 endfunction()
 
 # What is compiled into the libraries, so that who links Tandem::tandem needs TBB and OpenCL alone: headers of fmt
-# (host/base/format.cpp has the rest of it), spdlog and Eigen.
+# (host/base/format.cpp has the rest of it) and Eigen.
 add_library(tandem_compiled_in INTERFACE)
-foreach(package fmt::fmt spdlog::spdlog Eigen3::Eigen)
+foreach(package fmt::fmt Eigen3::Eigen)
   target_include_directories(tandem_compiled_in SYSTEM INTERFACE
     $<TARGET_PROPERTY:${package},INTERFACE_INCLUDE_DIRECTORIES>)
 endforeach()
-target_compile_definitions(tandem_compiled_in INTERFACE SPDLOG_FMT_EXTERNAL)
 
 file(GLOB_RECURSE HOST_SOURCES CONFIGURE_DEPENDS host/*.cpp)
 file(GLOB MINICL_SOURCES CONFIGURE_DEPENDS minicl/*.cpp minicl/finding/*.cpp)

@@ -1,7 +1,6 @@
 /* catalog.cpp - the rows of the catalogue, and the parser of `name:key=value,…`. */
 #include "host/catalog/catalog.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -16,8 +15,6 @@
 #include "host/catalog/shapes.h"
 #include "host/catalog/structures.h"
 #include "host/catalog/talks.h"
-#include "host/io/gltf/scene.h"
-#include "host/io/json/scene.h"
 
 namespace tandem {
 
@@ -335,16 +332,6 @@ std::string describe(const SceneSpec &spec)
   return text;
 }
 
-std::string lower_extension(const std::string &path)
-{
-  size_t dot = path.rfind('.');
-  if (dot == std::string::npos) return "";
-  std::string extension = path.substr(dot);
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return extension;
-}
-
 } // namespace
 
 std::span<const BuiltInScene> built_in_scenes() { return catalog(); }
@@ -372,14 +359,6 @@ Scene build_scene(const SceneSpec &spec)
   scene.name = describe(spec);
   validate(scene, scene.name);
   return scene;
-}
-
-Scene load_scene(const std::string &spec_or_path, OutsideFiles outside)
-{
-  std::string extension = lower_extension(spec_or_path);
-  if (extension == ".json") return read_scene_json(spec_or_path, outside);
-  if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path, outside);
-  return build_scene(parse_scene_spec(spec_or_path));
 }
 
 } // namespace tandem

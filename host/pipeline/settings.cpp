@@ -1,4 +1,4 @@
-/* settings.cpp - which settings and placements make sense; see settings.h. */
+/* settings.cpp - which settings make sense; see settings.h. */
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -14,7 +14,6 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/pipeline/solvers/solvers.h"
-#include "host/runtime/backend_list.h"
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/interface/module.h"
 #include "shared/body_codes.h"
@@ -114,22 +113,6 @@ void check_extensions(const std::vector<Extension> &extensions)
   }
 }
 
-bool names_stage_or_kernel(const std::string &name)
-{
-  for (size_t s = 0; s < all_stages(); ++s)
-    if (name == name_of(static_cast<Stage>(s))) return true;
-  for (size_t k = 0; k < all_kernels(); ++k)
-    if (name == row_of(kernel_at(k)).name) return true;
-  return false;
-}
-
-std::string stage_list()
-{
-  std::string list;
-  for (size_t s = 0; s < all_stages(); ++s) list += fmt::format("{}{}", s ? ", " : "", name_of(static_cast<Stage>(s)));
-  return list;
-}
-
 } // namespace
 
 template <Choice T> const char *name_of(T choice)
@@ -215,24 +198,6 @@ void validate(const Settings &settings)
   check_number("slop", settings.slop, "m", true);
   check_number("slop share", settings.slop_share, "(no unit)", true);
   check_number("restitution speed", settings.restitution_speed, "m/s", true);
-}
-
-std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)
-{
-  std::vector<std::pair<std::string, std::string>> exceptions;
-  for (const std::string &part : split_backends(text)) {
-    const size_t equals = part.find('=');
-    if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
-      throw InputError(fmt::format("placement '{}' is not STAGE=BACKEND", part));
-    const std::string place = part.substr(0, equals);
-    if (!names_stage_or_kernel(place))
-      throw InputError(
-          fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
-    if (std::any_of(exceptions.begin(), exceptions.end(), [&](const auto &given) { return given.first == place; }))
-      throw InputError(fmt::format("placement '{}': {} is given twice", text, place));
-    exceptions.emplace_back(place, part.substr(equals + 1));
-  }
-  return exceptions;
 }
 
 } // namespace tandem

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <tandem/round_to_float.h>
 #include <tandem/scene.h>
@@ -93,9 +92,9 @@ public:
   }
   ~ProblemSolver() { backend_.finish(); }
 
-  void iterate(const std::string &solver)
+  void iterate(ContactSolver solver)
   {
-    if (solver == "jacobi") return jacobi_pass();
+    if (solver == ContactSolver::jacobi) return jacobi_pass();
     for (uint32_t level = 0; level + 1 < levels_.start.size(); ++level)
       launcher_.launch({Kernel::problem_pass,
                         {},
@@ -103,7 +102,7 @@ public:
                         COUNT_TOTAL + level,
                         COUNT_TOTAL + level + 1,
                         levels_.start[level + 1] - levels_.start[level]});
-    if (solver == "nncg") conjugate();
+    if (solver == ContactSolver::nncg) conjugate();
   }
 
   double natural_residual()
@@ -214,10 +213,25 @@ private:
 
 } // namespace
 
-const std::vector<std::string> &contact_solver_names()
+const char *name_of(ContactSolver solver)
 {
-  static const std::vector<std::string> names = {"pgs", "nncg", "jacobi", "nsgs"};
-  return names;
+  switch (solver) {
+  case ContactSolver::pgs: return "pgs";
+  case ContactSolver::nncg: return "nncg";
+  case ContactSolver::jacobi: return "jacobi";
+  case ContactSolver::nsgs: return "nsgs";
+  }
+  throw InputError("a contact solver is none of the values of its enum");
+}
+
+ContactSolver parse_contact_solver(const std::string &name)
+{
+  std::string names;
+  for (const ContactSolver solver : all_contact_solvers) {
+    if (name == name_of(solver)) return solver;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(solver));
+  }
+  throw InputError(fmt::format("--solver '{}' is unknown; use {}", name, names));
 }
 
 /* W couples both ways in theory; a file may hold one of the two blocks alone, so both directions count. */
@@ -248,11 +262,8 @@ ContactLevels contact_levels(const ContactProblem &problem)
 ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,
                                       Backend &backend)
 {
-  const auto &names = contact_solver_names();
-  if (std::find(names.begin(), names.end(), settings.solver) == names.end())
-    throw InputError(fmt::format("--solver '{}' is unknown; use {}", settings.solver, fmt::join(names, ", ")));
   const double mean = mean_of_diagonal(problem);
-  if (settings.solver != "nsgs") check_range(problem, mean);
+  if (settings.solver != ContactSolver::nsgs) check_range(problem, mean);
   const Units units = units_of(problem, mean);
   ProblemSolver solver(in_units(problem, units), backend);
   ContactSolution solution;

@@ -5,6 +5,8 @@
  */
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,12 +17,16 @@
 
 namespace tandem {
 
-/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision: on the backend `reference` wherever asked
- * for. */
-const std::vector<std::string> &contact_solver_names();
+/* nsgs is pgs in double precision, which the backend `reference` has. */
+enum class ContactSolver : uint8_t { pgs, nncg, jacobi, nsgs };
+inline constexpr std::array all_contact_solvers = {ContactSolver::pgs, ContactSolver::nncg, ContactSolver::jacobi,
+                                                   ContactSolver::nsgs};
+const char *name_of(ContactSolver solver);
+/* The solver of this name. InputError lists those that there are. */
+ContactSolver parse_contact_solver(const std::string &name);
 
 struct ContactSolverSettings {
-  std::string solver = "pgs"; /* InputError for any other than contact_solver_names() */
+  ContactSolver solver = ContactSolver::pgs;
   double tolerance = 1e-3;    /* relative natural-map residual at which to stop, >= 0 */
   uint32_t iterations = 1000; /* passes at most */
 };

@@ -37,6 +37,7 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
 void World::Implementation::write(Buffer buffer, const void *from, size_t bytes, size_t offset)
 {
   check_write(buffer, bytes, offset);
+  restore_bodies(); /* where the last attempt of a step could not: not over what is written now */
   if (!is_sized_by_writes(buffer) || memory.bytes(buffer) == bytes) return memory.upload(buffer, from, bytes, offset);
   memory.assign(buffer, from, bytes);
   buffers.changed();

@@ -48,9 +48,8 @@ Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
 }
 
 /* All that can fail comes before the first change of what is placed. */
-void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
+void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels)
 {
-  Placement changed = placement;
   std::map<Backend *, std::vector<Kernel>> own;
   for (Kernel kernel : kernels) own[&for_kernel(placement, kernel)].push_back(kernel);
   for (const auto &[backend, theirs] : own) backend->prepare(features_, theirs);
@@ -58,7 +57,13 @@ void PlacedBackends::place(const Placement &placement, const std::vector<Kernel>
   for (const auto &[backend, theirs] : own)
     for (Kernel kernel : theirs) placed[index_of(kernel)] = backend;
   placed_ = std::move(placed);
-  wanted_ = std::move(changed);
+}
+
+void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
+{
+  Placement wanted = placement; /* which may take memory that is not there */
+  assign(placement, kernels);
+  wanted_ = std::move(wanted);
 }
 
 Backend &PlacedBackends::of(Kernel kernel)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <tandem/settings.h>
+#include <tandem/backend.h>
 #include <tandem/world.h>
 
 #include "host/runtime/interface/backend.h"
@@ -20,7 +20,7 @@ public:
   /* Moves these kernels, and from their next launch on all others. InputError or a device's std::runtime_error leave
    * everything as it was. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
-  void place_again(const std::vector<Kernel> &kernels) { place(Placement(wanted_), kernels); }
+  void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels); }
   /* Kernels that place() did not name are built when they are first asked for, then kept. */
   Backend &of(Kernel kernel);
 
@@ -32,6 +32,7 @@ public:
   double build_milliseconds() const;
 
 private:
+  void assign(const Placement &placement, const std::vector<Kernel> &kernels);
   Backend &named(const std::string &text, bool allow_inexact);
   Backend &for_kernel(const Placement &placement, Kernel kernel);
 

@@ -2,6 +2,7 @@
  * step that fails leaves the state before it. */
 #include <algorithm>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -54,9 +55,11 @@ void World::Implementation::run_until_whole()
     turn_back();
     prepare_repetition(plan.known[COUNT_STATUS], may_forget);
   }
+  std::set<uint32_t> bodies;
+  for (const auto &[index, record] : taken_out) bodies.insert(index);
   throw std::runtime_error(
       fmt::format("it did not complete in {} repetitions, in which {} bodies did not stay finite (status {})",
-                  most_repetitions + taken_one_by_one, taken_out.size(), plan.known[COUNT_STATUS]));
+                  most_repetitions + taken_one_by_one, bodies.size(), plan.known[COUNT_STATUS]));
 }
 
 void World::Implementation::turn() noexcept

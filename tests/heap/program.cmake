@@ -6,8 +6,7 @@
 # tests do not.
 # Called by heap/command.cpp.
 set_source_files_properties(../tools/command/main.cpp PROPERTIES COMPILE_DEFINITIONS main=command_main)
-set(heap_sources heap/command.cpp heap/files.cpp heap/worlds.cpp heap/allocations.cpp main.cpp
-  ../tools/command/main.cpp)
+set(heap_sources heap/command.cpp heap/files.cpp heap/worlds.cpp heap/allocations.cpp ../tools/command/main.cpp)
 if(TANDEM_OBJECTS_FROM)
   string(REPLACE "../" "__/" heap_objects "${heap_sources}")
   list(TRANSFORM heap_objects REPLACE "(.+)" "${TANDEM_OBJECTS_FROM}/tests/CMakeFiles/tandem_heap_tests.dir/\\1.o")

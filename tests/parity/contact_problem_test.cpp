@@ -35,7 +35,7 @@ ContactProblem chain(uint32_t n)
 ContactSolution solved(const ContactProblem &problem, const std::string &solver, const std::string &on)
 {
   const auto backend = make_backend(on);
-  return solve_contact_problem(problem, {solver, 1e-9, 12}, *backend);
+  return solve_contact_problem(problem, {parse_contact_solver(solver), 1e-9, 12}, *backend);
 }
 
 void require_equal(const ContactProblem &problem, const std::vector<std::string> &backends)

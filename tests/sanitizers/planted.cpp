@@ -20,13 +20,6 @@ using namespace tandem;
 
 namespace {
 
-Buffer buffer_named(const std::string &name)
-{
-  for (size_t i = 0; i < buffer_count; ++i)
-    if (name == row_of(buffer_at(i)).name) return buffer_at(i);
-  throw InputError("no buffer is called " + name);
-}
-
 /* 64 bodies: whole vectors at every width, so that none is left to the scalar kernels. */
 void step_with(const std::string &name, const std::string &backend, size_t missing)
 {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <tandem/backend.h>
 #include <tandem/scene.h>
 #include <tandem/settings.h>
 

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <tandem/scene.h>
 
@@ -28,10 +27,7 @@ struct ContactProblemOptions {
 ContactSolverSettings settings_from(const ContactProblemOptions &options)
 {
   ContactSolverSettings settings;
-  settings.solver = options.solver;
-  const auto &names = contact_solver_names();
-  if (std::find(names.begin(), names.end(), options.solver) == names.end())
-    throw InputError(fmt::format("--solver '{}' is unknown; use {}", options.solver, fmt::join(names, ", ")));
+  settings.solver = parse_contact_solver(options.solver);
   settings.tolerance = real_number("--tolerance", options.tolerance);
   if (!(settings.tolerance > 0))
     throw InputError(fmt::format("--tolerance {}: must be above 0, as 1e-3", options.tolerance));

@@ -7,7 +7,7 @@
 #include <tandem/compare.h>
 
 #include "host/runtime/backend_list.h"
-#include "host/runtime/interface/kernel_list.h"
+#include "host/runtime/interface/module.h"
 #include "tools/command/command.h"
 #include "tools/command/output.h"
 #include "tools/command/progress.h"
@@ -53,20 +53,6 @@ std::vector<std::string> split(const std::string &text, char separator)
   return parts;
 }
 
-Kernel kernel_named(const std::string &name)
-{
-  for (size_t k = 0; k < kernel_count; ++k)
-    if (name == row_of(kernel_at(k)).name) return kernel_at(k);
-  throw InputError(fmt::format("--plant: no kernel '{}'; `tandem plan SCENE` lists them", name));
-}
-
-Buffer buffer_named(const std::string &name)
-{
-  for (size_t k = 0; k < buffer_count; ++k)
-    if (name == row_of(buffer_at(k)).name) return buffer_at(k);
-  throw InputError(fmt::format("--plant: no buffer '{}'; `tandem plan SCENE` lists them", name));
-}
-
 FaultInjector fault_injector(const std::string &text, size_t world, std::string &missing)
 {
   if (text.empty()) return {};
@@ -75,8 +61,12 @@ FaultInjector fault_injector(const std::string &text, size_t world, std::string 
     throw InputError(fmt::format("--plant '{}': use KERNEL:BUFFER:NUMBER[:STEP]", text));
   InjectedFault error;
   error.world = world;
-  error.kernel = kernel_named(parts[0]);
-  error.buffer = buffer_named(parts[1]);
+  const std::optional<Kernel> kernel = find_kernel(parts[0]);
+  const std::optional<Buffer> buffer = find_buffer(parts[1]);
+  if (!kernel) throw InputError(fmt::format("--plant: no kernel '{}'; `tandem plan SCENE` lists them", parts[0]));
+  if (!buffer) throw InputError(fmt::format("--plant: no buffer '{}'; `tandem plan SCENE` lists them", parts[1]));
+  error.kernel = *kernel;
+  error.buffer = *buffer;
   error.scalar = whole_number("--plant, number", parts[2], 0, uint64_t{1} << 40);
   if (parts.size() == 4) error.step = whole_number("--plant, step", parts[3], 0, 1'000'000'000);
   return inject_fault(error, &missing);

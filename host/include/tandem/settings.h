@@ -4,7 +4,6 @@
 #include <concepts>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <tandem/export.h>
@@ -87,16 +86,5 @@ TANDEM_API Settings settings_for(Solver solver);
 
 /* InputError if a number is out of range or a choice none of its enum's values. */
 TANDEM_API void validate(const Settings &settings);
-
-/* Which backend runs what: one for all, and exceptions by stage ("narrowphase") or kernel name. */
-struct Placement {
-  std::string on = "tbb";
-  std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
-  bool allow_inexact = false;                                  /* accept a device whose results may differ in bits */
-};
-
-/* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='
- * too, so its options are told apart by their names). InputError on unknown stages. */
-TANDEM_API std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text);
 
 } // namespace tandem

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include <tandem/backend.h>
 #include <tandem/events.h>
 #include <tandem/export.h>
 #include <tandem/features.h>

@@ -55,12 +55,12 @@ void check(const ModuleLists &lists, const Registry &known)
   for (const KernelRow &row : lists.kernels)
     if (row.execution == Execution::host)
       refuse(lists, std::string("kernel '") + row.name + "' is of execution HOST, which the pipeline's own are alone");
-  for (const BufferRow &row : lists.buffers)
+  for (const BufferRow &row : lists.buffers) {
     if (row.per_item == 0)
       refuse(lists, std::string("buffer '") + row.name + "' has no elements per item; use 1 or more");
-  for (const BufferRow &row : lists.buffers)
     if (row.capacity == Capacity::NOTHING && (row.lifetime == Lifetime::STATE || row.lifetime == Lifetime::CACHE))
       refuse(lists, std::string("buffer '") + row.name + "' has capacity NOTHING, so its lifetime is SCENE or KEPT");
+  }
   check_names(lists, "kernel", lists.kernels, known.kernel_total, kernel_at);
   check_names(lists, "buffer", lists.buffers, known.buffer_total, buffer_at);
 }
@@ -118,17 +118,29 @@ const BufferRow &row_of_module(Buffer buffer)
   return *registry().buffers[index_of(buffer)];
 }
 
-Kernel kernel_named(const std::string &name)
+std::optional<Kernel> find_kernel(const std::string &name)
 {
   for (size_t i = 0; i < all_kernels(); ++i)
     if (name == row_of(kernel_at(i)).name) return kernel_at(i);
+  return std::nullopt;
+}
+
+std::optional<Buffer> find_buffer(const std::string &name)
+{
+  for (size_t i = 0; i < all_buffers(); ++i)
+    if (name == row_of(buffer_at(i)).name) return buffer_at(i);
+  return std::nullopt;
+}
+
+Kernel kernel_named(const std::string &name)
+{
+  if (const std::optional<Kernel> kernel = find_kernel(name)) return *kernel;
   throw InputError("no kernel is called '" + name + "'; shared/kernels.def has the pipeline's");
 }
 
 Buffer buffer_named(const std::string &name)
 {
-  for (size_t i = 0; i < all_buffers(); ++i)
-    if (name == row_of(buffer_at(i)).name) return buffer_at(i);
+  if (const std::optional<Buffer> buffer = find_buffer(name)) return *buffer;
   throw InputError("no buffer is called '" + name + "'; shared/buffers.def has the pipeline's");
 }
 

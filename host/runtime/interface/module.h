@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -80,6 +81,9 @@ TANDEM_API const Module &add_module(const ModuleLists &lists);
 
 size_t module_count();
 const Module &module_at(size_t number); /* in the order in which they were added */
+/* By the name in any module's list. */
+TANDEM_API std::optional<Kernel> find_kernel(const std::string &name);
+TANDEM_API std::optional<Buffer> find_buffer(const std::string &name);
 const KernelRow &row_of_module(Kernel kernel);
 const BufferRow &row_of_module(Buffer buffer);
 

@@ -3,14 +3,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 namespace tandem::opencl {
@@ -43,12 +42,7 @@ files::path cache_directory()
 }
 
 /* Standard output belongs to results (--json -), so warnings go to standard error. */
-void warn(const std::string &message)
-{
-  static const auto logger =
-      std::make_shared<spdlog::logger>("tandem", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  logger->warn(message);
-}
+void warn(const std::string &message) { fmt::print(stderr, "tandem: warning: {}\n", message); }
 
 void warn_unwritable(const files::path &directory)
 {

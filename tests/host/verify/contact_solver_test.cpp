@@ -22,7 +22,7 @@ ContactSolution solved(const ContactProblem &problem, const std::string &solver,
                        double tolerance)
 {
   const auto backend = make_backend(on);
-  return solve_contact_problem(problem, {solver, tolerance, 100'000}, *backend);
+  return solve_contact_problem(problem, {parse_contact_solver(solver), tolerance, 100'000}, *backend);
 }
 
 void check_impulse(const std::array<double, 3> &impulse, const std::array<double, 3> &expected)
@@ -34,7 +34,8 @@ void check_impulse(const std::array<double, 3> &impulse, const std::array<double
 
 TEST_CASE("contact problem: every solver finds the impulses of closed forms")
 {
-  for (const std::string &solver : contact_solver_names()) {
+  for (const ContactSolver choice : all_contact_solvers) {
+    const std::string solver = name_of(choice);
     CAPTURE(solver);
     const auto impulse = [&](const char *file) {
       return solved(read_contact_problem(scenes + file), solver, "reference", 1e-8).impulse;
@@ -63,10 +64,11 @@ TEST_CASE("contact problem: solutions and residuals agree with the dense oracle"
     const ContactProblem problem = read_contact_problem(scenes + file);
     const DenseProblem dense(problem);
     const Eigen::VectorXd expected = dense.velocity(dense.fixed_point());
-    for (const std::string &solver : contact_solver_names()) {
+    for (const ContactSolver choice : all_contact_solvers) {
+      const std::string solver = name_of(choice);
       CAPTURE(file, solver);
       const auto backend = make_backend("reference");
-      const ContactSolution early = solve_contact_problem(problem, {solver, 1e-12, 2}, *backend);
+      const ContactSolution early = solve_contact_problem(problem, {choice, 1e-12, 2}, *backend);
       CHECK(early.residuals.natural_map ==
             Approx(dense.natural_residual(vector_of(early.impulse))).epsilon(1e-5).margin(1e-7));
       const ContactSolution last = solved(problem, solver, "reference", 1e-7);
@@ -175,7 +177,7 @@ TEST_CASE("contact problem: Siconos's problems take the published numbers of swe
   }
   for (const char *file : {"Rover1039.dat", "Rover4613.dat"}) {
     const ContactProblem problem = read_contact_problem((folder / file).string());
-    for (const std::string &solver : contact_solver_names())
-      CHECK(solved(problem, solver, "reference", 1e-3).converged);
+    for (const ContactSolver solver : all_contact_solvers)
+      CHECK(solved(problem, name_of(solver), "reference", 1e-3).converged);
   }
 }

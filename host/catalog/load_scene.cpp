@@ -1,0 +1,34 @@
+/* load_scene.cpp - a scene by its name in the catalogue or by the path of its file, whichever it is. */
+#include <tandem/load_scene.h>
+
+#include <algorithm>
+#include <string>
+
+#include "host/catalog/catalog.h"
+#include "host/io/gltf/scene.h"
+#include "host/io/json/scene.h"
+
+namespace tandem {
+namespace {
+
+std::string lower_extension(const std::string &path)
+{
+  size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return "";
+  std::string extension = path.substr(dot);
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return extension;
+}
+
+} // namespace
+
+Scene load_scene(const std::string &spec_or_path, OutsideFiles outside)
+{
+  std::string extension = lower_extension(spec_or_path);
+  if (extension == ".json") return read_scene_json(spec_or_path, outside);
+  if (extension == ".gltf" || extension == ".glb") return read_scene_gltf(spec_or_path, outside);
+  return build_scene(parse_scene_spec(spec_or_path));
+}
+
+} // namespace tandem
