@@ -1,8 +1,8 @@
 /* counts.h - the counts that only the device knows, in one array of uint.
  *
- * Counts stay on the device: a kernel's range is [counts[first], counts[last]), so no stage waits
- * for the host. The host reads the array once, at the end of a step: reading after each stage would cost
- * more than most stages. */
+ * Counts stay on the device: the range of a kernel is [counts[first], counts[last]), so no stage waits for the host.
+ * The host reads the array once, at the end of a step, because a blocking read after each stage would cost more than
+ * most stages. */
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
@@ -23,8 +23,8 @@
 #define INDEX_NONE 0xffffffffu
 
 enum {
-  COUNT_ZERO,   /* always 0 */
-  COUNT_ONE,    /* always 1 */
+  COUNT_ZERO,   /* the constant 0 */
+  COUNT_ONE,    /* the constant 1 */
   COUNT_BODIES, /* bodies of the scene; set by the host */
   COUNT_BODIES_PLUS_ONE,
   COUNT_UNBOUNDED,  /* the first bodies: half-spaces; set by the host */
@@ -106,11 +106,11 @@ enum {
   STATUS_NONFINITE = 8 /* a body is not finite: quarantine it and run the step again */
 };
 
-/* Where a body was first seen to be non-finite, in pipeline order. */
+/* The stage that first saw a body non-finite, in pipeline order. */
 enum { NONFINITE_AT_START = 0, NONFINITE_IN_SOLVE = 1, NONFINITE_IN_INTEGRATE = 2 };
 
-/* Stands beside the count of a manifold's points until a kernel of its own has followed the pair
- * (narrowphase/time_of_impact.h). */
+/* A flag beside the number of a manifold's points. It stays until a kernel of its own has followed the pair to its
+ * impact (narrowphase/time_of_impact.h). */
 #define TO_FOLLOW 8u
 
 #endif

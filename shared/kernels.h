@@ -1,4 +1,4 @@
-/* kernels.h - every shared kernel, in pipeline order; or those of one part of minicl/width.inc. */
+/* kernels.h - every shared kernel, in pipeline order, or the kernels of one part of minicl/width.inc. */
 #ifndef TANDEM_SHARED_KERNELS_H
 #define TANDEM_SHARED_KERNELS_H
 

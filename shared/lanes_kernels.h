@@ -1,5 +1,5 @@
-/* lanes_kernels.h - the shared kernels that are written at any width (LANES in kernels.def); all, or those of one part
- * of minicl/width.inc. */
+/* lanes_kernels.h - the shared kernels that are written for any width (LANES in kernels.def): all of them, or those of
+ * one part of minicl/width.inc. */
 #ifndef TANDEM_SHARED_LANES_KERNELS_H
 #define TANDEM_SHARED_LANES_KERNELS_H
 
