@@ -1,5 +1,5 @@
-/* files.cpp - every allocation fails in turn while scenes are read, built and written: a full memory is not a wrong
- * file, what was there is there still, and nothing half made is. */
+/* files.cpp - lets every allocation fail in turn while scenes are read, built and written. Exhausted memory must not be
+ * reported as a wrong file, existing files must stay, and no partial file may appear. */
 #include <functional>
 #include <string>
 #include <vector>

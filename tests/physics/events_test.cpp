@@ -1,5 +1,4 @@
-/* Contact events: when they come, what they carry against closed forms and momentum, and all of them against an
- * oracle. */
+/* Contact events: their times, their values against closed forms and momentum, and all of them against an oracle. */
 #include <cstdint>
 #include <limits>
 #include <map>

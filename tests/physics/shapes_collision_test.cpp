@@ -1,4 +1,4 @@
-/* Solids that meet: what is conserved, what is lost, and that piles of every shape are carried. */
+/* Collisions of all shapes: conserved quantities, losses, and piles of every shape that must be carried. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"

@@ -1,4 +1,4 @@
-/* The solvers that work on positions, xpbd and avbd, each held to the same table of physics. */
+/* The position-based solvers xpbd and avbd, both with one table of physical tests. */
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "tests/catch.h"

@@ -1,4 +1,4 @@
-/* Triggers: who is reported, from when to when against closed forms, and that nothing is pushed. */
+/* Triggers: the bodies that are reported, from when to when against closed forms, and that no body is pushed. */
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
 

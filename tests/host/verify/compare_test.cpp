@@ -1,4 +1,4 @@
-/* compare_test.cpp - the comparison proves itself: errors of one ulp are planted and must be found. */
+/* compare_test.cpp - the comparison of backends must find planted errors of one ulp. */
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-/* Rays through everything, rays that are merely blocked, and boxes: against one world a body, and boxes in double
+/* Rays that report all hits, rays that report any, and boxes: against a world for each body, and boxes in double
  * precision. */
 #include <limits>
 

@@ -1,5 +1,4 @@
-/* Queries give the same bits whatever structure they walk: the hierarchy, the uniform grid, or every body one by
- * one. */
+/* Queries give the same bits with every structure: the hierarchy, the uniform grid, or every body one by one. */
 #include <cstring>
 #include <limits>
 

@@ -1,5 +1,5 @@
-/* Rays and shape casts against meshes and compounds: every triangle and child one by one in double precision is the
- * oracle. */
+/* Rays and shape casts against meshes and compounds. The oracle tests every triangle and child one by one in double
+ * precision. */
 #include "host/geometry/triangle_mesh.h"
 #include "host/world/queries.h"
 #include "tests/catch.h"

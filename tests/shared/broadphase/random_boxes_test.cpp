@@ -1,6 +1,6 @@
 /* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over
- * six decades, in one place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for
- * pairs. */
+ * six decades, coincident, in a row, in a plane, far away, without thickness, and dense clusters that exceed the pair
+ * capacity. */
 #include <cmath>
 
 #include "host/runtime/make_backend.h"

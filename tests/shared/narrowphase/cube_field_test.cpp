@@ -1,4 +1,4 @@
-/* Surfaces told as points and as fields over cubes: how wrong the heights are, and what contacts come of them. */
+/* Surfaces as points and as height fields over cubes: the errors of the heights, and the contacts that follow. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 

@@ -1,4 +1,4 @@
-/* The overlap of convex shapes against libccd (D. Fiser), where it is installed: an oracle that nobody here wrote. */
+/* The overlap of convex shapes against libccd (D. Fiser), if it is installed, as an independent oracle. */
 #include "tests/catch.h"
 
 #ifdef TANDEM_LIBCCD

@@ -1,5 +1,5 @@
-/* pair_lists_test.cpp - pairs by kind against a search over all of them, on every backend; and what the rows of
- * pairs.def say in the documents. */
+/* pair_lists_test.cpp - pairs by kind against a search over all pairs, on every backend; and the table of pairs.def in
+ * the documents. */
 #include <algorithm>
 #include <fstream>
 #include <sstream>

@@ -1,5 +1,5 @@
-/* broadphase_test.cpp - the inputs hold what they promise, pairs are those that two loops on the host count, and
- * a broadphase that loses one is found out. */
+/* broadphase_test.cpp - the inputs have the properties that they promise, the pairs are those of two loops on the host,
+ * and a broadphase that loses one is detected. */
 #ifdef TANDEM_COMMAND
 #include "host/runtime/make_backend.h"
 #include "tests/catch.h"

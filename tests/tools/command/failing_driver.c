@@ -1,5 +1,5 @@
-/* failing_driver.c - an OpenCL driver that does not survive the question for its platforms, as PoCL does not in a
- * container without /sys. FAILING_DRIVER: abort, crash, exit or hang; anything else: it has no platform. */
+/* failing_driver.c - an OpenCL driver that does not survive a query for its platforms, as PoCL does not in a container
+ * without /sys. FAILING_DRIVER: abort, crash, exit or hang; with any other value it has no platform. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>

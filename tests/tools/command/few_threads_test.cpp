@@ -1,5 +1,5 @@
-/* few_threads_test.cpp - where threads cannot be started: a run goes on with those that can, with the same bits, and
- * says so. */
+/* few_threads_test.cpp - if threads cannot be started, a run continues with those that can, gives the same bits, and
+ * reports it. */
 #include <functional>
 
 #include <sys/resource.h>

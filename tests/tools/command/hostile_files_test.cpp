@@ -1,5 +1,5 @@
-/* hostile_files_test.cpp - files that would crash, hang, escape or vanish: each gives one line and status 2, and
- * nothing is lost that stood there before. */
+/* hostile_files_test.cpp - files that could crash, hang, escape or vanish: each gives one line and status 2, and no
+ * existing file is lost. */
 #ifdef TANDEM_COMMAND
 #include <csignal>
 #include <set>

@@ -1,4 +1,4 @@
-/* The real program under a limit of memory: one line that says what was wanted, exit status 1, and never a crash. */
+/* The real program under a memory limit: one line that names the operation, exit status 1, and never a crash. */
 #if defined(TANDEM_COMMAND) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <algorithm>
 #include <regex>

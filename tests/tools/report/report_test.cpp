@@ -1,4 +1,4 @@
-/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report looked at in a
+/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report opened in a
  * browser. */
 #ifdef TANDEM_COMMAND
 #include <algorithm>

@@ -1,7 +1,7 @@
 /* stability_test.cpp - the cases of `tandem stability` can pass, and every figure can fail.
  *
- * A check that cannot fail is a defect: each figure is shown a motion that is wrong, planted by hand, and must leave
- * its bound. All cases run with the default solver, and all but five, which take minutes, at full length.
+ * A check that cannot fail is a defect: each figure is given a wrong motion, planted by hand, and must exceed its
+ * bound. All cases run with the default solver, and all but five, which take minutes, run at full length.
  */
 #ifdef TANDEM_COMMAND
 #include <limits>

@@ -1,5 +1,5 @@
-/* Solids of glTF bodies: compounds of several colliders, meshes with dents and holes, planes with an end, round shapes
- * scaled unevenly, mirrored nodes. Masses and places against closed forms. */
+/* Shapes of glTF bodies: compounds of several colliders, meshes with dents and holes, finite planes, round shapes with
+ * uneven scale, mirrored nodes. Masses and poses are checked against closed forms. */
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"

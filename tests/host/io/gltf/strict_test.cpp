@@ -1,5 +1,5 @@
-/* strict_test.cpp - values of wrong types, lengths and ranges in all that physics reads of a glTF file: each
- * is refused in one line that names its place. What only renders may be anything. */
+/* strict_test.cpp - values of wrong types, lengths and ranges in everything that physics reads from a glTF file: each
+ * is refused in one line that names its place. Members that only concern rendering may have any value. */
 #include "host/geometry/convex_hull.h"
 #include "tests/catch.h"
 #include "tests/host/io/gltf/gltf_text.h"

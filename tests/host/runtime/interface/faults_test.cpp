@@ -1,8 +1,7 @@
-/* What may fail is made to fail, one place after the other, until a run gets through: a step happens whole or not at
- * all.
+/* Every operation that may fail fails in turn, until a run succeeds: a step happens whole or not at all.
  *
- * After SQLite's out-of-memory tests. A failed call must say what was wanted, leave the state as it was, and leave a
- * world that goes on with the bits of one that nothing ever happened to. */
+ * The method is that of SQLite's out-of-memory tests. A failed call must name the operation, leave the state unchanged,
+ * and leave a world that continues with the bits of a world without failures. */
 #include <array>
 #include <atomic>
 #include <cstdlib>
