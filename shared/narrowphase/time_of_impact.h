@@ -360,7 +360,7 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
       choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
   approaching_points points = approach_of_points(parameters, m, offset, moves);
   mask swings = met.a_swings | met.b_swings, turned_into = swings & (!swings);
-  /* Arms of another moment than the start are off by what is slid until then, or after it, and so turn either way. */
+  /* The arms of a moment other than the start are off by the sliding until then or after it, and so turn either way. */
   real farthest = choose(met.at_impact, maximum(met.time / parameters->step, (real)R(1.0)), (real)R(1.0));
   real either_way = points.by_slide.either_way * farthest;
   real toward = choose(met.at_impact, either_way, points.by_slide.toward);
