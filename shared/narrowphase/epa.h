@@ -20,7 +20,7 @@
  *        .' `.          p    the support point beyond the nearest face
  *      .'     `.        ==   the faces that p sees, which are removed
  *     o===.===o         .'   the new faces, one for each edge of the hole
- *    /         \
+ *    /  (old)  \        o    the edges of the hole
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_EPA_H
 #define TANDEM_SHARED_NARROWPHASE_EPA_H

@@ -13,9 +13,9 @@
  * Detection", 2005, section 9.5):
  *
  *             \ a /              The origin lies in the Voronoi region of a vertex (a b c), an edge (ab bc ca) or the
- *              \./               face (abc), and the nearest point lies on that feature. The points of the simplex
- *         ab   / \   ca          that do not belong to the feature are removed (keep_carriers).
- *             /   \
+ *              \./               face (abc), and the nearest point lies on that feature. The points of the simplex that
+ *         ab   / \   ca          do not belong to the feature are removed (keep_carriers). The Voronoi regions meet at
+ *             /   \              lines through the vertices that are perpendicular to the edges.
  *       `.   / abc \   .'
  *     b   `./_______\.'   c
  *          |   bc    |
