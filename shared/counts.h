@@ -37,7 +37,7 @@ enum {
   COUNT_INSERTED,   /* leaves whose order is rebuilt in this step: none, or all (of the hybrid the large ones) */
   COUNT_INSERTED_LEAVES, /* leaves of the pyramid in a step that does so */
   COUNT_RAISED,          /* leaves above which boxes are rebuilt: all, or none */
-  COUNT_ESCAPED,         /* leaves that have left the boxes they were inserted with */
+  COUNT_ESCAPED,         /* leaves that no longer overlap the boxes they were inserted with */
   COUNT_KEPT, /* 1 while the data that a broadphase keeps from step to step are valid; cleared by the host when buffers
                  grow or bodies change */
   COUNT_HIERARCHY_KEPT,   /* 1 while the order of the hierarchy is valid */

@@ -19,10 +19,10 @@
  * links of a slot are its two children, the slot after its subtree (the second child of the node whose first child it
  * is), and its parent.
  *
- * The order and the links are kept from step to step and only the boxes are rebuilt, until one body in sixteen has left
- * the box that it was inserted with. A node also stores the lowest index of a body below it: a body searches only for
- * those before it, and skips the other subtrees. Half-spaces have no bounds; they come first of all bodies and are
- * tested against every body.
+ * The order and the links are kept from step to step and only the boxes are rebuilt, until one body in sixteen no
+ * longer overlaps the box that it was inserted with. A node also stores the lowest index of a body below it: a body
+ * searches only for those before it, and skips the other subtrees. Half-spaces have no bounds; they come first of all
+ * bodies and are tested against every body.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_H

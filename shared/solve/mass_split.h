@@ -30,8 +30,8 @@
 /* The partial sums of each body have a place of their own: a list of 32 entries needs less than two for each 32. */
 #define SPLIT_FIRST_SUM(start) ((start) >> 4u)
 
-/* The constraints of a body with static bodies carry all that rests on the body, so together they get as large a part
- * of it as all others together. */
+/* The constraints of a body with bodies that cannot be pushed carry all that rests on the body, so together they get as
+ * large a part of it as all others together. */
 SHARED real parts_of(GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
                      uint_lanes body, mask supported)
 {

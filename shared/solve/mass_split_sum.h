@@ -13,7 +13,7 @@
 
 #include "shared/solve/mass_split.h"
 
-/* Counts the constraints that each moving body has with static bodies. */
+/* Counts the constraints that each dynamic body has with bodies that cannot be pushed. */
 SHARED void split_count_static_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                     GLOBAL const uint *body_flags, GLOBAL uint *split_static_constraints, uint i)
 {
