@@ -97,7 +97,7 @@ std::optional<Row> row_of(const std::vector<Row> &table, const std::string &file
   return best;
 }
 
-/* Of the project's own files alone: public headers are included as <tandem/...>, all others from the root. */
+/* Only the project's own files are read: public headers are included as <tandem/...>, all others from the root. */
 std::optional<std::string> included_by(const std::string &line)
 {
   static const std::regex include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"].*");

@@ -164,7 +164,7 @@ BodyState spoilt(BodyState state)
 
 using Call = std::function<void(World &)>;
 
-/* What reads a world, or asks it for something, and changes nothing of its state. */
+/* Calls that read a world, or query it, and change nothing of its state. */
 std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
 {
   std::vector<std::pair<const char *, Call>> calls = {

@@ -27,7 +27,7 @@ private:
   unsigned saved_;
 };
 
-/* As an application does that sets it once on each of its workers. */
+/* Sets the mode on each worker, as an application does once. */
 void set_on_workers(unsigned word)
 {
   tbb::parallel_for(0, 64, [word](int) {

@@ -26,7 +26,7 @@ TEST_CASE("parity on OpenCL: every scene")
   for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
 }
 
-/* A device is told how many groups to run before it is known how many pairs the step has. */
+/* A device is given the number of groups to run before the number of pairs of the step is known. */
 TEST_CASE("parity on OpenCL: pairs that grow in number")
 {
   require_pocl();

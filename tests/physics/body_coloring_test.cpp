@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t uncolored = 0xffffffffu;
 
-/* By index of the body buffers. */
+/* The colours by index of the body buffers. */
 struct Coloring {
   std::vector<std::set<uint32_t>> neighbors;
   std::vector<bool> takes_part; /* moves and is touched */

@@ -59,7 +59,7 @@ Scene ball_above_ground(double height, float restitution)
   return scene;
 }
 
-/* Of the events of one step, as the oracle sees them. */
+/* Compares the events of one step with those of the oracle. */
 void require_oracle(World &world, const EventOracle &oracle)
 {
   std::map<std::pair<uint32_t, uint32_t>, Kind> expected;

@@ -82,7 +82,7 @@ void left_rests_right_sinks_to_its_upper_cube(Course &course)
 
 /* --- Materials --- */
 
-/* From the height 4 of the lowest point: bounces to e^2 of it. */
+/* A ball whose lowest point starts at height 4 bounces to e^2 of it. */
 double height_of_bounce(Course &course, size_t body)
 {
   double highest = 0;

@@ -50,7 +50,7 @@ struct Flight {
   Vector place(double time) const { return at + time * velocity + 0.5 * time * time * gravity; }
 };
 
-/* From the start on; no step of it is longer than a third of a millimetre unless the gap is. */
+/* The search begins at the start; no step of it is longer than a third of a millimetre unless the gap is. */
 double least_gap(const Form &a, const Form &b, const Flight &flight, double start, double end)
 {
   const double fastest = flight.velocity.norm() + std::max(-start, end) * flight.gravity.norm();

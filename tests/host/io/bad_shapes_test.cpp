@@ -100,7 +100,7 @@ std::vector<Row> rows()
   };
 }
 
-/* What a reader says: its complaint, or the warnings about the scene. */
+/* The message of a reader: its error, or the warnings about the scene. */
 struct Verdict {
   std::string complaint;
   std::vector<std::string> warnings;

@@ -27,7 +27,7 @@ Scene hulls()
   return scene;
 }
 
-/* What a World holds of them. */
+/* The contents of the buffers in a World. */
 struct Tables {
   explicit Tables(World &world)
   {

@@ -38,7 +38,7 @@ std::vector<Ray> rays_across(int n, double size, Random &random)
   return rays;
 }
 
-/* A world of one body alone knows nothing of an order; numbers in the scene stay. */
+/* A world of one body alone has no order of bodies; the indices in the scene stay. */
 std::vector<RayHit> hits_of_body_alone(const Scene &scene, uint32_t body, const std::vector<Ray> &rays)
 {
   Scene alone = scene;

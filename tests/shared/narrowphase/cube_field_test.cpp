@@ -91,7 +91,7 @@ TEST_CASE("cube field: a box on a larger one, and on one that it overhangs")
   Vector low = over.points[0], high = low;
   for (const Vector &p : over.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   CHECK((low - Vector(-1, 0.4995, -1.5)).cwiseAbs().maxCoeff() <
-        1.01); /* an edge is told by stretches of a quarter: 1 m */
+        1.01); /* an edge is sampled every quarter, each 1 m */
   CHECK((high - Vector(2, 0.4995, 2)).cwiseAbs().maxCoeff() < 1.01);
   CHECK(high.y() - low.y() < 1e-6);
   CHECK(std::min(high.x() - low.x(), high.z() - low.z()) > 1.9);

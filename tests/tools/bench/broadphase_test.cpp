@@ -46,7 +46,7 @@ double pairs_each(const char *input, uint32_t bodies)
   return double(frames.pairs()) / bodies;
 }
 
-/* Of the benchmark on 500 bodies of `pile`, with these. */
+/* The output of the benchmark on 500 bodies of `pile`, with these arguments. */
 std::vector<BroadphaseScene> bench_of(const std::vector<BroadphaseRow> &broadphases,
                                       const std::vector<uint32_t> &bodies = {500})
 {

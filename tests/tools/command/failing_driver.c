@@ -8,7 +8,7 @@
 
 void *clGetExtensionFunctionAddress(const char *name);
 
-/* Without the name that the loader asks for, as that is also one of the loader's own. */
+/* The function lacks the name that the loader looks up, because that is also one of the loader's own. */
 static int platforms_of(unsigned entries, void **platforms, unsigned *count)
 {
   const char *displacement = getenv("FAILING_DRIVER");

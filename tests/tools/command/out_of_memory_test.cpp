@@ -28,7 +28,7 @@ void check_one_line(const Result &result)
 
 } // namespace
 
-/* From what the loader alone does not fit in to what suffices. */
+/* The limits go from one that the loader alone exceeds to one that suffices. */
 TEST_CASE("a run that memory does not suffice for says in one line what was wanted")
 {
   int refused = 0;

@@ -86,7 +86,7 @@ std::string browser()
   return "";
 }
 
-/* What the page holds once its script has run. */
+/* The contents of the page after its script has run. */
 std::string page_in_browser(const std::string &query)
 {
   const Scratch profile;

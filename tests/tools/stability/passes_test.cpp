@@ -59,7 +59,7 @@ std::vector<Vector> utmost(const std::vector<Vector> &points, double sign)
   return found;
 }
 
-/* From p to the corner, or to the edge between the two. */
+/* The distance from p to the corner, or to the edge between the two. */
 double distance(const Vector &p, const std::vector<Vector> &top)
 {
   if (top.size() == 1) return (p - top[0]).norm();

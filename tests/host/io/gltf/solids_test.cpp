@@ -17,7 +17,7 @@ using Vector3 = Eigen::Vector3d;
 Vector3 vector3(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 Vector3 vector3(const Point &p) { return {p[0], p[1], p[2]}; }
 
-/* Where a child's frame stands in the world. */
+/* The pose of a child's frame in the world. */
 Vector3 place_in_world(const Body &body, const Child &child)
 {
   const Double3 in_body = place_of_child(body, child).position;
