@@ -1,4 +1,5 @@
-/* batching.cl - entries: matching with the last step, the batchers, and the proof of their batches. */
+/* batching.cl - OpenCL entries of the batchers: matching with the last step, colouring, and the check of the
+ * batches. */
 #include "cl/entry.h"
 #include "shared/batching/kernels.h"
 

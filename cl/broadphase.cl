@@ -1,4 +1,4 @@
-/* broadphase.cl - entries: bounds, and the broadphases over them. */
+/* broadphase.cl - OpenCL entries of the bounds, and of the broadphases over them. */
 #include "cl/entry.h"
 #include "shared/broadphase/kernels.h"
 

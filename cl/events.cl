@@ -1,4 +1,4 @@
-/* events.cl - entries: which pairs touch, and what the user is told of it. */
+/* events.cl - OpenCL entries of the events: which pairs touch, and the list that the user reads. */
 #include "cl/entry.h"
 #include "shared/events/kernels.h"
 

@@ -1,4 +1,4 @@
-/* midphase.cl - entries of shared/midphase. */
+/* midphase.cl - OpenCL entries of shared/midphase. */
 #include "cl/entry.h"
 #include "shared/midphase/kernels.h"
 

@@ -1,4 +1,4 @@
-/* narrowphase.cl - entries of the pair types in shared/narrowphase. */
+/* narrowphase.cl - OpenCL entries of the pair kernels in shared/narrowphase. */
 #include "cl/entry.h"
 #include "shared/narrowphase/kernels.h"
 

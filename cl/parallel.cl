@@ -1,4 +1,4 @@
-/* parallel.cl - entries of the primitives in shared/parallel. */
+/* parallel.cl - OpenCL entries of the primitives in shared/parallel. */
 #include "cl/entry.h"
 #include "shared/parallel/kernels.h"
 

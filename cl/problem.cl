@@ -1,4 +1,4 @@
-/* problem.cl - entries: frictional contact problems. */
+/* problem.cl - OpenCL entries of the frictional contact problems. */
 #include "cl/entry.h"
 #include "shared/problem/kernels.h"
 

@@ -1,4 +1,4 @@
-/* queries.cl - entries: rays and boxes against all bodies, between steps. */
+/* queries.cl - OpenCL entries of the queries between steps: rays and boxes against all bodies. */
 #include "cl/entry.h"
 #include "shared/queries/kernels.h"
 

@@ -1,4 +1,4 @@
-/* self_test.cl - entries of the device's self-test, shared/parallel/self_test.h. */
+/* self_test.cl - OpenCL entries of the device's self-test, shared/parallel/self_test.h. */
 #include "cl/entry.h"
 #include "shared/parallel/self_test.h"
 

@@ -1,4 +1,4 @@
-/* setup.cl - entries: contact constraints. */
+/* setup.cl - OpenCL entries of the setup of contact constraints. */
 #include "cl/entry.h"
 #include "shared/setup/kernels.h"
 

@@ -1,4 +1,4 @@
-/* solve.cl - entries: the contact solvers. */
+/* solve.cl - OpenCL entries of the contact solvers. */
 #include "cl/entry.h"
 #include "shared/solve/kernels.h"
 

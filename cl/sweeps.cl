@@ -1,4 +1,5 @@
-/* sweeps.cl - entries: a convex shape of any kind, also one that the scene lacks, on straight ways. */
+/* sweeps.cl - OpenCL entries of shape casts: a convex shape, also of a kind that the scene lacks, along straight
+ * paths. */
 #define ASKED_ABOUT_ANY_SHAPE
 #include "cl/entry.h"
 #include "shared/sweeps/kernels.h"

@@ -1,4 +1,4 @@
-/* dispatcher.cpp - splits a kernel's range over threads and lanes; see dispatcher.h. */
+/* dispatcher.cpp - splits the range of a kernel over threads and lanes; see dispatcher.h. */
 #include "minicl/dispatcher.h"
 
 #include <algorithm>
@@ -54,10 +54,10 @@ const KernelTable *lanes_table(uint32_t lanes)
 
 namespace {
 
-/* About how many items one task should have: small kernels stay on one thread. */
+/* The approximate number of items in a task; small kernels stay on one thread. */
 constexpr uint32_t items_per_task = 128;
 
-/* One item at a time. Width 1 keeps to the plain one, which parity tests compare the others with. */
+/* The table for one item at a time. Width 1 uses the plain one, with which parity tests compare the others. */
 Width scalar_width([[maybe_unused]] const Options &options)
 {
 #if !defined(TANDEM_PORTABLE_KERNELS_ONLY)
@@ -85,7 +85,7 @@ const KernelTable &pipeline_table(Width width)
   }
 }
 
-/* By the kernel's number, over all modules. */
+/* The functions of all modules, by the kernel's number. */
 std::vector<RunRange> ranges_of(Width width)
 {
   const KernelTable &pipeline = pipeline_table(width);
@@ -128,7 +128,7 @@ public:
 
   void run(const Launch &launch, const std::vector<BoundArgument> &bound, void *counts) override
   {
-    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* as where there is no room for a task */
+    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* as if there were no memory for a task */
     const auto start = std::chrono::steady_clock::now();
     const uint32_t *const count = static_cast<const uint32_t *>(counts);
     const KernelRow &row = row_of(launch.kernel);
@@ -139,7 +139,7 @@ public:
     const uint32_t first = count[launch.first], last = count[launch.last];
     if (row.execution == Execution::group) run_groups(launch.kernel, arguments_.data(), units_of(last - first, TILE));
     else if (last > first) run_items(launch.kernel, arguments_.data(), first, last);
-    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and where there was none for the last one */
+    if (faults::strikes(faults::Site::launch)) throw std::bad_alloc(); /* and as if there were none for the last task */
     if (!profiling_) return;
     Time &time = times_[index_of(launch.kernel)];
     time.nanoseconds += std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
@@ -170,8 +170,8 @@ private:
     else parallel(first, last, grain, tbb::auto_partitioner{}, range);
   }
 
-  /* Items in lanes take about as long as each other, and one pass of the solver is like the last: in equal shares each
-   * thread finds its own in its cache again. What takes as long as it takes is handed out in small pieces. */
+  /* Items in lanes take about equally long, and the passes of a solver are alike: with equal shares each thread finds
+   * its own items in its cache again. Kernels whose items differ are handed out in small pieces. */
   template <class Partitioner, class Body>
   void parallel(uint32_t first, uint32_t last, uint32_t grain, const Partitioner &partitioner, Body body)
   {
@@ -198,21 +198,21 @@ private:
     order.launch_ends();
   }
 
-  /* TBB complains of an arena that is larger than what it may start. */
+  /* TBB warns of an arena that is larger than the number of threads that it may start. */
   void open_arena()
   {
     const size_t granted = settle_threads();
     if (!arena_) arena_.emplace(static_cast<int>(std::min<size_t>(threads_, granted)));
   }
 
-  /* Without an order among threads, in which the thread sanitizer would then not see races. */
+  /* The bit is set without ordering threads, because the thread sanitizer would otherwise not see races. */
   void note_thread()
   {
     const uint32_t bit = uint32_t{1} << (tbb::this_task_arena::current_thread_index() % 32);
     if (!(threads_seen_.load(std::memory_order_relaxed) & bit)) threads_seen_.fetch_or(bit, std::memory_order_relaxed);
   }
 
-  /* Every item once, last to first or in an order without pattern: results must not notice. */
+  /* Runs every item once, from last to first or in an irregular order; results must not depend on it. */
   void run_permuted(RunRange run, void *const *arguments, uint32_t first, uint32_t last)
   {
     const ExactFloatingPoint environment;

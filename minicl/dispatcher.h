@@ -1,7 +1,7 @@
 /* dispatcher.h - MiniCL: runs the shared kernels on the CPU, in one thread or over TBB's.
  *
- * After the MiniCL of the 2009 talk, which compiled OpenCL kernels as regular C: here work-groups,
- * local memory and barriers work too (phase loops, shared/platform.h), and lanes make it fast.
+ * It follows the MiniCL of the 2009 talk, which compiled OpenCL kernels as regular C. Here work-groups, local memory
+ * and barriers work too (phase loops, shared/platform.h), and lanes make it fast.
  */
 #pragma once
 
@@ -22,8 +22,8 @@ struct Options {
 
 std::unique_ptr<Backend> make_backend(const std::string &name, const Options &options);
 
-/* How many threads have run items of launches that were split, so far: tests that watch threads ask whether there were
- * several. For backends of make_backend alone. */
+/* The number of threads that have run items of split launches so far, for tests that must know whether there were
+ * several. It applies to backends of make_backend only. */
 uint32_t threads_used(const Backend &backend);
 
 } // namespace tandem::minicl

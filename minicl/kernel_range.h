@@ -1,12 +1,12 @@
 /* kernel_range.h - turns a shared function of one item into a function over a range.
  *
- * The argument types are read from the shared function itself, so the tables need none. Included
- * inside the namespace of a width, after its shared headers.
+ * The argument types are deduced from the shared function itself, so the tables need none. The file is included inside
+ * the namespace of a width, after its shared headers.
  */
 #pragma once
 
-/* A buffer, a value of 4 bytes, or a struct of buffers (shared/argument_groups.h), which takes one argument for
- * each. */
+/* An argument is a buffer, a value of 4 bytes, or a struct of buffers (shared/argument_groups.h), which takes one
+ * pointer for each of its buffers. */
 template <class T> static inline T argument_as(void *const *arguments)
 {
   if constexpr (std::is_pointer_v<T>) return static_cast<T>(arguments[0]);
@@ -40,7 +40,7 @@ static inline void with_arguments(void *const *arguments, Body body, std::index_
   body(argument_as<typename Types::template type<k>>(arguments + Types::place_of(k))...);
 }
 
-/* The last parameter of an item function is the item. */
+/* The last parameter of an item function is the index of the item. */
 template <auto function> static void run_items(void *const *arguments, uint32_t first, uint32_t last)
 {
   constexpr size_t count = Signature<decltype(function)>::count - 1;
@@ -56,7 +56,7 @@ template <auto function> static void run_items(void *const *arguments, uint32_t 
       std::make_index_sequence<count>{});
 }
 
-/* The last two parameters of a group function are its local memory and its number. */
+/* The last two parameters of a group function are its local memory and its index. */
 template <auto function> static void run_groups(void *const *arguments, uint32_t first, uint32_t last)
 {
   constexpr size_t count = Signature<decltype(function)>::count - 2;

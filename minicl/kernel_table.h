@@ -1,7 +1,7 @@
 /* kernel_table.h - every kernel of a module as a plain function over a range of items.
  *
- * One table per width: scalar (items one at a time; once more for AVX2), backward (the same, with the phases of
- * work-groups walked in reverse), and 4, 8 and 16 lanes for kernels marked LANES.
+ * There is one table for each width: scalar (one item at a time; also compiled for AVX2), backward (one item at a time,
+ * with the phases of work-groups run in reverse), and 4, 8 and 16 lanes for kernels marked LANES.
  */
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace tandem::minicl {
 
-/* width.inc makes one of a module and a width. */
+/* The table of a module in one width, which width.inc defines. */
 struct KernelTable {
   uint32_t lanes;
-  const RunRange *run; /* by row; null, the whole or one: this width does not have it */
+  const RunRange *run; /* by kernel of the module; null, the array or an entry, if this width does not have it */
 };
 
-/* The pipeline's. */
+/* The tables of the pipeline. */
 
 extern const KernelTable scalar_kernels;
 extern const KernelTable scalar_avx2_kernels; /* the same, with AVX2 where the compiler has it */
@@ -27,9 +27,9 @@ extern const KernelTable lanes4_kernels;
 extern const KernelTable lanes8_kernels;
 extern const KernelTable lanes16_kernels;
 
-/* The widths this processor can run: 1, 4 and, where it has AVX2 / AVX-512, 8 / 16. */
+/* The most lanes that this processor can run: 4, or 8 / 16 if it has AVX2 / AVX-512. */
 uint32_t widest_lanes();
-/* The pipeline's table of 4, 8 or 16 lanes; null for width 1 or one this processor cannot run. */
+/* The pipeline's table for 4, 8 or 16 lanes; null for width 1 or a width that this processor cannot run. */
 const KernelTable *lanes_table(uint32_t lanes);
 
 } // namespace tandem::minicl

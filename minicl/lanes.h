@@ -1,16 +1,16 @@
 /* lanes.h - real, uint_lanes and mask over TANDEM_LANES = 4, 8 or 16 items of one kernel.
  *
- * The same shared source as shared/real.h serves, at 4 to 16 items an instruction: on one thread of a Xeon
- * with AVX-512 boxes collide 6 times as fast with 16 lanes as with one (`tandem bench narrowphase --pairs box-box
- * --on tbb:threads=1,lanes=16`). Lanes never mix, each operation rounds as the scalar one
- * does, so the bits are equal. Included inside a namespace of its width, after platform.h.
+ * The file gives the names of shared/real.h for 4 to 16 items an instruction. On one thread of a Xeon with AVX-512,
+ * boxes collide 6 times as fast with 16 lanes as with one (`tandem bench narrowphase --pairs box-box --on
+ * tbb:threads=1,lanes=16`). Lanes never mix and each operation rounds as the scalar one does, so the bits are equal.
+ * The file is included inside the namespace of its width, after platform.h.
  */
 #pragma once
 
 constexpr int width = TANDEM_LANES;
 
-/* A function that takes wide vectors on the stack wants the stack aligned for them, and GCC 12 has been seen to call
- * one from a frame that is not; so nothing that takes one is ever called. */
+/* A function that takes wide vectors on the stack needs an aligned stack, and GCC 12 has been seen to call one from a
+ * frame that is not aligned. All such functions are therefore inlined. */
 #undef SHARED
 #define SHARED static inline __attribute__((always_inline))
 
@@ -78,7 +78,7 @@ SHARED real choose(mask m, real a, real b) { return real(m.v ? a.v : b.v); }
 SHARED uint_lanes choose(mask m, uint_lanes a, uint_lanes b) { return uint_lanes(m.v ? a.v : b.v); }
 SHARED mask choose(mask m, mask a, mask b) { return {(m.v & a.v) | (~m.v & b.v)}; }
 
-/* Items first, first + 1, ...: what is loaded through it lies side by side. */
+/* The items first, first + 1, ...; memory indexed by it is consecutive. */
 struct item_index {
   uint32_t first;
   operator uint_lanes() const
@@ -178,7 +178,7 @@ SHARED void store_float4(float4 *to, uint_lanes i, vec4 value)
   for (int lane = 0; lane < width; ++lane) lanes[lane] = &to[at.of[lane]].x;
   scatter_quarters(lanes, transpose(value));
 }
-/* Lanes that must not write go to a spare float4: a body that cannot move is shared by many lanes and threads. */
+/* Lanes that must not write store to a spare float4, because many lanes and threads share a body that cannot move. */
 SHARED void store_float4_if(mask m, float4 *to, uint_lanes i, vec4 value)
 {
   const lane_numbers at = numbers_of(i);

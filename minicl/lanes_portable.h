@@ -1,4 +1,4 @@
-/* lanes_portable.h - the operations of lanes_x86.h one lane at a time, for other processors. */
+/* lanes_portable.h - the operations of lanes_x86.h, one lane at a time, for other processors. */
 #pragma once
 
 SHARED real square_root(real x)

@@ -1,5 +1,5 @@
-/* lanes_x86.h - what the vector types of the compiler cannot say: square roots, gathers and the
- * 4 x width transposes between records in memory and lanes in registers, for SSE2, AVX2, AVX-512.
+/* lanes_x86.h - the operations that the compiler's vector types lack: square roots, gathers and the 4 x width
+ * transposes between records in memory and lanes in registers, for SSE2, AVX2 and AVX-512.
  *
  *   memory, one record a lane            registers
  *   lane 0:  x0 y0 z0 w0                 x: x0 x1 x2 x3
@@ -68,7 +68,7 @@ SHARED quarter_rows halves_low(quarter_rows a, quarter_rows b) { return _mm_move
 SHARED quarter_rows halves_high(quarter_rows a, quarter_rows b) { return _mm_movehl_ps(b, a); }
 #endif
 
-/* The address sanitizer does not look into gathers: in its builds each lane loads by itself. */
+/* The address sanitizer does not check gathers, so in its builds each lane loads by itself. */
 #if TANDEM_LANES == 4 || defined(__SANITIZE_ADDRESS__)
 SHARED real load_real(const memory_real *from, uint_lanes i)
 {
@@ -134,7 +134,7 @@ SHARED quarters transpose(vec4 value)
           halves_high(xy_high, zw_high)};
 }
 
-/* Records that lie side by side: whole registers hold consecutive records, which are dealt out to quarters. */
+/* Consecutive records: whole registers hold consecutive records, which are dealt out to quarters. */
 #if TANDEM_LANES == 16
 SHARED quarters deal(__m512 a, __m512 b, __m512 c, __m512 d)
 {
@@ -148,7 +148,7 @@ SHARED quarters load_in_order(const float *from)
   return deal(_mm512_loadu_ps(from), _mm512_loadu_ps(from + 16), _mm512_loadu_ps(from + 32),
               _mm512_loadu_ps(from + 48));
 }
-/* Dealing is a transpose of 4 x 4 records, and so its own inverse. */
+/* Dealing is a transpose of 4 x 4 records, so it is its own inverse. */
 SHARED void store_in_order(float *to, quarters q)
 {
   const quarters whole = deal(q.a, q.b, q.c, q.d);

@@ -1,7 +1,7 @@
-/* reference.cpp - the same kernels with `real` = double: the truth that float results are measured against.
+/* reference.cpp - the kernels with `real` = double, by which the errors of float results are measured.
  *
- * Nothing here is compared bit for bit. Types of memory are wider too (shared/platform.h), so they live in this
- * namespace, and buffers are kept by minicl/reference_storage.h. */
+ * Nothing here is compared bit for bit. The types of memory are wider too (shared/platform.h), so they are in this
+ * namespace, and minicl/reference_storage.h keeps the buffers. */
 #include "minicl/kernel_table.h"
 #include "minicl/reference_storage.h"
 

@@ -1,4 +1,5 @@
-/* reference_storage.cpp - widens floats on the way in, rounds doubles on the way out; see reference_storage.h. */
+/* reference_storage.cpp - widens floats when buffers are written and rounds doubles when they are read; see
+ * reference_storage.h. */
 #include "minicl/reference_storage.h"
 
 #include <algorithm>
@@ -15,7 +16,8 @@
 namespace tandem::minicl {
 namespace {
 
-/* How one buffer lies in both precisions, in bytes of the host's copy: reals up to `reals_end`, then whole numbers. */
+/* The layout of one buffer in both precisions, in bytes of the host's copy: reals up to `reals_end`, then whole
+ * numbers. */
 struct Layout {
   size_t reals_end, bytes;
 };

@@ -1,7 +1,7 @@
-/* reference_storage.h - buffers of the reference backend: every real a double, every integer as it is.
+/* reference_storage.h - the buffers of the reference backend: every real is a double, every integer is unchanged.
  *
- * Moves widen and round, so any kernel can run in double in the middle of a float step, and a world that lives here
- * alone keeps full precision from step to step. */
+ * Transfers widen and round. Any kernel can therefore run in double in the middle of a float step, and a world on this
+ * backend alone keeps full precision from step to step. */
 #pragma once
 
 #include "host/runtime/interface/storage.h"
@@ -10,7 +10,7 @@ namespace tandem::minicl {
 
 Storage &reference_storage();
 
-/* Parameters in double: so many reals, then whole numbers as in float. */
+/* The layout of the parameters in double: a number of reals, then whole numbers as in float. */
 struct ParameterLayout {
   size_t reals, bytes;
 };

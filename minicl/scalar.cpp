@@ -1,3 +1,4 @@
-/* scalar.cpp - the reference: every kernel one item at a time, as gdb steps it. */
+/* scalar.cpp - every kernel one item at a time: the kernels that gdb steps through and other widths are compared
+ * with. */
 #define WIDTH scalar
 #include "minicl/width.inc"

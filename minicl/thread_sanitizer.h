@@ -1,17 +1,17 @@
-/* thread_sanitizer.h - tells the thread sanitizer what oneTBB orders.
+/* thread_sanitizer.h - informs the thread sanitizer of the order that oneTBB enforces.
  *
- * Distributions build oneTBB without instrumentation, so the sanitizer cannot see that a launch begins before its items
- * and that these end before the launch does: each launch would look like a race with the next. The four marks below say
- * just that, and nothing about the items among themselves, whose races stay visible, nor about any other launch: worlds
- * that step in different threads have no order. No code in other builds.
+ * Distributions build oneTBB without instrumentation. The sanitizer therefore cannot see that a launch begins before
+ * its items and ends after them, and each launch would look like a race with the next. The four marks below state this
+ * order and nothing else. Races among items stay visible, and so do races between launches of worlds that step in
+ * different threads. In other builds the file has no code.
  */
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)
 extern "C" void __tsan_acquire(void *address);
 extern "C" void __tsan_release(void *address);
-/* Of the function that marks items: where the launch's order lies it must read before there is one. What it calls is
- * watched. */
+/* An attribute for the function that marks items, because it must read the address of the order before there is an
+ * order. The functions that it calls are instrumented. */
 #define TANDEM_UNWATCHED __attribute__((no_sanitize_thread))
 #else
 #define TANDEM_UNWATCHED
@@ -19,7 +19,7 @@ extern "C" void __tsan_release(void *address);
 
 namespace tandem::minicl {
 
-/* One for each launch. */
+/* The order of one launch. */
 class LaunchOrder {
 public:
 #if defined(__SANITIZE_THREAD__)

@@ -1,4 +1,4 @@
-/* worker_threads.cpp - see worker_threads.h. */
+/* worker_threads.cpp - starts threads to find how many the machine grants; see worker_threads.h. */
 #include "minicl/worker_threads.h"
 
 #include <algorithm>
@@ -18,10 +18,11 @@
 namespace tandem::minicl {
 namespace {
 
-/* What the C library reserves of addresses for the heap of one thread, and twice as much for a moment to align it. */
+/* The addresses that the C library reserves for the heap of one thread; for a moment it takes twice as many, to align
+ * them. */
 constexpr size_t heap_bytes = size_t{128} << 20;
 
-/* Addresses that nothing else can have meanwhile, and no memory. */
+/* Reserves addresses, without memory, so that nothing else can take them meanwhile. */
 class Reservation {
 public:
   explicit Reservation(size_t bytes)
@@ -39,7 +40,7 @@ private:
   void *place_;
 };
 
-/* Threads that wait at a gate until all are there. They allocate nothing. */
+/* Threads that wait at a gate until all of them have started. They allocate nothing. */
 class WaitingThreads {
 public:
   WaitingThreads(size_t most, size_t stack_bytes) : closed_(gate_)
@@ -83,7 +84,7 @@ private:
   std::vector<Reservation> reservations_;
 };
 
-/* Of several controls TBB obeys the least, so there is one, which only grows. */
+/* TBB obeys the lowest of several controls, so there is one, which only grows. */
 class WorkerThreads {
 public:
   void want(size_t threads)
@@ -101,7 +102,7 @@ public:
     allowed_ += startable_threads(wanted_ - allowed_,
                                   tbb::global_control::active_value(tbb::global_control::thread_stack_size));
     auto control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, allowed_);
-    control_ = std::move(control); /* the old one goes last, so that no moment is without */
+    control_ = std::move(control); /* the old one is destroyed last, so that there is always one */
     settled_.store(true, std::memory_order_release);
     return allowed_;
   }
@@ -117,7 +118,7 @@ private:
   std::mutex mutex_;
   std::atomic<bool> settled_ = false;
   size_t wanted_ = static_cast<size_t>(tbb::this_task_arena::max_concurrency());
-  std::atomic<size_t> allowed_ = 1; /* with the one that calls */
+  std::atomic<size_t> allowed_ = 1; /* including the calling thread */
   std::unique_ptr<tbb::global_control> control_;
 };
 
@@ -133,7 +134,7 @@ void want_threads(size_t threads) { worker_threads().want(threads); }
 size_t settle_threads() { return worker_threads().settle(); }
 std::string thread_shortage() { return worker_threads().shortage(); }
 
-/* One more than wanted must come: what is there now may be taken before TBB gets it. */
+/* One thread more than wanted must start, because another process may take one before TBB does. */
 size_t startable_threads(size_t wanted, size_t stack_bytes)
 {
   if (wanted == 0) return 0;

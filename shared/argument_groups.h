@@ -1,9 +1,9 @@
-/* argument_groups.h - buffers that kernels always take together, under one name.
+/* argument_groups.h - groups of buffers that kernels always take together.
  *
  * A group lists its buffers once: GROUP_name(BUFFER) is BUFFER(name in buffers.def, type, name within the group) for
  * each. A row of kernels.def names it, as IN_GROUP(name), OUT_GROUP(name) or INOUT_GROUP(name), and is launched with
- * all its buffers, in this order; the shared function takes one struct, read_name or write_name. As with any other
- * argument, a kernel must not read a buffer that the scene lacks.
+ * all its buffers, in this order. The shared function takes one struct, read_name or write_name. A kernel must not read
+ * a buffer that the scene lacks, in a group or outside of one.
  */
 #ifndef TANDEM_SHARED_ARGUMENT_GROUPS_H
 #define TANDEM_SHARED_ARGUMENT_GROUPS_H
@@ -57,7 +57,7 @@ typedef struct {
   BUFFER(body_orientation, float4, orientation)                                                                        \
   BUFFER(body_velocity, float4, velocity)
 
-/* What the set-up of a contact reads of its bodies. */
+/* The bodies that the setup of a contact reads. */
 #define GROUP_touching_bodies(BUFFER)                                                                                  \
   BUFFER(body_flags, uint, flags)                                                                                      \
   BUFFER(body_shape, float4, shape)                                                                                    \
@@ -72,7 +72,7 @@ typedef struct {
   BUFFER(solver_inertia, float4, inertia)                                                                              \
   BUFFER(solver_delta_pose, float4, delta)
 
-/* Of the bodies of solve/avbd_bodies.h, each a block of the descent. */
+/* The bodies of solve/avbd_bodies.h, each a block of the descent. */
 #define GROUP_blocks(BUFFER)                                                                                           \
   BUFFER(body_mass, float4, mass)                                                                                      \
   BUFFER(avbd_target, float4, target)                                                                                  \
@@ -94,21 +94,22 @@ typedef struct {
 } read_blocks;
 
 /* --- broadphase ------------------------------------------------------------------------------------------- */
-/* Of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
+/* The nodes of broadphase/hierarchy.h: boxes, links, and the bodies of the leaves. */
 #define GROUP_hierarchy_nodes(BUFFER)                                                                                  \
   BUFFER(hierarchy, float4, box)                                                                                       \
   BUFFER(hierarchy_link, uint, link)                                                                                   \
   BUFFER(leaf_body, uint, leaf_body)
 
-/* Of broadphase/sweep_window.h, in the order of the sweep: boxes, their bodies, where the interval of each ends, and
- * where the last of each block does. */
+/* The intervals of broadphase/sweep_window.h in the order of the sweep: boxes, their bodies, the end of each interval,
+ * and the last end in each block. */
 #define GROUP_sweep_intervals(BUFFER)                                                                                  \
   BUFFER(sweep_bounds, float4, bounds)                                                                                 \
   BUFFER(sort_value, uint, body)                                                                                       \
   BUFFER(sweep_end, uint, end)                                                                                         \
   BUFFER(sweep_block, uint, block)
 
-/* Along each axis the ends of boxes in order, and the place of each end; then the same as it was, with the boxes. */
+/* The sorted endpoints of boxes along each axis, and the place of each endpoint; then both as the last launch kept
+ * them, with the boxes. */
 #define GROUP_box_ends(BUFFER)                                                                                         \
   BUFFER(axis_order, uint, order)                                                                                      \
   BUFFER(axis_place, uint, place)
@@ -139,7 +140,7 @@ typedef struct {
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)
 
-/* The same as a kernel of the narrowphase finds them: narrowphase/pair_lists.h. */
+/* Pairs with the lists that narrowphase kernels run over (narrowphase/pair_lists.h). */
 #define GROUP_listed_pairs(BUFFER)                                                                                     \
   BUFFER(pair_a, uint, a)                                                                                              \
   BUFFER(pair_b, uint, b)                                                                                              \
@@ -157,7 +158,7 @@ typedef struct {
   BUFFER(pair_of_kind, uint, of_kind)                                                                                  \
   BUFFER(pair_leaf, uint, leaf)
 
-/* What the midphase makes of pairs of bodies; part_pairs from then on. */
+/* The pairs of leaves that the midphase writes; later kernels read them as part_pairs. */
 #define GROUP_pairs_of_leaves(BUFFER)                                                                                  \
   BUFFER(leaf_pair_a, uint, a)                                                                                         \
   BUFFER(leaf_pair_b, uint, b)                                                                                         \
@@ -194,7 +195,7 @@ typedef struct {
   GROUP_manifolds(WRITE_MEMBER)
 } write_manifolds;
 
-/* Between the kernels of narrowphase/sat_split.h. */
+/* Buffers between the kernels of narrowphase/sat_split.h. */
 #define GROUP_separating_axes(BUFFER)                                                                                  \
   BUFFER(split_axis, float4, axis)                                                                                     \
   BUFFER(split_state, uint, state)
@@ -217,7 +218,7 @@ typedef struct {
 } write_clipped_points;
 
 /* --- contacts ----------------------------------------------------------------------------------------------- */
-/* All that setup/contact.h makes of a manifold. */
+/* The constraint that setup/contact.h makes of a manifold. */
 #define GROUP_constraints(BUFFER)                                                                                      \
   BUFFER(constraint_pair, uint, pair)                                                                                  \
   BUFFER(constraint_a, uint, a)                                                                                        \
@@ -235,7 +236,7 @@ typedef struct {
   BUFFER(constraint_b, uint, b)                                                                                        \
   BUFFER(constraint_normal, float4, normal)
 
-/* Where the bodies of a contact touch, and how deep they may stay in each other. */
+/* The points of a contact, and the penetration that is left in place. */
 #define GROUP_patches(BUFFER)                                                                                          \
   BUFFER(constraint_points, float4, points)                                                                            \
   BUFFER(constraint_center, float4, center)                                                                            \
@@ -246,13 +247,13 @@ typedef struct {
   BUFFER(constraint_friction_impulse, float4, friction)                                                                \
   BUFFER(constraint_restitution, float4, restitution)
 
-/* What solve/avbd.h holds contacts with: multipliers and penalties. */
+/* The multipliers and penalties of contacts in solve/avbd.h. */
 #define GROUP_duals(BUFFER)                                                                                            \
   BUFFER(constraint_normal_impulse, float4, normal)                                                                    \
   BUFFER(constraint_friction_impulse, float4, friction)                                                                \
   BUFFER(constraint_penalty, float4, penalty)
 
-/* Each body's pairs, and which of them touch: in this step, and in the last. */
+/* The pairs of each body, and which of them touch: in this step, and in the last. */
 #define GROUP_touching_pairs(BUFFER)                                                                                   \
   BUFFER(pair_start, uint, start)                                                                                      \
   BUFFER(pair_b, uint, b)                                                                                              \
@@ -263,7 +264,7 @@ typedef struct {
   BUFFER(cached_b, uint, b)                                                                                            \
   BUFFER(cached_touching, uint, touching)
 
-/* Between the iterations of solve/mass_split.h. */
+/* The iterates of solve/mass_split.h. */
 #define GROUP_iterates(BUFFER)                                                                                         \
   BUFFER(split_previous_normal, float4, previous_normal)                                                               \
   BUFFER(split_previous_friction, float4, previous_friction)
@@ -273,7 +274,7 @@ typedef struct {
   BUFFER(body_constraint_start, uint, start)                                                                           \
   BUFFER(body_constraint, uint, entries)
 
-/* What the last step kept: of pairs, and of those that touched. */
+/* The pairs of the last step, and the contacts of those that touched. */
 #define GROUP_cached_pairs(BUFFER)                                                                                     \
   BUFFER(cached_start, uint, start)                                                                                    \
   BUFFER(cached_b, uint, b)                                                                                            \
@@ -323,8 +324,8 @@ typedef struct {
 } read_cached_contacts;
 
 /* --- queries ---------------------------------------------------------------------------------------------- */
-/* The structures of the broadphase in which queries find bodies along a path: the hierarchy, and the boxes and cells of
- * the grid. */
+/* The structures of the broadphase that queries search for bodies along a path: the hierarchy, and the boxes and cells
+ * of the grid. */
 #define GROUP_search_structures(BUFFER)                                                                                \
   BUFFER(hierarchy, float4, node)                                                                                      \
   BUFFER(hierarchy_link, uint, link)                                                                                   \
@@ -335,14 +336,14 @@ typedef struct {
   BUFFER(cell_start, uint, cell_start)                                                                                 \
   BUFFER(counts, uint, counts)
 
-/* The number and the filter of each body, then what each query is. */
+/* The index and the filter of each body, then the queries themselves. */
 #define GROUP_queries(BUFFER)                                                                                          \
   BUFFER(query_body, uint, body)                                                                                       \
   BUFFER(query_filter, uint, filter)                                                                                   \
   BUFFER(query_start, float4, start)                                                                                   \
   BUFFER(query_displacement, float4, displacement)
 
-/* The same for one shape that is cast along many paths. */
+/* The queries of one shape that is cast along many paths. */
 #define GROUP_shape_queries(BUFFER)                                                                                    \
   BUFFER(query_body, uint, body)                                                                                       \
   BUFFER(query_filter, uint, filter)                                                                                   \

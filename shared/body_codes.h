@@ -1,4 +1,4 @@
-/* body_codes.h - the numbers in body_flags and body_convex, and of methods; kernels and the host both name them.
+/* body_codes.h - the codes stored in body_flags and body_convex, and the codes of methods, for kernels and the host.
  *
  * body_flags: bits 0-2 shape, 3-4 motion, 5 trigger, 8-27 material, 30 continuous collision.
  */
@@ -30,24 +30,24 @@ enum { BODY_FLAG_TRIGGER = 1 << 5 };
 #define BODY_FLAG_CONTINUOUS (1u << 30u)
 #define MOST_MATERIALS (1u << 20u)
 
-/* Kinds of pairs, from the rows of pairs.def: which kernel of the narrowphase finds their contacts. */
+/* The kinds of pairs, from the rows of pairs.def. The kind selects the kernel that finds the contacts. */
 enum {
 #define PAIR(kind, first, second, kernel, follower, what) PAIR_KIND_##kind,
 #include "shared/pairs.def"
 #undef PAIR
-  PAIR_KIND_NONE /* how many there are, and what two half-spaces are */
+  PAIR_KIND_NONE /* the number of kinds, and the kind of two half-spaces */
 };
 
 /* The value of body_toi_fraction that keeps the whole motion. Fractions are whole numbers, so that their minimum does
  * not depend on order. */
 #define WHOLE_TOI_FRACTION (1u << 24u)
-/* Which method finds the contacts of convex shapes (convex_contact.h), and how hulls find their farthest vertex
+/* The method that finds the contacts of convex shapes (convex_contact.h), and the support map of hulls
  * (hull_support.h). */
 enum { CONVEX_EXPANSION = 0, CONVEX_SAMPLED = 1, CONVEX_AXES = 2, CONVEX_FIELDS = 3 };
 enum { SUPPORT_BRUTE_FORCE = 0, SUPPORT_HILL_CLIMBING = 1, SUPPORT_CUBE_MAP = 2 };
-/* How the hierarchy of the broadphase is walked (broadphase/hierarchy_walks.h). */
+/* The traversal of the broadphase's hierarchy (broadphase/hierarchy_walks.h). */
 enum { WALK_BY_SKIPPING = 0, WALK_BY_STACK = 1, WALK_BY_HISTORY = 2 };
-/* Which structure a query looks for bodies in (queries/body_walk.h). */
+/* The structure in which a query searches for bodies (queries/body_walk.h). */
 enum { QUERY_HIERARCHY = 0, QUERY_GRID = 1, QUERY_EVERY_BODY = 2 };
 
 #endif

@@ -1,5 +1,5 @@
 /* conversion.h - conversions to integers that saturate. An out-of-range cast is undefined in C and differs between
- * devices, so these functions clamp before they cast. ITEM and GROUP kernels (width 1) use them. */
+ * devices, so these functions clamp before they cast. Only ITEM and GROUP kernels (width 1) use them. */
 #ifndef TANDEM_SHARED_CONVERSION_H
 #define TANDEM_SHARED_CONVERSION_H
 
@@ -16,7 +16,7 @@ SHARED int floor_to_int(real x)
   return truncated - (int)((real)truncated > limited);
 }
 
-/* Float bits as an unsigned integer of the same order: -0 just below +0. */
+/* The bits of a float as an unsigned integer with the same order; -0 comes just below +0. */
 SHARED uint ordered_bits(uint bits) { return bits ^ ((bits >> 31) != 0u ? 0xffffffffu : 0x80000000u); }
 
 #endif

@@ -1,21 +1,21 @@
 /* counts.h - the counts that only the device knows, in one array of uint.
  *
- * Counts stay on the device: a kernel's range is [counts[first], counts[last]), so no stage waits
- * for the host. The host reads the array once, at the end of a step: reading after each stage would cost
- * more than most stages. */
+ * Counts stay on the device: the range of a kernel is [counts[first], counts[last]), so no stage waits for the host.
+ * The host reads the array once, at the end of a step, because a blocking read after each stage would cost more than
+ * most stages. */
 #ifndef TANDEM_SHARED_COUNTS_H
 #define TANDEM_SHARED_COUNTS_H
 
 #include "shared/body_codes.h"
 
-/* Colours of the constraint graph; contacts past the last go to the overflow constraints (solve/mass_split.h). Two
- * words hold a bit for each and one for the overflow constraints. */
+/* The number of colours of the constraint graph. Contacts past the last colour become overflow constraints
+ * (solve/mass_split.h). Two words hold a bit for each colour and one for the overflow constraints. */
 #define COLOR_LIMIT 63u
 #define COLOR_OVERFLOW COLOR_LIMIT /* sort key of a constraint without a colour of its own */
-#define COLOR_NONE 254u            /* touching, not coloured yet */
-#define COLOR_INACTIVE 255u        /* pair of bounds that do not touch, or one with a trigger */
+#define COLOR_NONE 254u            /* a touching pair without a colour yet */
+#define COLOR_INACTIVE 255u        /* a pair that does not touch, or one with a trigger */
 
-#define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* where each colour starts, start and end of the overflow constraints */
+#define COLOR_ENTRIES ((int)COLOR_LIMIT + 2) /* the start of each colour, start and end of the overflow constraints */
 #if COLOR_LIMIT > 63u
 #error "two words hold the colours of a body"
 #endif
@@ -23,8 +23,8 @@
 #define INDEX_NONE 0xffffffffu
 
 enum {
-  COUNT_ZERO,   /* always 0 */
-  COUNT_ONE,    /* always 1 */
+  COUNT_ZERO,   /* the constant 0 */
+  COUNT_ONE,    /* the constant 1 */
   COUNT_BODIES, /* bodies of the scene; set by the host */
   COUNT_BODIES_PLUS_ONE,
   COUNT_UNBOUNDED,  /* the first bodies: half-spaces; set by the host */
@@ -34,26 +34,26 @@ enum {
   COUNT_HIERARCHY,  /* leaves of the hierarchy of boxes: the bodies of finite bounds, or the large ones among them */
   COUNT_LEAVES,     /* leaves of the pyramid under it: a power of two, at least as many */
   COUNT_LEAF_TILES, /* nodes of that with TILE leaves each, at least 1 */
-  COUNT_INSERTED,   /* leaves whose order is made anew in this step: none, or all (of the hybrid the large ones) */
+  COUNT_INSERTED,   /* leaves whose order is rebuilt in this step: none, or all (of the hybrid the large ones) */
   COUNT_INSERTED_LEAVES, /* leaves of the pyramid in a step that does so */
-  COUNT_RAISED,          /* leaves above which boxes are made anew: all, or none */
-  COUNT_ESCAPED,         /* leaves that have left the boxes they were inserted with */
-  COUNT_KEPT, /* 1 while what a broadphase keeps from step to step holds; cleared by the host where buffers grow or
-                 bodies change */
-  COUNT_HIERARCHY_KEPT,   /* the same of the order of the hierarchy */
+  COUNT_RAISED,          /* leaves above which boxes are rebuilt: all, or none */
+  COUNT_ESCAPED,         /* leaves that no longer overlap the boxes they were inserted with */
+  COUNT_KEPT, /* 1 while the data that a broadphase keeps from step to step are valid; cleared by the host when buffers
+                 grow or bodies change */
+  COUNT_HIERARCHY_KEPT,   /* 1 while the order of the hierarchy is valid */
   COUNT_PAIRS,            /* pairs kept: min(needed, capacity) */
   COUNT_PAIRS_NEEDED,     /* pairs found */
   COUNT_BODY_PAIRS,       /* in scenes with trees: pairs of bodies; the pairs are then those of their leaves */
   COUNT_PAIR_GROUP_ITEMS, /* TILE times the groups of pairs of bodies: midphase/subtree_pairs.h */
-  CAPACITY_PAIRS,         /* pairs there is room for; also the stride of manifold and constraint rows */
+  CAPACITY_PAIRS,         /* capacity for pairs; also the stride of manifold and constraint rows */
   COUNT_CACHED_PAIRS,     /* pairs of the last committed step */
   COUNT_CONSTRAINTS,      /* touching pairs, in colour order */
-  COUNT_UNCOLORED,        /* touching pairs that no round of colouring has reached yet */
+  COUNT_UNCOLORED,        /* touching pairs without a colour so far */
   COUNT_ROUNDS,           /* rounds that coloured something */
   COUNT_COLORS,           /* colours in use; COLOR_LIMIT + 1 if there are overflow constraints */
   COUNT_STATUS,           /* STATUS_ bits; 0: the step may be committed */
   COUNT_NONFINITE,        /* stage << 28 | body of the first non-finite body, INDEX_NONE if none */
-  COUNT_COMMIT_BODIES,    /* what the commit kernels run over: nothing unless the status is 0 */
+  COUNT_COMMIT_BODIES,    /* range of the commit kernels: empty unless the status is 0 */
   COUNT_COMMIT_BODIES_PLUS_ONE,
   COUNT_COMMIT_PAIRS,
   COUNT_COMMIT_CONSTRAINTS,
@@ -70,11 +70,11 @@ enum {
   COUNT_LEFT,           /* of the broadphase trees: 1 if a body left its fat box, 3 if a large one did */
   COUNT_LARGE_LEFT,     /* COUNT_LARGE if one of these did */
   COUNT_CHANGED,        /* all bodies if any did */
-  COUNT_CANDIDATE_KEYS, /* new pairs of fat boxes, as many as found room */
+  COUNT_CANDIDATE_KEYS, /* new pairs of fat boxes, up to the capacity */
   COUNT_CANDIDATES_NEEDED, /* the most that any list of them needed */
-  COUNT_CANDIDATE_SIDE,    /* 0 or 1: the side of the kept list that holds */
+  COUNT_CANDIDATE_SIDE,    /* 0 or 1: the current side of the kept list */
   COUNT_CHANGES,           /* pairs that came or went since the last launch of an incremental broadphase: min(found,
-                         CAPACITY_PAIRS) */
+                              CAPACITY_PAIRS) */
   COUNT_CHANGES_FOUND,
   COUNT_SWEEP_AXIS,       /* axis of the sweep and prune: 0, 1 or 2 */
   COUNT_DIRECT_ISLANDS,   /* islands that the solver `direct` solved in the last pass of the step */
@@ -92,8 +92,8 @@ enum {
   COUNT_FIRST_MISBATCHED,
   COUNT_EVENTS,      /* of the step; 0 unless it was committed */
   COUNT_PAIR_EVENTS, /* the same of pairs that come near, stay or leave */
-  KIND_START,        /* where the pairs of each kind start in pair_of_kind, and where the last of them end */
-  /* As COLOR_START, for the colours of bodies: ranges of the bodies sorted by colour. */
+  KIND_START,        /* the start of each kind in pair_of_kind, and the end of the last one */
+  /* The ranges of the bodies sorted by colour, stored as those of COLOR_START. */
   BODY_COLOR_START = KIND_START + PAIR_KIND_NONE + 1,
   COLOR_START = BODY_COLOR_START + COLOR_ENTRIES,
   COUNT_TOTAL = COLOR_START + COLOR_ENTRIES
@@ -106,11 +106,11 @@ enum {
   STATUS_NONFINITE = 8 /* a body is not finite: quarantine it and run the step again */
 };
 
-/* Where a body was first seen to be non-finite, in pipeline order. */
+/* The stage that first saw a body non-finite, in pipeline order. */
 enum { NONFINITE_AT_START = 0, NONFINITE_IN_SOLVE = 1, NONFINITE_IN_INTEGRATE = 2 };
 
-/* Stands beside the count of a manifold's points until a kernel of its own has followed the pair
- * (narrowphase/time_of_impact.h). */
+/* A flag beside the number of a manifold's points. It stays until a kernel of its own has followed the pair to its
+ * impact (narrowphase/time_of_impact.h). */
 #define TO_FOLLOW 8u
 
 #endif

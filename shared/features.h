@@ -1,12 +1,12 @@
-/* features.h - the rows of features.def as bits of a mask, and the tests that kernels make of it.
+/* features.h - the rows of features.def as bits of a mask, and the tests of that mask in kernels.
  *
- * C99 has no enumeration constant beyond an int, so here a feature is the index of its bit, and the tests take its bare
- * name: HAS_FEATURE(parameters, TREES). The host's constants of the whole mask stand in
+ * C99 has no enumeration constant beyond an int, so a feature is the index of its bit here, and the tests take its bare
+ * name: HAS_FEATURE(parameters, TREES). The host's constants of the whole mask are in
  * host/runtime/interface/features.h.
  *
- * In OpenCL the mask is the compile-time constant FEATURES (-D FEATURES=...), so what a scene does
- * not need costs nothing. MiniCL is compiled ahead, so it reads the mask from the parameters; with
- * every bit set both give the bits of the specialised build (tests/parity/specialised_test.cpp). */
+ * In OpenCL the mask is the compile-time constant FEATURES (-D FEATURES=...), so features that a scene lacks cost
+ * nothing. MiniCL is compiled ahead of time and reads the mask from the parameters. Both give the same bits
+ * (tests/parity/specialised_test.cpp). */
 #ifndef TANDEM_SHARED_FEATURES_H
 #define TANDEM_SHARED_FEATURES_H
 

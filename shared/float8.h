@@ -1,14 +1,15 @@
-/* float8.h - eight floats of one item at once, for the tables of a shape that an item scans from end to end.
+/* float8.h - eight floats of one item, for tables of a shape that an item scans from end to end.
  *
- * LANES kernels put eight items side by side; a kernel whose items branch apart (ITEM) cannot, but may scan its own
- * tables eight entries a step: vertices for the highest, faces for the nearest. Stored number by number:
+ * LANES kernels process several items side by side. A kernel whose items diverge (ITEM) cannot do so, but it can scan
+ * its own tables eight entries at a time: vertices for the highest, faces for the nearest. A table is stored coordinate
+ * by coordinate:
  *
  *   row     0        1        2        3        4        5
  *        x0..x3   x4..x7   y0..y3   y4..y7   z0..z3   z4..z7        then the next eight vertices
  *
- * The last chunk is filled up with its table's first entry, which ties with itself and, having the lower index, wins.
- * Arithmetic is per number, in the order written, so the bits are those of a plain loop. Chunks are never passed by
- * value: wide vectors on the stack are aligned differently from compiler to compiler.
+ * The last chunk is filled up with the first entry of the table. The copies tie with that entry, which wins because its
+ * index is lower. Arithmetic is per number and in the order written, so the bits are those of a plain loop. Chunks are
+ * never passed by value, because the alignment of wide vectors on the stack differs between compilers.
  */
 #ifndef TANDEM_SHARED_FLOAT8_H
 #define TANDEM_SHARED_FLOAT8_H
@@ -52,7 +53,7 @@ typedef uint32_t chunk_index __attribute__((vector_size(32)));
 #define CHUNK_LOAD(to, from, at) __builtin_memcpy((to), (from) + (at), sizeof(float8))
 #endif
 
-/* The highest number of each of the eight columns, and where it stands. */
+/* The highest number in each of the eight columns, and its index. */
 typedef struct {
   float8 height;
   chunk_index at;
@@ -61,7 +62,7 @@ typedef struct {
 SHARED void load_float8(float8 *to, GLOBAL const float4 *from, uint_lanes at) { CHUNK_LOAD(to, from, at); }
 SHARED void store_float8(real *to, const float8 *from) { CHUNK_STORE(to, from); }
 
-/* Below all that is finite: a column of NaN then names the first entry. */
+/* The initial height is below all finite heights; a column of NaN then names the first entry. */
 SHARED void start_chunk_leader(chunk_leader *best)
 {
   chunk_index zero = CHUNK_IOTA - CHUNK_IOTA;
@@ -77,7 +78,7 @@ SHARED void challenge_by_chunk(chunk_leader *best, const float8 *height, uint fi
   best->height = CHUNK_CHOOSE(*height > best->height, *height, best->height);
 }
 
-/* The highest of all; of equal ones the lowest index. */
+/* The highest number of all columns; of equal ones, that with the lowest index. */
 typedef struct {
   real height;
   uint at;

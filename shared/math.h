@@ -1,8 +1,8 @@
-/* math.h - vectors, quaternions, matrices, and the elementary functions of our own.
+/* math.h - vectors, quaternions, matrices and the elementary functions on them.
  *
- * Only + - * / and sqrt, comparisons and choose(): each is correctly rounded on every backend
- * that passed the self-test, so each function here gives equal bits everywhere and at every
- * width. Built-in dot, cross, length, min, max, sin and kin are banned (docs/exactness.md).
+ * The functions use only + - * / and sqrt, comparisons and choose(). Each of these is correctly rounded on every
+ * backend that passed the self-test, so each function gives equal bits everywhere and at every width. The built-in dot,
+ * cross, length, min, max, sin and kin are banned (docs/exactness.md).
  */
 #ifndef TANDEM_SHARED_MATH_H
 #define TANDEM_SHARED_MATH_H
@@ -12,11 +12,11 @@
 typedef struct {
   real x, y, z;
 } vec3;
-/* Rotation: w + xi + yj + zk, unit length. */
+/* A rotation w + xi + yj + zk of unit length. */
 typedef struct {
   real x, y, z, w;
 } quat;
-/* Rows of a rotation: row k holds the k-th coordinate of the three body axes. */
+/* The rows of a rotation: row k holds the k-th coordinate of the three body axes. */
 typedef struct {
   vec3 x, y, z;
 } mat3;
@@ -36,7 +36,7 @@ SHARED vec3 make_vec3(real x, real y, real z)
   return v;
 }
 SHARED real least_of(vec3 v) { return minimum(v.x, minimum(v.y, v.z)); }
-/* Of the three components neither the least nor the largest. */
+/* The component that is neither the least nor the largest of the three. */
 SHARED real middle_of(vec3 v) { return maximum(minimum(v.x, v.y), minimum(maximum(v.x, v.y), v.z)); }
 SHARED vec4 make_vec4(real x, real y, real z, real w)
 {
@@ -83,8 +83,8 @@ SHARED vec3 symmetric_times(symmetric3 m, vec3 v)
                    m.xz * v.x + m.yz * v.y + m.zz * v.z);
 }
 
-/* Two unit vectors that complete the unit vector n to a right-handed basis.
- * Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017. */
+/* Two unit vectors that complete the unit vector n to a right-handed basis (Duff et al., "Building an Orthonormal
+ * Basis, Revisited", JCGT 6(1), 2017). */
 typedef struct {
   vec3 first, second;
 } tangents;
@@ -125,7 +125,7 @@ SHARED mat3 rotation_of(quat q)
   return m;
 }
 SHARED vec3 rotate(mat3 m, vec3 v) { return make_vec3(dot3(m.x, v), dot3(m.y, v), dot3(m.z, v)); }
-/* The transpose times v: from world to body axes. */
+/* The transpose of m times v: transforms from world to body axes. */
 SHARED vec3 rotate_back(mat3 m, vec3 v)
 {
   return make_vec3(m.x.x * v.x + m.y.x * v.y + m.z.x * v.z, m.x.y * v.x + m.y.y * v.y + m.z.y * v.z,
@@ -135,7 +135,7 @@ SHARED vec3 axis_x(mat3 m) { return make_vec3(m.x.x, m.y.x, m.z.x); }
 SHARED vec3 axis_y(mat3 m) { return make_vec3(m.x.y, m.y.y, m.z.y); }
 SHARED vec3 axis_z(mat3 m) { return make_vec3(m.x.z, m.y.z, m.z.z); }
 
-/* The axes of a rotation, turned. */
+/* Rotates each axis of a rotation. */
 SHARED mat3 turned_axes(mat3 turn, mat3 axes)
 {
   vec3 x = rotate(turn, axis_x(axes)), y = rotate(turn, axis_y(axes)), z = rotate(turn, axis_z(axes));
@@ -151,8 +151,8 @@ SHARED mat3 relative_rotation(mat3 to, mat3 from)
   return m;
 }
 
-/* R diag(d) R^T = least I + R diag(d - least) R^T: the rows of R are square to one another only to rounding, and what
- * all three share would leave that rounding, times its own size, in every element off the diagonal. */
+/* R diag(d) R^T, computed as least I + R diag(d - least) R^T. The rows of R are orthogonal only to rounding; the common
+ * part of d, multiplied by that rounding, would otherwise appear in every off-diagonal element. */
 SHARED symmetric3 rotate_diagonal(mat3 m, vec3 d)
 {
   real least = minimum(d.x, minimum(d.y, d.z));

@@ -1,16 +1,17 @@
-/* pair_kinds.h - which kernel a pair is for: the one place that decides it, from the rows of pairs.def.
+/* pair_kinds.h - the kind of a pair, which selects its kernel, from the rows of pairs.def. This is the only place that
+ * decides it.
  *
- * The kinds of shapes alone tell, so the host asks the same function which kinds a scene can have
- * (host/scene/specialise.cpp), and narrowphase/pair_lists.h sorts pairs by it. */
+ * The shapes alone determine the kind. The host therefore calls the same function to find the kinds that a scene can
+ * have (host/scene/specialise.cpp), and narrowphase/pair_lists.h sorts pairs by it. */
 #ifndef TANDEM_SHARED_PAIR_KINDS_H
 #define TANDEM_SHARED_PAIR_KINDS_H
 
 #include "shared/records.h"
 
-/* Of two shapes as a set: the same whichever comes first. */
+/* The set of the two shapes of a pair, which does not depend on their order. */
 #define ONE_SHAPE(shape) (1u << (uint)(shape))
 
-/* PAIR_KIND_ of two bodies; PAIR_KIND_NONE of two half-spaces, which have no test. */
+/* The PAIR_KIND_ of two bodies; PAIR_KIND_NONE for two half-spaces, which have no test. */
 SHARED uint_lanes pair_kind(uint_lanes flags_a, uint_lanes flags_b)
 {
   uint_lanes shapes = ((uint_lanes)1u << shape_of(flags_a)) | ((uint_lanes)1u << shape_of(flags_b));

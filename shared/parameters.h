@@ -1,6 +1,7 @@
 /* parameters.h - the numbers of a step that are the same for every item.
- * Derived on the host by host/scene/parameters.cpp from the settings of a run; reals, then one number of 64 bits that
- * stands at a multiple of its own size, so that every compiler lays them out alike. */
+ *
+ * host/scene/parameters.cpp derives them from the settings of a run. The reals come first, then one number of 64 bits
+ * at a multiple of its own size, so that every compiler lays the struct out alike. */
 #ifndef TANDEM_SHARED_PARAMETERS_H
 #define TANDEM_SHARED_PARAMETERS_H
 

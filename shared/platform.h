@@ -1,4 +1,4 @@
-/* platform.h - the one place that knows which compiler reads the shared source.
+/* platform.h - the one place that depends on the compiler that reads the shared source.
  *
  * Every header under shared/ is strict C99 and is compiled four ways:
  *
@@ -7,18 +7,18 @@
  *   C++        minicl/lanes4.cpp ..16   4, 8 or 16 items at a time, `real` = a vector of lanes
  *   C99        the syntax check of the tests
  *
- * All give the same bits, because lanes never mix and because nothing below rounds
- * differently on any of them (docs/exactness.md).
+ * All of them give the same bits, because lanes never mix and because nothing below rounds differently on any of them
+ * (docs/exactness.md).
  *
- * The types that change with the width:
+ * These types change with the width:
  *
  *   real      a number                      float, or one float a lane
  *   uint_lanes an unsigned 32-bit integer    uint, or one uint a lane
  *   mask      the result of a comparison    int 0/1, or all-ones/zero a lane
  *   float4    four floats in memory, 16-byte aligned; never a lane type
  *
- * Kernels marked LANES in kernels.def use only these, choose() for data-dependent choices,
- * load and store functions for memory, and uniform loop counts.
+ * Kernels marked LANES in kernels.def use only these types, choose() for choices that depend on data, load and store
+ * functions for memory, and uniform loop counts.
  */
 #ifndef TANDEM_SHARED_PLATFORM_H
 #define TANDEM_SHARED_PLATFORM_H
@@ -42,8 +42,8 @@ typedef unsigned short half_word;
 #define SQUARE_ROOT(x) sqrt(x)
 #define FLOAT_BITS(x) as_uint(x)
 
-/* The phases of a work-group: a barrier stands inside the loop header, so none is forgotten. A phase of a
- * single item holds no loop of its own: PoCL 3.1 then runs that loop once for every item. */
+/* The phases of a work-group. The barrier stands inside the loop header, so it cannot be forgotten. A phase of a single
+ * item must not hold a loop of its own, because PoCL 3.1 then runs that loop once for every item. */
 #define FOR_EACH_ITEM(i, n)                                                                                  \
   for (uint i = (barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE), (uint)get_local_id(0)); i < (uint)(n); \
        i += (uint)get_local_size(0))
@@ -56,9 +56,9 @@ typedef unsigned short half_word;
 #define LOCAL
 #define CONSTANT_TABLE
 #define SHARED static inline
-/* Optimised builds copy such a function into each kernel that calls it, as devices do: what a kernel passes as a
- * constant costs nothing then, and what a search keeps stays in registers. For gdb, in a debug build, it is a function
- * like any other. */
+/* Optimised builds inline such a function into each kernel that calls it, as devices do. A constant that a kernel
+ * passes then costs nothing, and the state of a search stays in registers. A debug build keeps it a function, for
+ * gdb. */
 #ifdef __OPTIMIZE__
 #define FORCE_INLINE static inline __attribute__((always_inline))
 #else
@@ -121,7 +121,7 @@ static inline uint local_add_uint(uint *pointer, uint value)
 #define ATOMIC_MAX(pointer, value) atomic_max_uint((pointer), (value))
 #define ATOMIC_MIN(pointer, value) atomic_min_uint((pointer), (value))
 #define ATOMIC_OR(pointer, value) atomic_or_uint((pointer), (value))
-/* Local memory belongs to one thread here: no atomic is needed. */
+/* Local memory belongs to one thread here, so no atomic is needed. */
 #define LOCAL_ADD(pointer, value) local_add_uint((pointer), (value))
 #ifdef TANDEM_REFERENCE
 #define SQUARE_ROOT(x) __builtin_sqrt(x)
@@ -129,7 +129,7 @@ static inline uint local_add_uint(uint *pointer, uint value)
 #define SQUARE_ROOT(x) __builtin_sqrtf(x)
 #endif
 
-/* One thread walks a whole phase; test builds walk it backwards to show a planted race. */
+/* One thread runs a whole phase. Test builds run it backwards, so that a race between items changes the result. */
 #ifdef TANDEM_BACKWARD
 #define FOR_EACH_ITEM(i, n) for (uint i = (uint)(n); i-- > 0u;)
 #define CHUNKS(many) (many)
@@ -140,16 +140,17 @@ static inline uint local_add_uint(uint *pointer, uint value)
 
 #endif
 
-/* GROUP kernels: one group works on TILE items, with LOCAL_WORDS words of local memory. Fixed, so that
+/* One group of a GROUP kernel works on TILE items, with LOCAL_WORDS words of local memory. Both are fixed, so that
  * results cannot depend on a device's group size. */
 #define TILE 1024u
 #define LOCAL_WORDS 8192
 
-/* For GROUP kernels:
- *   CHUNKS(many)  how many chunks of consecutive items a phase walks, one item a chunk. A work-group needs many; one
- *                 thread walks everything, so a single chunk spares it the joining. Only where the result does not
- *                 depend on the cut: sums of whole numbers and ranks, never sums of reals.
- *   LOCAL_ADD     adds to a count in local memory to which other items of the phase add as well; what it was before.
- *   half_word     16 bits of local memory that another phase may see as part of a uint. */
+/* These macros are for GROUP kernels:
+ *   CHUNKS(many)  the number of chunks of consecutive items in a phase, one item a chunk. A work-group needs many.
+ *                 One thread runs everything, so a single chunk saves it the joining. It may be used only where the
+ *                 result does not depend on the cut: sums of whole numbers and ranks, never sums of reals.
+ *   LOCAL_ADD     adds to a counter in local memory that other items of the phase add to as well, and returns the value
+ *                 before.
+ *   half_word     16 bits of local memory that another phase may read as part of a uint. */
 
 #endif

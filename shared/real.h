@@ -1,14 +1,14 @@
 /* real.h - numbers, masks and memory access at the width of one item.
  *
- * Here stands the width 1 used by OpenCL, by gdb and by loop tails. minicl/lanes.h gives the
- * same names over 4, 8 or 16 lanes; a LANES kernel is written against this page alone.
+ * This file holds width 1, which OpenCL, gdb and loop tails use. minicl/lanes.h gives the same names for 4, 8 or 16
+ * lanes. A LANES kernel uses nothing beyond these names.
  *
  *   choose(m, a, b)          m ? a : b, both sides evaluated
- *   item_index               which item (lanes: the first of a run of items, so that memory is read in order);
- *                            plus a uint it stays one, anything else makes it a uint_lanes
+ *   item_index               the index of an item (lanes: the first of a run of items, so that memory is read in
+ *                            order); the sum with a uint is an item_index, any other arithmetic makes a uint_lanes
  *   any_of(m)                some item of the group has it (uniform, so `if` may use it)
  *   load*, store*, *_if      memory by item index; _if writes only where the mask holds; listed: by an index from a
- *                            list, where lanes mostly are neighbours in memory
+ *                            list, whose lanes are mostly neighbours in memory
  */
 #ifndef TANDEM_SHARED_REAL_H
 #define TANDEM_SHARED_REAL_H
@@ -22,7 +22,7 @@
 #define R(literal) literal##f
 #endif
 
-/* Largest relative error of one rounding. */
+/* The largest relative error of one rounding. */
 #ifdef TANDEM_REFERENCE
 #define ROUNDING 1.2e-16
 #else

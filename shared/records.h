@@ -12,7 +12,7 @@
 #define UNBOUNDED R(1e30)
 
 SHARED uint_lanes shape_of(uint_lanes flags) { return flags & 7u; }
-/* Shapes that body_convex and body_shape_pose tell more of: neither sphere, box nor half-space, or no plain one. */
+/* General shapes have entries in body_convex and body_shape_pose: all but plain spheres, boxes and half-spaces. */
 SHARED mask is_general_shape(uint_lanes shape) { return shape > (uint)SHAPE_HALF_SPACE; }
 SHARED uint_lanes body_type_of(uint_lanes flags) { return (flags >> 3u) & 3u; }
 SHARED uint_lanes is_trigger(uint_lanes flags) { return (flags >> 5u) & 1u; }
@@ -45,7 +45,7 @@ SHARED void store_position(GLOBAL float4 *body_position, uint_lanes body, double
   store_float4(body_position, body * 2u + 1u, extend(p.low, R(0.0)));
 }
 
-/* What a + b lost when it became `sum`, exactly (Knuth's two-sum). */
+/* The exact difference between a + b and its rounded value `sum` (Knuth's two-sum). */
 SHARED vec3 lost_in_sum(vec3 a, vec3 b, vec3 sum)
 {
   vec3 from_b = subtract(sum, a), from_a = subtract(sum, from_b);
@@ -59,14 +59,15 @@ SHARED double_float3 moved_position(double_float3 p, vec3 by)
   return moved;
 }
 
-/* The centre of `to` seen from that of `from`: differences first, so that far away costs nothing. */
+/* The centre of `to` seen from the centre of `from`. The high parts are subtracted first, so that the distance from the
+ * origin costs no precision. */
 SHARED vec3 offset_between(GLOBAL const float4 *body_position, uint_lanes from, uint_lanes to)
 {
   double_float3 a = load_position(body_position, from), b = load_position(body_position, to);
   return add(subtract(b.high, a.high), subtract(b.low, a.low));
 }
 
-/* The smallest half extent of a pair; of two that have none (half-spaces, flat meshes), 0. */
+/* The smallest half extent of a pair; 0 if neither shape has one (half-spaces, flat meshes). */
 SHARED real size_between(GLOBAL const float4 *body_shape, uint_lanes a, uint_lanes b)
 {
   vec4 of_a = load_float4(body_shape, a), of_b = load_float4(body_shape, b);

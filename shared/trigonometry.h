@@ -1,24 +1,24 @@
-/* trigonometry.h - sine, cosine, and arc tangent of our own, and the turn by an angle.
+/* trigonometry.h - sine, cosine, arc tangent, and the rotation by an angle.
  *
- * Built-in ones differ between CPU and GPU by ulps (docs/exactness.md), so these use only operations that
- * are rounded alike everywhere. Reduction after Cody and Waite, polynomials of the Cephes library's
- * degree. Measured against double over dense sweeps (tests/shared/trigonometry_test.cpp, figures in
- * docs/exactness.md). Branch-free, so they run at any width.
+ * The built-in functions differ between CPU and GPU by ulps (docs/exactness.md), so these use only operations that
+ * round alike everywhere. The reduction follows Cody and Waite, and the polynomials have the degree of the Cephes
+ * library. Their errors were measured against double over dense sweeps (tests/shared/trigonometry_test.cpp, figures in
+ * docs/exactness.md). The functions are free of branches, so they run at any width.
  */
 #ifndef TANDEM_SHARED_TRIGONOMETRY_H
 #define TANDEM_SHARED_TRIGONOMETRY_H
 
 #include "shared/math.h"
 
-/* Angles beyond this are taken as this: no substep turns a body by thousands of turns. */
+/* Larger angles are clamped to this: no substep turns a body by thousands of turns. */
 #define ANGLE_LIMIT R(8192.0)
 
 typedef struct {
   real sine, cosine;
 } angle_functions;
 
-/* Up to an eighth of a turn, as polynomials of the square rr: sin r = r + r rr (...), cos r = 1 - rr / 2 + rr rr (...).
- * The reference build goes on to the terms that double precision needs. */
+/* Polynomials up to an eighth of a turn in the square rr: sin r = r + r rr (...), cos r = 1 - rr / 2 + rr rr (...). The
+ * reference build has more terms, as double precision needs. */
 #ifdef TANDEM_REFERENCE
 #define SINE_TERMS(rr)                       \
   (-1.0 / 6 +                                \
@@ -39,7 +39,7 @@ typedef struct {
 #define COSINE_TERMS(rr) (R(4.166664568298827e-2) + rr * (R(-1.388731625493765e-3) + rr * R(2.443315711809948e-5)))
 #endif
 
-/* Adding and taking away 1.5 x 2^23 rounds to the nearest integer, in the rounding mode all backends share. */
+/* Adding and subtracting 1.5 x 2^23 rounds to the nearest integer, in the rounding mode that all backends share. */
 #ifdef TANDEM_REFERENCE
 #define ROUNDING_CONSTANT 6755399441055744.0
 #else
@@ -83,7 +83,7 @@ SHARED real arc_tangent(real y, real x)
   return choose(y < R(0.0), -angle, angle);
 }
 
-/* q turned by the rotation vector v (rad, world axes). */
+/* q rotated by the rotation vector v (rad, world axes). */
 SHARED quat turned(quat q, vec3 v)
 {
   real angle = length_of(v);

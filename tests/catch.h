@@ -1,7 +1,7 @@
 /* catch.h - Catch2 version 2 (Debian 12) or 3 (Ubuntu 24.04), whichever is installed, under the names of version 3, and
- * what a test does that cannot run here, or not wholly.
+ * the functions by which a test reports that it cannot run, or not completely.
  *
- * A test that only returned would count as passed. It says what is missing instead, and tests/main.cpp ends with the
+ * A test that only returned would count as passed. It states what is missing instead, and tests/main.cpp ends with the
  * exit status by which CTest shows it as skipped. */
 #pragma once
 
@@ -21,17 +21,17 @@ inline auto ContainsSubstring(const std::string &part) { return Contains(part); 
 
 #include <tandem/settings.h>
 
-/* Choices of settings are shown by name. */
+/* Enumerated settings are printed by name. */
 template <tandem::Choice T> struct Catch::StringMaker<T> {
   static std::string convert(T choice) { return tandem::name_of(choice); }
 };
 
 namespace tests {
 
-/* Read and cleared by tests/main.cpp when a test case ends. */
+/* tests/main.cpp reads and clears these when a test case ends. */
 inline bool left_something_out = false;
 
-/* The rest of the test case runs; the whole does not count as passed. */
+/* The rest of the test case runs, but the whole does not count as passed. */
 inline void leave_out(const std::string &why)
 {
   std::cout << "skipped: " << why << std::endl;
@@ -44,12 +44,13 @@ inline void leave_out(const std::string &why)
 #ifdef SKIP
   SKIP(why);
 #else
-  throw Catch::TestFailureException(); /* which ends a test case of version 2 and fails nothing by itself */
+  throw Catch::TestFailureException(); /* this ends a test case of version 2 and is no failure by itself */
 #endif
   std::abort();
 }
 
-/* An OpenCL device is missing: a failure where CI=true, since what CI installs must leave nothing out. */
+/* An OpenCL device is missing. This is a failure if CI=true, because nothing may be left out with the packages of
+ * CI. */
 inline void fail_in_ci(const std::string &what)
 {
   const char *ci = std::getenv("CI");

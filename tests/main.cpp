@@ -1,6 +1,6 @@
-/* main.cpp - Catch2's runner, and exit status 77 where nothing failed and no test case ran whole: CTest, which runs one
- * a process, shows such a test as skipped. Version 3 has a status of its own for it, which is also that of four
- * failures. */
+/* main.cpp - Catch2's runner. It returns exit status 77 if nothing failed and no test case ran completely. CTest runs
+ * one test a process and shows such a test as skipped. Version 3 has a status of its own for it, which is also that of
+ * four failures. */
 #if !__has_include(<catch2/catch_all.hpp>)
 #define CATCH_CONFIG_RUNNER
 #endif

@@ -1,4 +1,4 @@
-/* shared_data.h - collections of scenes and problems by others, which lie beside the source and never in it. */
+/* shared_data.h - finds collections of scenes and problems by others, which are never part of the source. */
 #pragma once
 
 #include <cstdlib>

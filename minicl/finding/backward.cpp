@@ -1,4 +1,4 @@
-/* backward.cpp - the stages of minicl/backward.cpp that find what touches. */
+/* backward.cpp - the stages of minicl/backward.cpp that find contacts, and the queries. */
 #define TANDEM_PART_FINDING
 #define TANDEM_BACKWARD
 #define WIDTH backward

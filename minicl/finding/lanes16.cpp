@@ -1,4 +1,4 @@
-/* lanes16.cpp - the stages of minicl/lanes16.cpp that find what touches. */
+/* lanes16.cpp - the stages of minicl/lanes16.cpp that find contacts, and the queries. */
 #define TANDEM_PART_FINDING
 #define TANDEM_LANES 16
 #define WIDTH lanes16

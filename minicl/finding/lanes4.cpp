@@ -1,4 +1,4 @@
-/* lanes4.cpp - the stages of minicl/lanes4.cpp that find what touches. */
+/* lanes4.cpp - the stages of minicl/lanes4.cpp that find contacts, and the queries. */
 #define TANDEM_PART_FINDING
 #define TANDEM_LANES 4
 #define WIDTH lanes4

@@ -1,4 +1,4 @@
-/* body_coloring.h - deterministic parallel colouring of the bodies: no two of one colour share a constraint.
+/* body_coloring.h - deterministic parallel colouring of the bodies: no two bodies of one colour share a constraint.
  *
  * A solver that moves whole bodies one after another can move all bodies of one colour at once. Every body has a
  * priority, a bijective hash of its index. A body takes the lowest colour that no neighbour of higher priority has, as
@@ -17,7 +17,7 @@
 #include "shared/batching/coloring.h"
 #include "shared/parallel/search.h"
 
-/* Moving bodies that some constraint touches are to be coloured; the others take no part. */
+/* Dynamic bodies with at least one constraint are to be coloured; the others take no part. */
 SHARED void body_color_begin_item(GLOBAL const uint *body_constraint_start, GLOBAL uint *counts,
                                   GLOBAL uint *body_color, uint i)
 {
@@ -26,7 +26,7 @@ SHARED void body_color_begin_item(GLOBAL const uint *body_constraint_start, GLOB
   if (touched) ATOMIC_ADD(counts + COUNT_UNCOLORED, 1u);
 }
 
-/* The colours of the neighbours of higher priority; waits: one of them has none yet. */
+/* The colours of the neighbours with a higher priority. waits: one of them has none yet. */
 typedef struct {
   uint low, high, waits;
 } neighbor_colors;
@@ -66,7 +66,7 @@ SHARED void body_color_round_item(GLOBAL const uint *constraint_a, GLOBAL const 
   body_color[2u * i + (now ^ 1u)] = color;
 }
 
-/* For a stable sort of the bodies by colour; rounds: how many there were. */
+/* The keys for a stable sort of the bodies by colour. rounds: the number of rounds that were made. */
 SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sort_key, GLOBAL uint *sort_value,
                                  uint rounds, uint i)
 {
@@ -74,7 +74,8 @@ SHARED void body_color_keys_item(GLOBAL const uint *body_color, GLOBAL uint *sor
   sort_value[i] = i;
 }
 
-/* Item c: the first of the sorted bodies of colour c; the overflow colour also writes where the coloured bodies end. */
+/* Item c writes the place of the first sorted body of colour c; that of the overflow colour also writes where the
+ * coloured bodies end. */
 SHARED void body_color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint i)
 {
   counts[BODY_COLOR_START + i] = lower_bound_of(sort_key, counts[COUNT_BODIES], i);

@@ -1,9 +1,9 @@
 /* body_constraints.h - the list from each body to its constraints, in one fixed order.
  *
- * Colours let constraints write to their bodies. A solver that reads the constraints of a body (to average what they
- * did to it, or to solve the body by itself) needs the list in the other direction, stored as a sparse matrix in
- * compressed rows (CSR). An entry is 2 * constraint + side, side 0 where the body is the constraint's a and 1 where it
- * is b; a stable sort of all entries by body leaves each list in the order of constraints:
+ * Colours let constraints write to their bodies. A solver that reads the constraints of a body, to average their
+ * effects or to solve the body by itself, needs the list in the other direction. It is stored as a sparse matrix in
+ * compressed rows (CSR). An entry is 2 * constraint + side; side is 0 if the body is the constraint's a, and 1 if it is
+ * b. A stable sort of all entries by body leaves each list in the order of constraints:
  *
  *   constraint       0:(4,1)   1:(3,2)   2:(4,3)  ..        body_constraint_key    1  2  3  3  4  4
  *   entries           0   1     2   3     4   5             body_constraint        1  3  2  5  0  4
@@ -23,7 +23,7 @@ SHARED uint listed_body(GLOBAL const uint *body_flags, uint body, uint bodies)
   return is_moving(body_flags, body) ? body : bodies;
 }
 
-/* Item i: the two entries of constraint i; the first of first_color gets the first place. */
+/* Item i writes the two entries of constraint i; the first constraint of first_color gets the first place. */
 SHARED void body_constraint_keys_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                       GLOBAL const uint *body_flags, GLOBAL const uint *counts,
                                       GLOBAL uint *body_constraint_key, GLOBAL uint *body_constraint, uint first_color,
@@ -36,7 +36,7 @@ SHARED void body_constraint_keys_item(GLOBAL const uint *constraint_a, GLOBAL co
   body_constraint[place + 1u] = 2u * i + 1u;
 }
 
-/* Item b: where the sorted entries of body b start; the last item writes where those of moving bodies end. */
+/* Item b writes where the sorted entries of body b start; the last item writes where those of moving bodies end. */
 SHARED void body_constraint_starts_item(GLOBAL const uint *body_constraint_key, GLOBAL const uint *counts,
                                         GLOBAL uint *body_constraint_start, uint length, uint i)
 {

@@ -32,7 +32,7 @@ SHARED uint place_along(real position, real inverse_cell)
   return (uint)(floor_to_int(position * inverse_cell) + 1073741824);
 }
 
-/* class * cells + cell, cells being a power of two. */
+/* The key is class * cells + cell, where cells is a power of two. */
 SHARED uint cell_key(vec3 position, real inverse_cell, uint cells)
 {
   uint x = place_along(position.x, inverse_cell), y = place_along(position.y, inverse_cell),
@@ -93,8 +93,9 @@ SHARED void clear_bids(GLOBAL const uint *body_flags, GLOBAL uint *body_bid, uin
   ATOMIC_MIN(body_bid + 2u * body + 1u, 0u);
 }
 
-/* One group a cell of the class `parity`: the rounds of coloring.h over its contacts alone. local_memory[round]:
- * contacts without a colour before the round. The group clears its bids, so that the next kernel finds none. */
+/* One group for each cell of the class `parity` runs the rounds of coloring.h over the cell's contacts.
+ * local_memory[round]: contacts without a colour before the round. The group clears its bids, so that the next kernel
+ * finds none. */
 SHARED void color_cells_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                               GLOBAL const uint *sort_key, GLOBAL const uint *sort_value, GLOBAL uint *counts,
                               GLOBAL uint *pair_color, GLOBAL uint *body_colors, GLOBAL uint *body_bid, uint parity,

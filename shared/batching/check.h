@@ -1,16 +1,16 @@
-/* check.h - proves the batches of a step: run with --check, after the constraints are in colour order.
+/* check.h - proves the batches of a step. It runs with --check, after the constraints are in colour order.
  *
  * The check reads what the solver uses. The solver works on all constraints between two entries of COLOR_START at once,
  * so the colour of a constraint is the range in which it stands, whatever the batcher stored. No body that can move may
  * stand in one range twice (the overflow constraints are solved in order and may hold anything), and each touching pair
  * must stand in exactly one.
  *
- *   mark_batches    each body: a bit for each colour that touches it, and a second where a colour does so again
- *   check_batches   each constraint: is its colour doubled at one of its bodies?
- *   check_pairs     each pair: does it stand in as many ranges as it should, one if it touches and is no trigger's,
- *                   else none?
+ *   mark_batches    for each body: a bit for each colour that touches it, and a second bit where a colour does so twice
+ *   check_batches   for each constraint: whether its colour is doubled at one of its bodies
+ *   check_pairs     for each pair: whether it stands in as many ranges as it should, one if it touches and has no
+ *                   trigger, else none
  *
- * The verdict is made of sums, bits and minima, so it does not depend on order.
+ * The result consists of sums, bits and minima, so it does not depend on order.
  */
 #ifndef TANDEM_SHARED_BATCHING_CHECK_H
 #define TANDEM_SHARED_BATCHING_CHECK_H
@@ -18,7 +18,7 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/match.h"
 
-#define BODY_MARKS 4u /* words of a body: a bit a colour, and again one where it is doubled */
+#define BODY_MARKS 4u /* words of a body: a bit for each colour, and another if it is doubled */
 
 SHARED void clear_body_marks_item(GLOBAL uint *body_marks, uint i)
 {

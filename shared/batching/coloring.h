@@ -1,10 +1,10 @@
 /* coloring.h - deterministic parallel graph colouring of the contacts.
  *
- * Contacts that share a moving body must not be solved at once. In rounds, every uncoloured contact bids
- * at its moving bodies with a number of its own; one that holds the highest bid at both takes the lowest
- * colour free at both (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", 1993). Bids are a
- * bijective hash of the pair's index, so they never tie, and a maximum does not depend on order: the
- * colouring is the same on every backend.
+ * Contacts that share a moving body must not be solved at once. In each round, every uncoloured contact bids at its
+ * moving bodies with a unique number. A contact with the highest bid at both takes the lowest colour that is free at
+ * both (Jones and Plassmann, "A Parallel Graph Coloring Heuristic", 1993). Bids are a bijective hash of the pair's
+ * index, so they never tie, and a maximum does not depend on order. The colouring is therefore the same on every
+ * backend.
  *
  *      body      1 --- 2 --- 3         contacts are the edges; colours run along an edge's two ends
  *      colour      0     1

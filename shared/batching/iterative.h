@@ -4,14 +4,14 @@
  *     for each contact without a batch whose bodies the batch does not use yet: try to reserve both bodies
  *     the contact that holds both joins the batch
  *
- * The talk reserves by atomics on local memory, and whichever thread comes first wins: other batches in every run. Here
- * the contacts of a round bid, the highest bid at both bodies wins (bid_of: a bijective hash, so no ties), and a
- * maximum does not depend on order. One round leaves gaps: a contact whose rival lost elsewhere could still join. So
- * each batch is filled in BATCH_ROUNDS rounds before the next one starts:
+ * The talk reserves by atomics on local memory, so the first thread wins and the batches differ from run to run. Here
+ * the contacts of a round bid and the highest bid at both bodies wins (bid_of: a bijective hash, so there are no ties);
+ * a maximum does not depend on order. One round leaves gaps, because a contact whose rival lost elsewhere could still
+ * join. Each batch is therefore filled in BATCH_ROUNDS rounds before the next one starts:
  *
  *   round 1     1 --- 2 --- 3 --- 4 --- 5        bids 3, 9, 5, 4: the 9 wins; 5 and 3 lose to it, 4 loses to 5
  *                  3     9     5     4
- *   round 2     of those left only 4 has two free bodies: it joins too
+ *   round 2     of the contacts left only 4 has two free bodies, so it joins, too
  */
 #ifndef TANDEM_SHARED_BATCHING_ITERATIVE_H
 #define TANDEM_SHARED_BATCHING_ITERATIVE_H
@@ -19,8 +19,8 @@
 #include "shared/batching/coloring.h"
 #include "shared/batching/limits.h"
 
-/* A bid is never 0, which means that nobody bids: a contact that does not bid must not hold a body for which nobody
- * bids. */
+/* A bid is never 0, which means that no contact bids. A contact that does not bid must not hold a body for which no
+ * other contact bids. */
 SHARED uint batch_bid_of(uint pair) { return bid_of(pair + 1u); }
 
 SHARED uint is_reserved(GLOBAL const uint *body_colors, uint body, uint batch)
@@ -55,7 +55,7 @@ SHARED void batch_reserve_item(GLOBAL const uint *pair_a, GLOBAL const uint *pai
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* After the last batch: what is left goes to the overflow constraints. */
+/* After the last batch, the contacts that are left join the overflow constraints. */
 SHARED void batch_rest_item(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                             GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors, uint i)
 {

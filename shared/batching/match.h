@@ -1,8 +1,8 @@
 /* match.h - finds each pair in the cache of the last step, so that it keeps its impulses and its colour.
  *
- * Persistent pairs of the 2009 talk. A touching pair that had a colour keeps it: pairs that were free of
- * conflict among themselves still are, so only new contacts need colouring. Batchers whose batches follow from the
- * list of contacts alone (`keep` 0) take over the impulses and no colour.
+ * These are the persistent pairs of the 2009 talk. A touching pair that had a colour keeps it: pairs without conflicts
+ * among themselves still have none, so only new contacts need a colour. Batchers whose batches follow from the list of
+ * contacts alone (`keep` 0) keep the impulses and no colour.
  *
  * In scenes with trees two bodies may have several manifolds, both in this step and in the last. Two manifolds match if
  * the normal of each agrees best with that of the other, so that none is matched twice:
@@ -17,7 +17,7 @@
 #include "shared/argument_groups.h"
 #include "shared/records.h"
 
-/* Cosine of the angle by which a normal may turn in a step and still be the same manifold's. */
+/* Cosine of the angle by which the normal of a manifold may turn in a step. */
 #define SAME_MANIFOLD R(0.9)
 
 SHARED uint find_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cached_b, uint a, uint b)
@@ -31,7 +31,7 @@ SHARED uint find_cached(GLOBAL const uint *cached_start, GLOBAL const uint *cach
   return low < end && cached_b[low] == b ? low : INDEX_NONE;
 }
 
-/* Entries first .. end - 1 belong to two bodies. */
+/* The entries first .. end - 1, which belong to one pair of bodies. */
 typedef struct {
   uint first, end;
 } pair_run;
@@ -51,7 +51,8 @@ SHARED pair_run run_of_cached(GLOBAL const uint *cached_start, GLOBAL const uint
   return run;
 }
 
-/* The entry of a run whose normal is nearest to `normal`; INDEX_NONE if none is near. Without contact a normal is 0. */
+/* The entry of a run whose normal is nearest to `normal`; INDEX_NONE if none is near. The normal is 0 without
+ * contact. */
 SHARED uint nearest_normal(GLOBAL const float4 *normals, pair_run run, vec3 normal)
 {
   uint best = INDEX_NONE;
@@ -65,7 +66,7 @@ SHARED uint nearest_normal(GLOBAL const float4 *normals, pair_run run, vec3 norm
   return best;
 }
 
-/* Where each of two bodies' manifolds now is sought among those then. found: the first of those. */
+/* The match of manifold i of two bodies among their cached manifolds. */
 SHARED uint matching_manifold(GLOBAL const float4 *normals, pair_run now, GLOBAL const float4 *cached_normals,
                               pair_run then, uint i)
 {

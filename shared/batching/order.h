@@ -1,4 +1,4 @@
-/* order.h - constraints in colour order: one stable sort of the pairs by colour, then where each starts. */
+/* order.h - puts constraints in colour order: a stable sort of the pairs by colour, then the start of each colour. */
 #ifndef TANDEM_SHARED_BATCHING_ORDER_H
 #define TANDEM_SHARED_BATCHING_ORDER_H
 
@@ -21,8 +21,8 @@ SHARED uint first_not_below(GLOBAL const uint *sort_key, uint length, uint key)
   return low;
 }
 
-/* Item c: the first constraint of colour c; that of the overflow constraints, counted as a colour, also writes where
- * the constraints end. */
+/* Item c writes the first constraint of colour c. The item of the overflow constraints, which count as a colour, also
+ * writes where the constraints end. */
 SHARED void color_starts_item(GLOBAL const uint *sort_key, GLOBAL uint *counts, uint color)
 {
   uint pairs = counts[COUNT_PAIRS];

@@ -1,14 +1,15 @@
-/* single_group.h - the naive batching of the talks: one work-group does it all (GS-4150 slide 27, 2009 talk).
+/* single_group.h - the naive batching of the talks: one work-group does all of it (GS-4150 slide 27, 2009 talk).
  *
- * The 2009 kernel kSetupBatches let the work-items of one compute unit take their turns in the order of the list, with
- * a barrier between two turns. Here a contact takes the lowest colour free at both bodies as soon as no earlier contact
- * that shares a body is without one, so that contacts far from each other take their turns together:
+ * In the kernel kSetupBatches of 2009 the work-items of one compute unit take turns in the order of the list, with a
+ * barrier between two turns. Here a contact takes the lowest colour free at both bodies as soon as every earlier
+ * contact that shares a body has one, so that contacts far from each other proceed in one round:
  *
  *   list     e0   e1   e2   e3         round 1: e0 and e3, the first of their bodies
  *   bodies  1-2  2-3  3-4  5-6         round 2: e1
  *                                      round 3: e2
- * The batches are those of the sequential batching, to the bit. A chain of contacts costs a round for each link, and
- * all but one compute unit of the device stand idle: it does not scale, as the talks say, and is here to be measured.
+ * The batches are those of the sequential batching, to the bit. A chain of contacts takes a round for each link, and
+ * all but one compute unit of the device are idle. The method does not scale, as the talks say; it is here to be
+ * measured.
  */
 #ifndef TANDEM_SHARED_BATCHING_SINGLE_GROUP_H
 #define TANDEM_SHARED_BATCHING_SINGLE_GROUP_H
@@ -43,9 +44,9 @@ SHARED void take_turn(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOB
   ATOMIC_MAX(counts + COUNT_ROUNDS, round + 1u);
 }
 
-/* `rounds`: how many the host asks for. Fewer than the longest chain leave contacts without a colour, which shows in
- * the status; more cost two barriers each. (A loop that ends when all is done would end in PoCL 3.1 for some items
- * alone.) */
+/* rounds: the number that the host launches. Fewer than the longest chain leave contacts without a colour, which shows
+ * in the status; each further one costs two barriers. A loop that ended once all contacts have a colour would end for
+ * some items only in PoCL 3.1. */
 SHARED void color_in_group_group(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, GLOBAL const uint *body_flags,
                                  GLOBAL uint *counts, GLOBAL uint *pair_color, GLOBAL uint *body_colors,
                                  GLOBAL uint *body_bid, uint rounds, LOCAL uint *local_memory, uint group)

@@ -1,19 +1,19 @@
-/* bounds.h - the box around everything a body can reach within the coming step.
+/* bounds.h - the box around all points that a body can reach within the coming step.
  *
- *        +-----------------------+
- *        | +---+           +---+ |   the shape now and after the step, under its velocity and gravity,
- *        | | A | --------> |   | |   turned as far as its spin allows, and the margin within which
- *        | +---+           +---+ |   contacts are made ahead of touching
- *        +-----------------------+
+ *      +-----------------------+
+ *      | +---+           +---+ |  The box contains the shape now and after the step, under its velocity and gravity and
+ *      | | A | --------> |   | |  turned as far as its spin allows, and the margin within which contacts are
+ *      | +---+           +---+ |  speculative.
+ *      +-----------------------+
  *
- * First stage of the broadphase; rebuilt every step, so nothing here needs to last longer.
+ * It is the first stage of the broadphase. The bounds are rebuilt every step, so they need not hold any longer.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_BOUNDS_H
 #define TANDEM_SHARED_BROADPHASE_BOUNDS_H
 
 #include "shared/records.h"
 
-/* Half extents of the axis-aligned box around a rotated shape; Arvo, Graphics Gems, 1990. */
+/* The half extents of the axis-aligned box around a rotated shape (Arvo, Graphics Gems, 1990). */
 SHARED vec3 half_extents(uint_lanes shape, vec3 size, mat3 rotation)
 {
   vec3 box =
@@ -24,7 +24,8 @@ SHARED vec3 half_extents(uint_lanes shape, vec3 size, mat3 rotation)
                  choose3(shape == (uint_lanes)SHAPE_SPHERE, sphere, box));
 }
 
-/* Of a shape that has a pose: as far on both sides of the body's centre as the box around the shape reaches on one. */
+/* The half extents of a shape that has a pose: on both sides of the body's centre, as far as the box around the shape
+ * reaches on either. */
 SHARED vec3 posed_half_extents(GLOBAL const float4 *body_shape_pose, uint_lanes body, mat3 rotation)
 {
   vec3 center = rotate(rotation, xyz(load_float4(body_shape_pose, body * 4u + 2u))),
@@ -34,7 +35,7 @@ SHARED vec3 posed_half_extents(GLOBAL const float4 *body_shape_pose, uint_lanes 
   return add(absolute(center), extent);
 }
 
-/* Of a body as it stands. */
+/* The half extents of a body at its current pose. */
 SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                  GLOBAL const float4 *body_shape_pose, uint_lanes body, vec3 size, mat3 rotation)
 {
@@ -43,10 +44,10 @@ SHARED vec3 half_extents_of_body(GLOBAL const Parameters *parameters, GLOBAL con
   if (!HAS_FEATURE(parameters, CONVEX)) return extent;
   return choose3(is_general_shape(shape), posed_half_extents(body_shape_pose, body, rotation), extent);
 }
-/* Of the centre and of the sums below: two ulps. */
+/* The rounding of the centre and of the sums below: two ulps. */
 SHARED vec3 rounding_of_bounds(vec3 center) { return scale(absolute(center), R(2.4e-7)); }
 
-/* A turning shape stays within its bounding sphere. */
+/* The extent of a shape that turns; it stays within its bounding sphere. */
 SHARED real turned_extent(real extent, real radius, real turn)
 {
   return choose(extent > radius, extent, minimum(radius, extent + turn * radius));
@@ -57,8 +58,9 @@ SHARED vec3 turned_extents(vec3 extent, real radius, real turn)
                    turned_extent(extent.z, radius, turn));
 }
 
-/* How far below and above its centre a body reaches now -> its bounds over the step. radius: the bounding radius.
- * Parameters are not assigned to: rusticl passes both as one where the caller gives one vector twice. */
+/* Stores the bounds over the step of a body that now reaches `below` and `above` its centre. radius: the bounding
+ * radius. The parameters are never assigned to, because rusticl passes two as one if the caller gives one vector
+ * twice. */
 SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                  GLOBAL const float4 *body_mass, GLOBAL float4 *bounds, uint_lanes i, vec3 center,
                                  spatial_velocity m, vec3 below, vec3 above, real radius)
@@ -78,7 +80,8 @@ SHARED void store_bounds_of_step(GLOBAL const Parameters *parameters, GLOBAL con
       make_vec3(maximum(R(0.0), maximum(displacement.x, fallen.x)), maximum(R(0.0), maximum(displacement.y, fallen.y)),
                 maximum(R(0.0), maximum(displacement.z, fallen.z)));
   if (HAS_FEATURE(parameters, CONTINUOUS)) {
-    /* What it hits may turn its way, and its spin into speed: every pair that it can reach then is needed. */
+    /* A body that it hits may deflect it and turn its spin into speed, so every pair that it can then reach is
+     * needed. */
     real distance = maximum(length_of(displacement), length_of(fallen)) + turn * radius;
     vec3 anywhere = make_vec3(distance, distance, distance);
     mask continuous = is_continuous(load_uint(body_flags, i));
@@ -102,7 +105,7 @@ SHARED void compute_bounds_item(GLOBAL const Parameters *parameters, GLOBAL cons
                        load_velocity(body_velocity, i), extent, extent, size.w);
 }
 
-/* The same without any motion or margin: what queries ask. */
+/* The bounds of a body without motion or margin, for queries. */
 SHARED void compute_query_bounds_item(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                                       GLOBAL const float4 *body_shape, GLOBAL const float4 *body_shape_pose,
                                       GLOBAL const float4 *body_position, GLOBAL const float4 *body_orientation,

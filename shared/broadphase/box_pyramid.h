@@ -1,20 +1,20 @@
-/* box_pyramid.h - unions of the boxes of any range of a list, in as many loads as the range's length has bits.
+/* box_pyramid.h - the union of the boxes in any range of a list, in as many loads as the range's length has bits.
  *
- *                1                  A heap over the list: node n joins 2 n and 2 n + 1; place i of the list is node
- *           2         3             leaves + i. Behind the list: empty boxes, which overlap nothing.
- *         4   5     6   7
- *        8 9 10 11 12 . . .         Places 1 to 4 are the nodes 9, 5 and 12.
+ *                1                 The pyramid is a heap over the list: node n joins nodes 2 n and 2 n + 1, and place i
+ *           2         3            of the list is node leaves + i. Empty boxes, which overlap nothing, fill the rest of
+ *         4   5     6   7          the last level.
+ *        8 9 10 11 12 . . .        Example: places 1 to 4 are the nodes 9, 5 and 12.
  *
- * A tree over the list (hierarchy.h) takes the boxes of its nodes from here, all at once: no node waits for those below
- * it, as it must where boxes are joined from the leaves up with flags and fences, which OpenCL 1.2 does not promise to
- * work across work-groups. A box also knows the lowest number of a body in it.
+ * A tree over the list (hierarchy.h) takes the boxes of all its nodes from here at once. No node waits for those below
+ * it; joining boxes from the leaves up needs flags and fences, which OpenCL 1.2 does not promise to work across
+ * work-groups. Each box also stores the lowest index of a body in it.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
 #define TANDEM_SHARED_BROADPHASE_BOX_PYRAMID_H
 
 #include "shared/broadphase/extent.h"
 
-/* The lowest body in a box, as a number that a real holds: exact to 2^24, rounded down from there on. */
+/* The lowest body in a box as a real: exact up to 2^24, rounded down above. */
 SHARED real lowest_as_real(uint body) { return to_real(body < 16777216u ? body : body & 0xffffff00u); }
 
 typedef struct {
@@ -54,7 +54,7 @@ SHARED void store_leaf(GLOBAL float4 *pyramid, uint node, box_bounds box, uint b
   store_numbered_box(pyramid, node, leaf);
 }
 
-/* All leaves; tiles of them that have changed are told to those who build upon them. */
+/* Writes all leaves, and marks the tiles of leaves that have changed for the kernels above. */
 SHARED void pyramid_leaves_item(GLOBAL const float4 *boxes, GLOBAL const uint *leaf_body, GLOBAL const uint *counts,
                                 GLOBAL float4 *pyramid, GLOBAL uint *tile_changed, uint i)
 {
@@ -64,8 +64,8 @@ SHARED void pyramid_leaves_item(GLOBAL const float4 *boxes, GLOBAL const uint *l
   else store_numbered_box(pyramid, node, empty_box());
 }
 
-/* The ten levels above one whose nodes are 2^height leaves each; a group joins TILE nodes of that level, of leaves if
- * they changed. */
+/* Writes the ten levels above one whose nodes are 2^height leaves each. A group joins TILE nodes of that level; at the
+ * leaves it does so only if they changed. */
 SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *tile_changed, GLOBAL float4 *pyramid,
                                  uint height, LOCAL uint *local_memory, uint group)
 {
@@ -85,7 +85,7 @@ SHARED void pyramid_levels_group(GLOBAL const uint *counts, GLOBAL const uint *t
   }
 }
 
-/* Of places first .. last. */
+/* The union of the boxes at places first .. last. */
 SHARED numbered_box box_of_range(GLOBAL const float4 *pyramid, uint leaves, uint first, uint last)
 {
   numbered_box all = empty_box();

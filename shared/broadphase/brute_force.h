@@ -1,5 +1,5 @@
-/* brute_force.h - every body against every body before it: the oracle of all other broadphases
- * (inventory C1; GS-4150 slide 18, made ordered: count, scan, write). */
+/* brute_force.h - tests every body against every body before it; the oracle of all other broadphases (GS-4150 slide 18,
+ * made deterministic by count, scan, write). */
 #ifndef TANDEM_SHARED_BROADPHASE_BRUTE_FORCE_H
 #define TANDEM_SHARED_BROADPHASE_BRUTE_FORCE_H
 

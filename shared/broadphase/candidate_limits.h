@@ -1,4 +1,4 @@
-/* candidate_limits.h - capacity for pairs of fat boxes, for the host too: more of them overlap than of bounds. */
+/* candidate_limits.h - the capacity for pairs of fat boxes, of which more overlap than of bounds; for the host, too. */
 #ifndef TANDEM_SHARED_BROADPHASE_CANDIDATE_LIMITS_H
 #define TANDEM_SHARED_BROADPHASE_CANDIDATE_LIMITS_H
 

@@ -1,13 +1,14 @@
-/* candidate_pairs.h - the pairs whose fat boxes overlap, kept from step to step, and those of them whose bounds do: the
- * list.
+/* candidate_pairs.h - keeps the list of pairs whose fat boxes overlap from step to step, and selects those whose bounds
+ * overlap: the pair list.
  *
- *     kept list (neither of the two left its box)  +  what those who left find in both trees  ->  its other side
- *     kept list (bounds overlap)                                                              ->  pair_a, pair_b
+ *     kept list (neither body left its box)  +  new pairs of bodies that left theirs  ->  other side of the kept list
+ *     kept list (bounds overlap)                                                      ->  pair_a, pair_b
  *
- * A step in which no body left its fat box does the second line alone. The kept list has two sides: one is read while
- * the other is written, and then they change places. Each owner's range is sorted, as that of the pair list is. If
- * both bodies of a pair left their fat boxes, the one with the higher number finds the pair, so that it is found once.
- * A body that the scene calls large may meet thousands of others. Each of these looks at the large body, so that no
+ * A step in which no body left its fat box only does the second line. The kept list has two sides: one is read while
+ * the other is written, and then they are swapped. Each owner's range is sorted, as in the pair list. If both bodies of
+ * a pair left their fat boxes, the body with the higher index reports the pair, so that it is reported once. A body
+ * that the scene calls large may overlap thousands of others. Each of these tests the large body, so that no single
+ * work-item has to find all of them.
  * single work-item has to find them all.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
@@ -23,15 +24,15 @@ SHARED uint candidate_capacity(GLOBAL const uint *counts) { return CANDIDATES_PE
 
 /* --- what those who left find -------------------------------------------------------------------------- */
 
-/* Whether body y finds the pair that it makes with large body b, which is new only if b left its fat box. */
+/* Whether body y must test the pair with the large body b, which is new only if b left its fat box. */
 SHARED mask searches_large(GLOBAL const uint *body_left, uint large, uint y, uint b)
 {
   if (body_left[b] == 0u || y == b) return 0;
   return body_left[y] == 0u || (y < large && b < y);
 }
 
-/* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the one of the higher number
- * finds the pair, so that it is found once. */
+/* The leaves of the tree whose boxes body i overlaps. If both bodies left their fat boxes, the body with the higher
+ * index reports the pair, so that it is reported once. */
 FORCE_INLINE uint find_among_leaves(const pair_search *search, GLOBAL const uint *body_left,
                                     read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts,
                                     const find_list *list, uint at)
@@ -83,7 +84,7 @@ SHARED void candidate_write_item(GLOBAL const Parameters *parameters, GLOBAL con
   search_near(&search, body_left, hierarchy_nodes, counts, &list, key_start[i]);
 }
 
-/* The keys to sort are those that there was room for. */
+/* The number of keys to sort is limited by their capacity. */
 SHARED void count_candidate_keys_item(GLOBAL const uint *key_start, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -163,7 +164,7 @@ SHARED void swap_candidate_lists_item(GLOBAL const uint *key_start, GLOBAL uint 
 
 /* --- the pair list -------------------------------------------------------------------------------------- */
 
-/* Packs the partners of body `a` whose bounds overlap its own at the start of its range. */
+/* Moves the partners of body `a` whose bounds overlap its own to the start of its range. */
 SHARED void filter_candidates_item(GLOBAL const float4 *bounds, GLOBAL const uint *candidate_start,
                                    GLOBAL const uint *candidate_b, GLOBAL const uint *counts,
                                    GLOBAL uint *candidate_found, GLOBAL uint *pair_start, uint a)
@@ -186,8 +187,8 @@ SHARED void take_candidates_item(GLOBAL const uint *candidate_start, GLOBAL cons
     used = append_pair(pair_a, pair_b, first, used, counts[CAPACITY_PAIRS], a, candidate_found[from + k]);
 }
 
-/* If the kept list was short of room, the room for pairs grows, on which its own depends, and nothing is kept: the step
- * runs again and finds all pairs anew. */
+/* If the kept list exceeded its capacity, the pair capacity grows, from which that of the list follows, and nothing is
+ * kept. The step then runs again and finds all pairs anew. */
 SHARED void keep_candidates_item(GLOBAL uint *counts, uint i)
 {
   (void)i;

@@ -1,12 +1,12 @@
-/* curve.h - the order along a space-filling curve: Morton codes of the centres of bounds, after Lauterbach and others,
- * "Fast BVH construction on GPUs", 2009. What lies near on the curve lies near in space, so trees and sorted lists are
+/* curve.h - the order along a space-filling curve: Morton codes of the centres of bounds (Lauterbach and others, "Fast
+ * BVH construction on GPUs", 2009). Bodies that are near on the curve are near in space, so trees and sorted lists are
  * built over it. */
 #ifndef TANDEM_SHARED_BROADPHASE_CURVE_H
 #define TANDEM_SHARED_BROADPHASE_CURVE_H
 
 #include "shared/broadphase/extent.h"
 
-/* Spreads ten bits to every third. */
+/* Spreads ten bits to every third bit. */
 SHARED uint spread_bits(uint x)
 {
   x = (x | x << 16) & 0x030000ffu;
@@ -20,7 +20,7 @@ SHARED uint curve_cell(real offset, real scale)
   return cell < 0 ? 0u : cell < CURVE_CELLS ? (uint)cell : (uint)CURVE_CELLS - 1u;
 }
 
-/* The frame is that of the small bodies; large ones beside it stand on its border. */
+/* The frame is that of the small bodies; large bodies outside of it are clamped to its border. */
 SHARED uint curve_key(GLOBAL const float4 *grid, box_bounds box)
 {
   vec4 frame = load_float4(grid, 1u);
@@ -29,7 +29,7 @@ SHARED uint curve_key(GLOBAL const float4 *grid, box_bounds box)
          spread_bits(curve_cell(offset.z, frame.w));
 }
 
-/* Body i of finite size. */
+/* The sort key of body i, which has finite bounds. */
 SHARED void curve_keys_item(GLOBAL const float4 *bounds, GLOBAL const float4 *grid, GLOBAL const uint *counts,
                             GLOBAL uint *sort_key, GLOBAL uint *sort_value, uint i)
 {

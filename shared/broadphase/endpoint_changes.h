@@ -1,21 +1,21 @@
-/* endpoint_changes.h - the pairs that came to overlap or ceased to since the last launch: found by the ends that
- * changed places.
+/* endpoint_changes.h - finds the pairs that began or ceased to overlap since the last launch, by the endpoints that
+ * changed their order.
  *
- * A pair can change only if along some axis a lower end l of one body and an upper end u of the other stand in another
- * order than they did: their couple is inverted. Each end walks its way, from its old place to its new one, through the
- * old list and the new list:
+ * A pair can change only if along some axis the order of a lower end l of one body and an upper end u of the other has
+ * changed: the two are inverted. Each end visits the places between its old and its new one, in the old list and in the
+ * new list:
  *
  *     place     4  5  6  7
- *     old   ..  l  x  u  y  ..        l goes from place 4 to 6: it meets x and u, in either list; u alone is an
- *     new   ..  u  x  l  y  ..        upper end that l stood before and stands behind, so the two may have parted
+ *     old   ..  l  x  u  y  ..       l moves from place 4 to 6 and meets x and u in either list. Only u is an upper end
+ *     new   ..  u  x  l  y  ..       that was after l and is now before it, so the two bodies may have parted.
  *
- * One of the two meets the other. Let l stand before u at first, at a < b, and behind it afterwards, at a' > b'. If b,
- * u's place in the old list, is not on l's way, it lies behind a' too, and if b' is not on that way, it lies before a
- * too. Then u's way from b to b' leads past both a and a': u meets l in either list. With old and new exchanged this is
- * the other inversion.
+ * At least one of two inverted ends meets the other. Let l be before u at first, at a < b, and after it later, at a' >
+ * b'. If b, the place of u in the old list, is not among those that l visits, it is after a', too. If b' is not among
+ * them, it is before a, too. Then u visits both a and a' between b and b', so it meets l in either list. The other
+ * inversion is the same with old and new exchanged.
  *
- * So what the search costs is how far ends moved in the orders. Where nothing is kept, all pairs are changes: a plain
- * sweep along the first axis finds them.
+ * The cost of the search is therefore the distance that ends moved in the orders. If nothing is kept, all pairs are
+ * changes, and a plain sweep along the first axis finds them.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_ENDPOINT_CHANGES_H
 #define TANDEM_SHARED_BROADPHASE_ENDPOINT_CHANGES_H
@@ -29,12 +29,12 @@ typedef struct {
   uint bodies;
 } end_tables;
 
-/* An end, where it stood along some axis, and where it stands. */
+/* An end, its old place along some axis, and its new one. */
 typedef struct {
   uint end, was, is;
 } moved_end;
 
-/* Keys from `at` on, as many as there is room for; without keys it is a counter. */
+/* A list of keys from `at` on, up to its capacity; without keys it is a counter. */
 typedef struct {
   GLOBAL ulong *keys;
   uint at, capacity;
@@ -61,8 +61,8 @@ SHARED int is_on_path(moved_end m, uint place)
   return m.was < m.is ? m.was <= place && place <= m.is : m.is <= place && place <= m.was;
 }
 
-/* Whether m has to tell of this couple. Of two ends that meet each other the lower one does, so that it is told
- * once. */
+/* Whether m must report this pair of ends. Of two ends that meet each other the lower one does, so that the pair is
+ * reported once. */
 SHARED int tells_couple(uint bodies, moved_end m, moved_end other)
 {
   int is_lower = m.end < bodies;
@@ -77,8 +77,8 @@ SHARED int overlap_along(box_bounds p, box_bounds q, uint axis)
   return i.start <= j.end && j.start <= i.end;
 }
 
-/* Whether two bodies came together or parted, and no axis before this one tells of it. Along an axis on which they
- * overlap before and after no couple of them is inverted, so the first axis with a change tells. */
+/* Whether two bodies began or ceased to overlap and no axis before this one reports it. Along an axis on which they
+ * overlap before and after, none of their ends is inverted, so the first axis with a change reports it. */
 SHARED int pair_changed(const end_tables *tables, uint axis, uint one, uint other)
 {
   box_bounds p = load_bounds(tables->bounds, one), q = load_bounds(tables->bounds, other);
@@ -95,7 +95,7 @@ SHARED void meet_end(const end_tables *tables, uint axis, moved_end m, moved_end
   if (tells_couple(tables->bodies, m, other) && pair_changed(tables, axis, one, two)) add_key(list, one, two);
 }
 
-/* All ends on the way of m, in the old list and, unless they were met there, in the new one. */
+/* Visits all ends between the places of m, in the old list and, unless they were met there, in the new one. */
 SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, key_list *list)
 {
   uint plane = 2u * tables->bodies * axis, first = m.was < m.is ? m.was : m.is, last = m.was < m.is ? m.is : m.was;
@@ -107,7 +107,8 @@ SHARED void walk_way(const end_tables *tables, uint axis, moved_end m, key_list 
   }
 }
 
-/* Every pair, by the body that starts first along the first axis: the other starts between its ends. */
+/* Reports every pair once, by the body that starts first along the first axis; the other one starts between its
+ * ends. */
 SHARED void sweep_from_start(const end_tables *tables, uint body, key_list *list)
 {
   box_bounds own = load_bounds(tables->bounds, body);
@@ -149,7 +150,7 @@ SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const
                                read_kept_box_ends kept_box_ends, GLOBAL const uint *counts,
                                GLOBAL const uint *share_start, GLOBAL ulong *pair_key, uint i)
 {
-  if (share_start[i] == share_start[i + 1u]) return; /* most ends: they need not walk again */
+  if (share_start[i] == share_start[i + 1u]) return; /* most ends found nothing and need not search again */
   end_tables tables = {parameters,           body_flags,          body_filter,         box_ends.order,
                        box_ends.place,       kept_box_ends.order, kept_box_ends.place, bounds,
                        kept_box_ends.bounds, counts[COUNT_BODIES]};
@@ -157,7 +158,7 @@ SHARED void write_changes_item(GLOBAL const Parameters *parameters, GLOBAL const
   find_changes(&tables, counts[COUNT_KEPT], i, &list);
 }
 
-/* How many there are to sort and to merge: those that there was room for. */
+/* The number of changes to sort and merge, limited by their capacity. */
 SHARED void total_changes_item(GLOBAL const uint *share_start, GLOBAL uint *counts, uint i)
 {
   (void)i;

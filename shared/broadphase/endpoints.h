@@ -1,16 +1,16 @@
-/* endpoints.h - where boxes start and end along each axis, in sorted order: what the incremental sweep and prune
- * compares with the order of the launch before.
+/* endpoints.h - the ends of boxes along each axis, in sorted order, which the incremental sweep and prune compares with
+ * those of the launch before.
  *
- * End e of so many bodies is the lower end of body e, or the upper end of body e - bodies:
+ * End e is the lower end of body e, or the upper end of body e - bodies:
  *
  *     axis -->    |--- 0 ---|
  *                      |-- 1 --|
  *     order:      0    1    2  3        (2 bodies: ends 2 and 3 are upper ones)
  *     place:      0    1    2  3        of ends 0, 1, 2, 3
  *
- * Ends of equal value stay in the order of their numbers, since the sort is stable: lower ends come before upper ones,
- * and boxes that touch overlap. So for two bodies a and b "a.lower <= b.upper" is "a's lower end stands before b's
- * upper end", exactly, in floats. Orders and places are planes, one an axis, of all ends.
+ * The sort is stable, so ends of equal value stay in the order of their indices: lower ends come before upper ones, and
+ * boxes that touch overlap. For two bodies a and b, "a.lower <= b.upper" is therefore exactly "a's lower end is before
+ * b's upper end", in floats. Orders and places are planes, one for each axis, of all ends.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
 #define TANDEM_SHARED_BROADPHASE_ENDPOINTS_H
@@ -20,7 +20,8 @@
 
 SHARED uint body_of_end(uint end, uint bodies) { return end < bodies ? end : end - bodies; }
 
-/* What is no number overlaps nothing, as in bounds_overlap: it starts behind all ends and ends before all starts. */
+/* A box with NaN overlaps nothing, as in bounds_overlap: its lower end sorts after all ends, and its upper end
+ * before. */
 SHARED uint end_key(interval along, int is_lower)
 {
   int is_number = along.start == along.start && along.end == along.end;
@@ -36,8 +37,8 @@ SHARED void axis_keys_item(GLOBAL const float4 *bounds, GLOBAL const uint *count
   sort_value[i] = i;
 }
 
-/* Both ways, since the sort's buffers are used again for the next axis: which end stands at a place, and the place of
- * an end. */
+/* Stores the end at each place and the place of each end, because the buffers of the sort are reused for the next
+ * axis. */
 SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL uint *axis_order,
                              GLOBAL uint *axis_place, uint axis, uint i)
 {
@@ -46,7 +47,7 @@ SHARED void axis_places_item(GLOBAL const uint *sort_value, GLOBAL const uint *c
   axis_place[plane + end] = i;
 }
 
-/* For the next launch: the orders, and the bounds, of which there are as many rows as ends. */
+/* Keeps the orders and the bounds for the next launch; there are as many rows of bounds as ends. */
 SHARED void keep_ends_item(GLOBAL const float4 *bounds, read_box_ends box_ends, GLOBAL const uint *counts,
                            write_kept_box_ends kept_box_ends, uint i)
 {

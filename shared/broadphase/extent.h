@@ -1,9 +1,9 @@
-/* extent.h - where the bodies are, as a whole: the region of the uniform grid, the frame of the
- * space-filling curve and the axis of the sweep.
+/* extent.h - the extent of all bodies: the region of the uniform grid, the frame of the space-filling curve and the
+ * axis of the sweep.
  *
- * Per tile a tree of bounds of the centres, the largest size, and the sums for the variance; then one
- * group over the tiles. Trees are fixed, so the sums have the same bits everywhere. Large bodies are left
- * out: they are tested against everything instead.
+ * Each tile reduces by a tree the bounds of the centres, the largest size, and the sums for the variance; then one
+ * group reduces the tiles. The trees are fixed, so the sums have the same bits everywhere. Large bodies are left out,
+ * because they are tested against all others instead.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_EXTENT_H
 #define TANDEM_SHARED_BROADPHASE_EXTENT_H
@@ -16,7 +16,7 @@
 #define EXTENT_WIDTH 256u /* virtual items of a group; each keeps EXTENT_VALUES words of local memory */
 #define EXTENT_ROWS 4u    /* rows of bounds_sums a tile */
 
-/* Of the centres; products: y z, z x, x y. size: the longest side of any box. */
+/* The extent of the centres. products: y z, z x, x y. size: the longest side of any box. */
 typedef struct {
   vec3 lower, upper, sum, squares, products;
   real size;
@@ -97,7 +97,7 @@ SHARED extent load_extent_tile(GLOBAL const float4 *bounds_sums, uint tile)
   return e;
 }
 
-/* One group over TILE small bodies -> EXTENT_ROWS rows of bounds_sums. */
+/* One group reduces TILE small bodies to EXTENT_ROWS rows of bounds_sums. */
 SHARED void extent_tiles_group(GLOBAL const float4 *bounds, GLOBAL const uint *counts, GLOBAL float4 *bounds_sums,
                                LOCAL uint *local_memory, uint group)
 {
@@ -113,19 +113,19 @@ SHARED void extent_tiles_group(GLOBAL const float4 *bounds, GLOBAL const uint *c
     store_extent_local(extents, item, e);
   }
   join_tree(extents);
-  /* A device launches a group even where there is no tile. */
+  /* The condition is needed because a device launches a group even if there is no tile. */
   FOR_EACH_ITEM(first, group * TILE < small ? 1u : 0u)
   store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
 }
 
-/* Cells along one axis, at least 1 and at most what 30 bits of three axes allow. */
+/* The number of cells along one axis, at least 1 and at most what 30 bits for three axes allow. */
 SHARED uint cells_along(real length, real cell)
 {
   int cells = floor_to_int(length / cell) + 1;
   return cells < 1 ? 1u : (uint)cells;
 }
 
-/* The grid of smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
+/* The grid with the smallest cells, none below `size`, that fits the table: cells grow by a quarter until it does. */
 SHARED void write_grid_layout(extent whole, real size, GLOBAL float4 *grid, GLOBAL uint *counts)
 {
   vec3 length = subtract(whole.upper, whole.lower);
@@ -146,7 +146,7 @@ SHARED void write_grid_layout(extent whole, real size, GLOBAL float4 *grid, GLOB
   counts[COUNT_CELLS_PLUS_ONE] = nx * ny * nz + 1u;
 }
 
-/* The curve runs through a cube around the centres, CURVE_CELLS along a side. */
+/* The curve fills a cube around the centres, with CURVE_CELLS along a side. */
 SHARED void write_curve_layout(extent whole, GLOBAL float4 *grid)
 {
   vec3 length = subtract(whole.upper, whole.lower);
@@ -174,11 +174,11 @@ SHARED uint widest_axis(covariance c)
   return c.squares.y >= c.squares.z ? 1u : 2u;
 }
 
-/* The direction along which they spread most: the first principal component, by iteration. What a wrong one costs is
- * time. */
+/* The direction along which the centres spread most: the first principal component, by power iteration. A wrong
+ * direction only costs time. */
 SHARED vec3 principal_direction(covariance c)
 {
-  vec3 d = make_vec3(R(1.0), R(0.75), R(0.5)); /* square to none of the axes */
+  vec3 d = make_vec3(R(1.0), R(0.75), R(0.5)); /* perpendicular to none of the axes */
   for (int k = 0; k < 32; ++k) {
     vec3 next = make_vec3(c.squares.x * d.x + c.products.z * d.y + c.products.y * d.z,
                           c.products.z * d.x + c.squares.y * d.y + c.products.x * d.z,
@@ -190,7 +190,7 @@ SHARED vec3 principal_direction(covariance c)
   return scale(d, R(1.0) / length_of(d));
 }
 
-/* One group over all tiles: the whole extent replaces the first tile's. */
+/* One group reduces all tiles; the whole extent replaces that of the first tile. */
 SHARED void extent_whole_group(GLOBAL const uint *counts, GLOBAL float4 *bounds_sums, LOCAL uint *local_memory,
                                uint group)
 {
@@ -213,20 +213,20 @@ SHARED covariance spread_of(extent whole, GLOBAL const uint *counts)
   return covariance_of(whole, (real)(bodies > 0u ? bodies : 1u));
 }
 
-/* One item, for the sweep along it. */
+/* One item computes the principal direction, for the sweep along it. */
 SHARED void find_principal_direction_item(GLOBAL const float4 *bounds_sums, GLOBAL const uint *counts,
                                           GLOBAL float4 *grid, uint i)
 {
   store_float4(grid, 2u, extend(principal_direction(spread_of(load_extent_tile(bounds_sums, i), counts)), R(0.0)));
 }
 
-/* One item: the layout of the grid, the frame of the curve and the axis of the sweep. */
+/* One item computes the layout of the grid, the frame of the curve and the axis of the sweep. */
 SHARED void compute_grid_layout_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *bounds_sums,
                                      GLOBAL float4 *grid, GLOBAL uint *counts, uint hybrid, uint i)
 {
   extent whole = load_extent_tile(bounds_sums, i);
   if (counts[COUNT_SMALL] == 0u)
-    whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all are large: nothing has an extent */
+    whole.lower = whole.upper = make_vec3(R(0.0), R(0.0), R(0.0)); /* all bodies are large, so there is no extent */
   write_grid_layout(whole, hybrid != 0u ? parameters->hybrid_cell : whole.size, grid, counts);
   write_curve_layout(whole, grid);
   counts[COUNT_SWEEP_AXIS] = widest_axis(spread_of(whole, counts));

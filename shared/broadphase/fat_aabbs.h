@@ -1,20 +1,18 @@
-/* fat_aabbs.h - boxes with a margin to move in, inserted in a dynamic and a static tree: the dynamic AABB trees of CPU
- * engines, in parallel.
+/* fat_aabbs.h - fat AABBs, inserted in a dynamic and a static tree: the dynamic AABB trees of CPU engines, in parallel.
  *
- * After Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
+ * They follow Presson's tree in Bullet (btDbvt, 2008) and Catto, "Dynamic bounding volume hierarchies" (GDC 2019).
  *
- *        +------------------+       A body keeps its fat box, the pairs that it makes with others, and its place in the
- *        | +----+           |       tree, for as long as its bounds stay inside. One that leaves gets a new one, with a
- *        | |  o - - - >     |       margin on all sides and a piece of the way ahead, and looks for pairs again: most
- *                                   steps, few do.
- *        | +----+           |
+ *        +------------------+   A body keeps its fat box, its pairs with other fat boxes and its place in the tree for
+ *        | +----+           |   as long as its bounds stay inside. A body that leaves gets a new fat box, with a
+ *        | |  o - - - >     |   margin on all sides and a part of its displacement ahead, and searches for pairs again.
+ *        | +----+           |   Few bodies do so in most steps.
  *        +------------------+
  *
- * Fixed bodies, and those that have not left their boxes for RESTING_STEPS, stand: their codes sort behind those of all
- * others, so that the root's children are the two trees. Those who leave look into both, in one walk. Boxes above a
- * leaf are made anew where a leaf of the same tile of the list changed: tiles of the static tree hardly ever. Bodies
- * change trees, and the order is made anew, as soon as one leaf in sixteen has lost touch with the box that it was
- * inserted with (hierarchy.h).
+ * Fixed bodies, and bodies that have not left their boxes for RESTING_STEPS, are in the static tree: their codes sort
+ * behind those of all others, so that the root's children are the two trees. A body that leaves searches both in one
+ * traversal. The boxes above a leaf are rebuilt if a leaf of the same tile of the list changed, which is rare in the
+ * static tree. Bodies change trees, and the order is rebuilt, as soon as one leaf in sixteen no longer overlaps the box
+ * that it was inserted with (hierarchy.h).
  */
 #ifndef TANDEM_SHARED_BROADPHASE_FAT_AABBS_H
 #define TANDEM_SHARED_BROADPHASE_FAT_AABBS_H
@@ -24,11 +22,11 @@
 #define RESTING_STEPS 32u
 #define STATIC_TREE (1u << CURVE_BITS)
 
-/* Beyond the bounds on each side, of a body's mean size. */
+/* The margin beyond the bounds on each side, as a share of a body's mean size. */
 #define FAT_MARGIN R(0.03125)
-/* Ahead, the way of FAT_STEPS to twice as many, not the same for all lest they leave together; at most so much of the
- * body's mean size, or of the cell that the hybrid's grid has: what is small beside others may go far before it meets
- * more of them. */
+/* The margin ahead is the displacement of FAT_STEPS to twice as many steps; the number differs between bodies, so that
+ * they do not all leave together. It is limited by a share of the body's mean size, or of the cell of the hybrid's
+ * grid, because a body that is small beside others may move far before it overlaps more of them. */
 #define FAT_STEPS 8u
 #define FAT_DISPLACEMENT R(0.25)
 #define FAT_DISPLACEMENT_OF_CELL R(0.125)
@@ -42,7 +40,7 @@ SHARED mask box_inside(box_bounds inner_box, box_bounds outer_box)
 
 SHARED real fat_steps(uint body) { return to_real(FAT_STEPS + (body * 2654435761u >> 16) % FAT_STEPS); }
 
-/* ahead: the way that there is to be room for. cell: of the hybrid's grid, m. */
+/* ahead: the displacement to include. cell: of the hybrid's grid, m. */
 SHARED box_bounds fattened(box_bounds box, vec3 ahead, real cell)
 {
   vec3 extent = subtract(box.upper, box.lower), none = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -76,8 +74,8 @@ SHARED void update_fat_aabbs_item(GLOBAL const Parameters *parameters, GLOBAL co
   ATOMIC_OR(&counts[COUNT_LEFT], i < counts[COUNT_LARGE] ? 3u : 1u);
 }
 
-/* What there is to do where any body left its box; nothing where none did. A query between steps takes the order of the
- * trees for itself: then they are raised anew. */
+/* Sets the ranges of the kernels that follow: nothing if no body left its box. A query between steps rebuilds the order
+ * of the trees for its own use; the trees are then rebuilt. */
 SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -88,7 +86,8 @@ SHARED void plan_trees_item(GLOBAL uint *counts, uint i)
   counts[COUNT_LEFT] = 0u;
 }
 
-/* Leaf i, where the order of the last step may still hold: its box in the pyramid, and the tile that changed. */
+/* Leaf i, if the order of the last step may still hold: writes its box in the pyramid, and marks the tile that
+ * changed. */
 SHARED void refit_leaves_item(GLOBAL const float4 *fat_bounds, GLOBAL const uint *body_left,
                               GLOBAL const uint *leaf_body, GLOBAL const float4 *inserted_bounds,
                               GLOBAL uint *tile_changed, GLOBAL float4 *box_pyramid, GLOBAL uint *counts, uint i)

@@ -1,9 +1,8 @@
-/* grid.h - uniform grid: bodies sorted by cell, each looks into its own and the 26 cells around it.
+/* grid.h - uniform grid: bodies are sorted by cell, and each searches its own cell and the 26 around it.
  *
- * After the particle demo of the 2009 talk and GS-4150 slides 19-20, with no limit on a cell's
- * population. A cell is never smaller than the largest bounds, so overlapping bodies are in touching
- * cells. Cells are numbered along x first, so three neighbours are one range of the sorted list:
- *
+ * It follows the particle demo of the 2009 talk and GS-4150 slides 19-20, without a limit on the bodies in a cell. A
+ * cell is never smaller than the largest bounds, so overlapping bodies are in neighbouring cells. Cells are numbered
+ * along x first, so three neighbours are one range of the sorted list:
  *      z  +---+---+---+
  *      ^  | 6   7   8 |     9 rows of 3 cells instead of 27 cells
  *      |  +---+---+---+
@@ -21,7 +20,7 @@ typedef struct {
   int x, y, z;
 } grid_cell;
 
-/* Rounding may put a body outside of the region: it then belongs to a border cell. */
+/* Rounding may put a body outside of the region; it then belongs to a border cell. */
 SHARED int cell_along(real offset, real inverse_cell, uint cells)
 {
   int cell = floor_to_int(offset * inverse_cell);
@@ -54,9 +53,9 @@ SHARED void grid_keys_item(GLOBAL const float4 *bounds, GLOBAL const float4 *gri
   sort_value[i] = body;
 }
 
-/* cell_start[cell] = the first sorted body of that cell or a later one. There are more cells than bodies: a group looks
- * through the whole list for every CELLS_PER_SAMPLE-th of its TILE cells, and for the others between the places of two
- * of these. */
+/* cell_start[cell] = the first sorted body of that cell or a later one. There are more cells than bodies, so a group
+ * searches the whole list only for every CELLS_PER_SAMPLE-th of its TILE cells; for the others it searches between the
+ * places of two of these. */
 #define CELLS_PER_SAMPLE 16u
 SHARED void grid_cells_group(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *cell_start,
                              uint length, LOCAL uint *local_memory, uint group)

@@ -1,11 +1,10 @@
-/* grid_symmetric.h - the grid of grid.h with 14 cells instead of 27: each pair of cells is looked at from one side.
+/* grid_symmetric.h - the grid of grid.h with 14 cells instead of 27: each pair of cells is tested from one side only.
  *
  *      z + 1 row    x x x   x x x   x x x        A body tests those behind it in its own cell and those of 13 of the
  *      z     row    . . .   . o x   x x x        cells around it: the right one, the row above, and three rows of the
- *                                                next layer. The bodies of the other 13 cells test it.
- *                   y - 1     y     y + 1
+ *                   y - 1     y     y + 1        next layer. The bodies of the other 13 cells test it.
  *
- * This halves the tests (2009 talk). But a pair may be found by either of its bodies, so pairs are keys that are sorted
+ * This halves the tests (2009 talk). A pair may be found by either of its bodies, so pairs are keys that are sorted
  * afterwards (pair_keys.h).
  */
 #ifndef TANDEM_SHARED_BROADPHASE_GRID_SYMMETRIC_H
@@ -14,7 +13,7 @@
 #include "shared/broadphase/grid.h"
 #include "shared/broadphase/pair_keys.h"
 
-/* Range k of 5; the first starts behind the body itself. */
+/* Range k of 5; the first one starts behind the body itself. */
 SHARED grid_row forward_row(GLOBAL const uint *cell_start, GLOBAL const uint *counts, grid_cell c, uint place, uint k)
 {
   if (k == 0u) {

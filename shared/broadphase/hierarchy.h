@@ -1,9 +1,9 @@
-/* hierarchy.h - a tree of boxes over bodies of finite size along a space-filling curve: the linear BVH, built at once
- * on the device.
+/* hierarchy.h - a tree of boxes over the bodies with finite bounds along a space-filling curve: the linear BVH, built
+ * in parallel on the device.
  *
- * After the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees, and
- * k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h); every node holds a range of the
- * list and splits it where the codes first differ, so that it also splits space. Each node finds its range by itself:
+ * It follows the GPU tree of the 2009 talk, and Karras, "Maximizing parallelism in the construction of BVHs, octrees,
+ * and k-d trees", 2012. Bodies are sorted by the Morton code of their centres (curve.h). Every node holds a range of
+ * the list and splits it where the codes first differ, which also splits space. Each node finds its range by itself:
  *
  *     code   00001 00010 00100 00101 10011 11000
  *     place    0     1     2     3     4     5
@@ -11,17 +11,18 @@
  *            [------- 3 -------]      [--4---]
  *            [--1--]     [--2--]
  *
- * The range of inner node i starts or ends at place i, and goes on as far as codes share more with code i than the
- * neighbour on the other side does. Children of a node split between s and s + 1 are whatever ends at s and whatever
- * starts at s + 1: the leaf or inner node of that number.
+ * The range of inner node i starts or ends at place i, and extends as far as codes share more bits with code i than the
+ * neighbour on the other side does. If a node splits between s and s + 1, its children are the leaf or inner node s,
+ * whose range ends at s, and the leaf or inner node s + 1, whose range starts there.
  *
- * Leaf i stands in slot 2 i, inner node i in slot 2 i + 1: neighbours on the curve are neighbours in memory. Links of a
- * slot: its children, the slot after its subtree (the second child of whom it is the first child of), its parent.
+ * Leaf i is in slot 2 i and inner node i in slot 2 i + 1, so neighbours on the curve are neighbours in memory. The
+ * links of a slot are its two children, the slot after its subtree (the second child of the node whose first child it
+ * is), and its parent.
  *
- * The order and the links are kept from step to step, and only the boxes made anew, until one body in sixteen has left
- * the box it was inserted with. A node also knows the lowest number of a body below it: a body looks for those before
- * it alone, and passes over the rest. Half-spaces, which have no bounds to speak of, come first of all bodies and are
- * tested against everything.
+ * The order and the links are kept from step to step and only the boxes are rebuilt, until one body in sixteen no
+ * longer overlaps the box that it was inserted with. A node also stores the lowest index of a body below it: a body
+ * searches only for those before it, and skips the other subtrees. Half-spaces have no bounds; they come first of all
+ * bodies and are tested against every body.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_H
@@ -55,7 +56,7 @@ SHARED void count_escaped_item(GLOBAL const float4 *bounds, GLOBAL const uint *l
     ATOMIC_ADD(&counts[COUNT_ESCAPED], 1u);
 }
 
-/* A tree over the first `leaves` of the sorted list: how large its pyramid is. */
+/* Sets the size of the pyramid for a tree over the first `leaves` of the sorted list. */
 SHARED void set_leaves(GLOBAL uint *counts, uint leaves)
 {
   uint capacity = 1u;
@@ -65,7 +66,7 @@ SHARED void set_leaves(GLOBAL uint *counts, uint leaves)
   counts[COUNT_LEAF_TILES] = capacity > TILE ? capacity / TILE : 1u;
 }
 
-/* keep: whether the order of the last step will do, if there is one. */
+/* keep: whether the order of the last step may be kept, if there is one. */
 SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
 {
   (void)i;
@@ -80,7 +81,7 @@ SHARED void plan_hierarchy_item(GLOBAL uint *counts, uint keep, uint i)
   counts[COUNT_INSERTED_LEAVES] = stands != 0u ? 0u : counts[COUNT_LEAVES];
 }
 
-/* boxes: those that the tree is of. */
+/* boxes: the boxes that the tree is built over. */
 SHARED void insert_leaves_item(GLOBAL const float4 *boxes, GLOBAL const uint *sort_value, GLOBAL uint *leaf_body,
                                GLOBAL float4 *inserted_bounds, uint i)
 {
@@ -97,8 +98,8 @@ typedef struct {
   uint length;
 } sorted_codes;
 
-/* How many leading bits the codes of two places share; equal ones are told apart by their places. -1 outside the
- * list. */
+/* The number of leading bits that the codes of two places share; equal codes are told apart by their places. -1 outside
+ * the list. */
 SHARED int shared_bits(const sorted_codes *codes, uint place, int other)
 {
   if (other < 0 || other >= (int)codes->length) return -1;
@@ -106,8 +107,8 @@ SHARED int shared_bits(const sorted_codes *codes, uint place, int other)
   return difference != 0u ? LEADING_ZEROS(difference) : 32 + LEADING_ZEROS(place ^ (uint)other);
 }
 
-/* How far from `place`, in steps of `direction` (1 or -1), at least `least` bits are shared; a power of two known to be
- * too far. */
+/* The distance from `place`, in the direction 1 or -1, up to which at least `least` bits are shared. too_far: a power
+ * of two beyond that distance. */
 SHARED int reach_of_bits(const sorted_codes *codes, uint place, int direction, int least, int too_far)
 {
   int reach = 0;
@@ -120,7 +121,7 @@ typedef struct {
   uint first, last, split;
 } leaf_range;
 
-/* Of inner node i. */
+/* The range of leaves below inner node i. */
 SHARED leaf_range range_of_node(const sorted_codes *codes, uint i)
 {
   int direction = shared_bits(codes, i, (int)i + 1) > shared_bits(codes, i, (int)i - 1) ? 1 : -1;
@@ -137,7 +138,7 @@ SHARED leaf_range range_of_node(const sorted_codes *codes, uint i)
   return s;
 }
 
-/* What comes after a subtree that ends at place `last`: the largest that starts behind it. */
+/* The slot after a subtree that ends at place `last`: that of the largest subtree that starts behind it. */
 SHARED uint slot_after(const sorted_codes *codes, uint last)
 {
   uint next = last + 1u;
@@ -146,7 +147,8 @@ SHARED uint slot_after(const sorted_codes *codes, uint last)
                                                                                        : leaf_slot(next);
 }
 
-/* Leaf i, and inner node i unless i is the last place. A parent is written by whoever has the child. */
+/* Writes the links of leaf i, and of inner node i unless i is the last place. Each node writes the parent links of its
+ * children. */
 SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *counts, GLOBAL uint *hierarchy_link,
                             GLOBAL uint *hierarchy_range, uint i)
 {
@@ -167,7 +169,7 @@ SHARED void link_nodes_item(GLOBAL const uint *sort_key, GLOBAL const uint *coun
   hierarchy_range[2u * i + 1u] = s.last;
 }
 
-/* The boxes of leaf i and of inner node i, unless the one tile that the node lies in is as it was. */
+/* Writes the boxes of leaf i and of inner node i, unless the node lies in one tile and that is unchanged. */
 SHARED void node_boxes_item(GLOBAL const float4 *box_pyramid, GLOBAL const uint *hierarchy_range,
                             GLOBAL const uint *tile_changed, GLOBAL const uint *counts, GLOBAL float4 *hierarchy,
                             uint i)

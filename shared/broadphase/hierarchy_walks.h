@@ -1,12 +1,12 @@
-/* hierarchy_walks.h - three ways to walk the tree of hierarchy.h, and the pairs that they find. All three stand here to
- * be compared with one another, as the talks do.
+/* hierarchy_walks.h - three traversals of the tree of hierarchy.h, and the pairs that they find. All three are here to
+ * be compared with one another, as in the talks.
  *
- *   skip      a box that is missed is passed over by the link behind its subtree: one number of state
- *   stack     the nodes still to come
- *   history   two bits a level: which children have been visited (2009 talk); up by the link to the parent
+ *   skip     a box that is missed is skipped by the link behind its subtree; the state is one number
+ *   stack    the nodes that remain are on a stack
+ *   history  two bits for each level tell which children have been visited (2009 talk); the link to the parent leads up
  *
- * Each finds the leaves that a box overlaps in the order of the curve, and each body sorts what it finds, so the pair
- * list is the same whichever walk is chosen.
+ * Each finds the leaves that a box overlaps in the order of the curve, and each body sorts its finds, so the pair list
+ * does not depend on the traversal.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
 #define TANDEM_SHARED_BROADPHASE_HIERARCHY_WALKS_H
@@ -14,8 +14,8 @@
 #include "shared/broadphase/hierarchy.h"
 #include "shared/broadphase/neighbors.h"
 
-/* The deepest tree: the bits of a code make CURVE_BITS levels, trees.cpp uses one bit more, and the places of equal
- * codes make up to 31 further levels. */
+/* The depth limit of the tree: the bits of a code make CURVE_BITS levels, fat_aabbs.h uses one bit more, and the places
+ * of equal codes make up to 31 further levels. */
 #define HIERARCHY_LEVELS 64u
 
 /* The tree that a body searches. */
@@ -33,7 +33,8 @@ SHARED mask search_hits(const pair_search *search, const searched_tree *tree, ui
   return n.lowest < tree->before && bounds_overlap(search->box, n.box);
 }
 
-/* Each walk returns the slot of the next leaf that is hit, or INDEX_NONE behind the last. next: the slot to visit. */
+/* Each traversal returns the slot of the next leaf that is hit, or INDEX_NONE after the last. next: the slot to
+ * visit. */
 SHARED uint next_by_skipping(const pair_search *search, const searched_tree *tree, uint *next)
 {
   while (*next != INDEX_NONE) {
@@ -106,7 +107,7 @@ FORCE_INLINE uint add_leaf(const pair_search *search, uint b, uint before, const
   return b < before && may_meet(search, b) ? add_find(list, at, search->body, b) : at;
 }
 
-/* Each of the three reports the bodies below number `before`, leaf by leaf along the curve. */
+/* Each of the three reports the bodies with an index below `before`, leaf by leaf along the curve. */
 FORCE_INLINE uint find_by_skipping(const pair_search *search, const searched_tree *tree, GLOBAL const uint *leaf_body,
                                    uint root, uint before, const find_list *list, uint at)
 {

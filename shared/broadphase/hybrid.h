@@ -1,12 +1,12 @@
 /* hybrid.h - small bodies in a grid, large ones in a hierarchy (GS-4150 slide 30).
  *
- *      small - small    a grid whose cells are two ordinary bodies wide, whatever the largest is
- *      large - any      the hierarchy of boxes over the large bodies alone: every body walks it
+ *      small - small    a grid whose cells are two ordinary bodies wide, whatever the size of the largest body
+ *      large - any      a hierarchy of boxes over the large bodies alone, which every body traverses
  *
- * A grid wants bodies of one size; a few hundred large ones would make its cells hold thousands. What is large is
- * decided anew every step, by the bounds: a fast body counts as large while it is fast. The halves are kernels of their
- * own, so each can be placed on another backend. What is found may belong to either body: the pairs are keys to be
- * sorted (pair_keys.h).
+ * A grid suits bodies of one size; with a few hundred large ones its cells would hold thousands. The bounds decide in
+ * every step which bodies are large, so a fast body counts as large while it is fast. The two halves are separate
+ * kernels, so each can be placed on another backend. A pair may be found by either body, so pairs are keys that are
+ * sorted afterwards (pair_keys.h).
  */
 #ifndef TANDEM_SHARED_BROADPHASE_HYBRID_H
 #define TANDEM_SHARED_BROADPHASE_HYBRID_H
@@ -89,8 +89,8 @@ SHARED void small_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
   }
 }
 
-/* Finds the half-spaces and large bodies that the searching body meets. A large body looks for those before it alone,
- * so that a pair of two large ones is found once. */
+/* Finds the half-spaces and large bodies that the searching body overlaps. A large body searches only for those before
+ * it, so that a pair of two large ones is found once. */
 FORCE_INLINE uint search_large(const pair_search *search, GLOBAL const float4 *grid,
                                read_hierarchy_nodes hierarchy_nodes, GLOBAL const uint *counts, const find_list *list,
                                uint at)
@@ -131,7 +131,7 @@ SHARED void large_write_item(GLOBAL const Parameters *parameters, GLOBAL const u
   }
 }
 
-/* Puts the numbers of finds of both halves side by side, so that one scan sums them. */
+/* Writes the numbers of finds of both halves side by side, so that one scan sums them. */
 SHARED void join_neighbors_item(GLOBAL const uint *small_neighbors, GLOBAL const uint *large_neighbors,
                                 GLOBAL uint *share_start, uint i)
 {

@@ -1,13 +1,13 @@
-/* neighbors.h - one body's search for its pairs, and the list that its finds go to.
+/* neighbors.h - the search of one body for its pairs, and the list of its finds.
  *
- * A broadphase runs the same search twice: a kernel that counts says how many finds each item has, a scan turns the
- * counts into places, and a kernel that writes puts the neighbors there. Both call the same function with another list:
+ * A broadphase runs the same search twice. A count kernel counts the finds of each item, a scan turns the counts into
+ * places, and a write kernel stores the neighbors there. Both call the same function with another list:
  *
  *     count kernel    search(..., list)     list counts, and keeps the first NEIGHBORS_KEPT finds
- *     write kernel    search(..., list)     list writes partners, or keys of pairs, as far as there is room
+ *     write kernel    search(..., list)     list writes partners, or keys of pairs, up to its capacity
  *
- * Most bodies have few neighbours. Where the first few finds are all of them, the write kernel takes those that the
- * count kernel kept, and does not search again.
+ * Most bodies have few neighbours. If the count kernel could keep all finds of an item, the write kernel takes those
+ * and does not search again.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_NEIGHBORS_H
 #define TANDEM_SHARED_BROADPHASE_NEIGHBORS_H
@@ -18,14 +18,14 @@
 
 /* --- who searches ---------------------------------------------------------------------------------------- */
 
-/* The body of item i: one of the first bodies, or one of the others in their sorted order. Neighbours in the launch are
+/* The body of item i: one of the first bodies, or one of the others in their sorted order. Neighbours in a launch are
  * then neighbours in space. */
 SHARED uint searching_body(GLOBAL const uint *sorted_body, uint first, uint i)
 {
   return i < first ? i : sorted_body[i - first];
 }
 
-/* The body whose pairs are looked for, its box, and the tables that say whom it may meet. */
+/* The searching body, its box, and the tables that decide which bodies it may meet. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *body_flags, *body_filter;
@@ -55,8 +55,8 @@ FORCE_INLINE mask meets(const pair_search *search, uint other)
 
 enum { FINDS_AS_BODIES, FINDS_AS_PAIRS, FINDS_AS_KEYS };
 
-/* Finds are written as far as `capacity` allows, and counted beyond it: the step then runs again with room for them.
- * The place of the next find is no member: a search takes it and returns it, so that it stays in a register. */
+/* Finds are written up to `capacity` and only counted beyond it; the step then runs again with a larger one. The place
+ * of the next find is not a member: a search takes it and returns it, so that it stays in a register. */
 typedef struct {
   uint kind; /* FINDS_AS_; a constant in each kernel, so that add_find has no branch on it there */
   GLOBAL uint *owners, *bodies;
@@ -96,7 +96,7 @@ SHARED ulong key_of_pair(uint one, uint other)
   return one > other ? (ulong)one << 32 | (ulong)other : (ulong)other << 32 | (ulong)one;
 }
 
-/* Every search reports its pairs here. at: the place of this find; returns that of the next. */
+/* Every search reports its pairs here. at: the place of this find; the function returns that of the next. */
 FORCE_INLINE uint add_find(const find_list *list, uint at, uint body, uint other)
 {
   if (at < list->capacity) {
@@ -107,7 +107,7 @@ FORCE_INLINE uint add_find(const find_list *list, uint at, uint body, uint other
   return at + 1u;
 }
 
-/* The bodies below `end` come first of all, and are tested one by one: half-spaces and large bodies. */
+/* Tests the bodies below `end`, which come first of all, one by one: half-spaces and large bodies. */
 FORCE_INLINE uint find_among_first(const pair_search *search, uint end, const find_list *list, uint at)
 {
   for (uint b = 0u; b < end && b < search->body; ++b)
@@ -125,7 +125,7 @@ SHARED void write_kept_keys(GLOBAL const uint *neighbors, uint i, uint body, GLO
     if (first + k < capacity) pair_key[first + k] = key_of_pair(body, neighbors[NEIGHBORS_KEPT * i + k]);
 }
 
-/* The same as pairs of their owner, for a body that finds only pairs of its own. */
+/* Writes the kept neighbors as pairs of their owner, for a body that finds only pairs of its own. */
 SHARED void write_kept_pairs(GLOBAL const uint *neighbors, uint i, uint body, write_pairs pairs, uint first, uint end,
                              uint capacity)
 {
@@ -134,7 +134,7 @@ SHARED void write_kept_pairs(GLOBAL const uint *neighbors, uint i, uint body, wr
     used = append_pair(pairs.a, pairs.b, first, used, capacity, body, neighbors[NEIGHBORS_KEPT * i + k]);
 }
 
-/* Finishes the range of such a body: sorts its partners, as far as there was room for them. */
+/* Finishes the range of such a body: sorts its partners, up to the capacity. */
 SHARED void sort_own_pairs(write_pairs pairs, uint first, uint end, uint capacity)
 {
   uint last = end < capacity ? end : capacity;

@@ -1,7 +1,7 @@
-/* overlap.h - which two bodies make a pair: the one rule that every broadphase shares.
+/* overlap.h - the rule that decides which two bodies make a pair, shared by every broadphase.
  *
- * A pair (a, b) has a > b and is owned by a; pairs are sorted by (a, b). So every broadphase yields
- * the same list as the brute-force one, and the same bits downstream. For ITEM kernels.
+ * A pair (a, b) has a > b and is owned by a, and pairs are sorted by (a, b). Every broadphase therefore yields the list
+ * of the brute-force one, and the same bits downstream. The functions are for ITEM kernels.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_OVERLAP_H
 #define TANDEM_SHARED_BROADPHASE_OVERLAP_H
@@ -25,8 +25,8 @@ SHARED int bounds_overlap(box_bounds p, box_bounds q)
          p.lower.z <= q.upper.z && q.lower.z <= p.upper.z;
 }
 
-/* A trigger meets whatever is none itself; one of the two must move, be it by its given velocities. Two half-spaces
- * have no test. */
+/* A trigger meets every body that is not a trigger, if one of the two moves, even if only by its given velocity. Two
+ * half-spaces have no test. */
 SHARED int trigger_meets(uint flags_a, uint flags_b)
 {
   if (is_trigger(flags_a) == is_trigger(flags_b)) return 0;
@@ -34,14 +34,15 @@ SHARED int trigger_meets(uint flags_a, uint flags_b)
   return body_type_of(flags_a) != (uint)BODY_TYPE_FIXED || body_type_of(flags_b) != (uint)BODY_TYPE_FIXED;
 }
 
-/* Solids: one of them must be pushed to move. */
+/* Two solid bodies meet if one of them is dynamic. */
 SHARED int bodies_meet(GLOBAL const Parameters *parameters, uint flags_a, uint flags_b)
 {
   if (HAS_FEATURE(parameters, TRIGGER) && is_trigger(flags_a | flags_b)) return trigger_meets(flags_a, flags_b);
   return body_type_of(flags_a) == (uint)BODY_TYPE_DYNAMIC || body_type_of(flags_b) == (uint)BODY_TYPE_DYNAMIC;
 }
 
-/* Each accepts the other's groups. Numbers of shapes: those of bodies, or of children behind them. */
+/* Whether each shape accepts the other's groups. a, b: indices of shapes, those of bodies or of children behind
+ * them. */
 SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint *body_filter, uint a, uint b)
 {
   if (!HAS_FEATURE(parameters, FILTER)) return 1;
@@ -49,7 +50,7 @@ SHARED int filters_accept(GLOBAL const Parameters *parameters, GLOBAL const uint
          (body_filter[2u * b] & body_filter[2u * a + 1u]) != 0u;
 }
 
-/* They must be able to meet, neither be quarantined, and each must accept the other's groups. */
+/* A pair is allowed if the bodies can meet, neither is quarantined, and each accepts the other's groups. */
 SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *body_flags,
                         GLOBAL const uint *body_filter, uint a, uint b)
 {
@@ -60,12 +61,12 @@ SHARED int pair_allowed(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return filters_accept(parameters, body_filter, a, b);
 }
 
-/* Where a body's pairs go: its own range of the list, from pair_start[a], in the order found; sort_range closes
- * it. */
+/* Appends a pair to the range of its owner, which starts at pair_start[a], in the order found; sort_range sorts it
+ * later. */
 SHARED uint append_pair(GLOBAL uint *pair_a, GLOBAL uint *pair_b, uint first, uint used, uint capacity, uint a, uint b)
 {
   uint at = first + used;
-  if (at >= capacity) return used; /* counted already: the step will run again with room for it */
+  if (at >= capacity) return used; /* already counted; the step runs again with a larger capacity */
   pair_a[at] = a;
   pair_b[at] = b;
   return used + 1u;
@@ -80,7 +81,7 @@ SHARED void insertion_sort(GLOBAL uint *values, uint length)
   }
 }
 
-/* Lets `value` sink from `at` into the heap of `length` values. */
+/* Sifts `value` down from `at` in the heap of `length` values. */
 SHARED void sink(GLOBAL uint *values, uint at, uint length, uint value)
 {
   for (uint child = 2u * at + 1u; child < length; child = 2u * at + 1u) {
@@ -101,7 +102,8 @@ SHARED void heap_sort(GLOBAL uint *values, uint length)
   }
 }
 
-/* A range longer than this is sorted as a heap: one body in a crowd of thousands must not take the square of that. */
+/* A longer range is sorted as a heap, because the time for one body with thousands of neighbours must not be
+ * quadratic. */
 #define SHORT_RANGE 32u
 SHARED void sort_range(GLOBAL uint *values, uint length)
 {
@@ -109,7 +111,7 @@ SHARED void sort_range(GLOBAL uint *values, uint length)
   else heap_sort(values, length);
 }
 
-/* Clamps the number of pairs found, the total of the scan over so many starts, to what there is room for. */
+/* Clamps the number of pairs found, which is the total of the scan over `length` starts, to the capacity. */
 SHARED void count_pairs_item(GLOBAL const uint *starts, GLOBAL uint *counts, uint length, uint i)
 {
   (void)i;

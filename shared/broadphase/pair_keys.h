@@ -1,7 +1,7 @@
-/* pair_keys.h - the pair list from keys (a, b) in any order: for broadphases whose bodies find pairs that another body
- * owns.
+/* pair_keys.h - makes the pair list from keys (a, b) in any order, for broadphases in which a body finds pairs that
+ * another body owns.
  *
- * Once sorted, the keys are the list; where a body's range starts is found by the bodies themselves.
+ * The sorted keys are the list. Each body finds the start of its range by itself.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
 #define TANDEM_SHARED_BROADPHASE_PAIR_KEYS_H
@@ -10,7 +10,7 @@
 #include "shared/broadphase/neighbors.h"
 #include "shared/parallel/search.h"
 
-/* The first place among so many sorted keys whose pair belongs to `body` or to one after it. */
+/* The first place among `length` sorted keys whose pair belongs to `body` or to a body after it. */
 SHARED uint first_key_of(GLOBAL const ulong *keys, uint length, uint body)
 {
   uint first = 0u, count = length;

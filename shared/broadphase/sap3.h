@@ -1,25 +1,26 @@
-/* sap3.h - incremental sweep and prune along three axes: the list of pairs is kept, and only what changed is looked
+/* sap3.h - incremental sweep and prune along three axes: the list of pairs is kept, and only its changes are searched
  * for.
  *
- * After the parallel one of Erwin Coumans in Bullet's OpenCL pipeline (GS-4150), of six sorted axes: three now, three
- * as they were. Where bodies move little from step to step, ends hardly change places, and next to nothing is searched:
+ * It follows the parallel incremental method of Erwin Coumans in Bullet's OpenCL pipeline (GS-4150), with six sorted
+ * axes: three of this launch and three of the last one. If bodies move little from step to step, ends hardly change
+ * their order, and the search is short:
  *
  *     sort the ends along each axis                      endpoints.h
- *     the pairs of which two ends changed their order    endpoint_changes.h
+ *     find the pairs with two ends that changed order    endpoint_changes.h
  *     kept pairs   (5,1) (5,3)       (7,2)
- *     changes            (5,3) (6,4)                     in one of the two: a pair; in both: it is over
- *     pairs        (5,1)       (6,4) (7,2)               kept in turn
+ *     changes            (5,3) (6,4)                     a pair in one of the two lists stays, in both it is removed
+ *     pairs        (5,1)       (6,4) (7,2)               kept for the next launch
  *
- * There the changes are appended by atomics and the list is patched in place; here both lists are sorted, so each body
- * merges its two ranges, and the result is the brute-force list. What is kept describes the bounds of the last
- * launch, whatever became of that step: the next launch finds the difference to it, hence needs no commit.
+ * Bullet appends the changes by atomics and patches the list in place. Here both lists are sorted, so each body merges
+ * its two ranges, and the result is the brute-force list. The kept data describe the bounds of the last launch, even if
+ * that step failed: the next launch finds the difference from it, so no commit is needed.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SAP3_H
 #define TANDEM_SHARED_BROADPHASE_SAP3_H
 
 #include "shared/broadphase/endpoint_changes.h"
 
-/* A body's ranges of the kept pairs and of the changes, from where they are merged on. */
+/* The ranges of a body in the kept pairs and in the changes, from the current place of the merge on. */
 typedef struct {
   GLOBAL const uint *kept_b;
   GLOBAL const ulong *changes;
@@ -38,7 +39,7 @@ SHARED merging begin_merge(GLOBAL const ulong *pair_key, GLOBAL const uint *kept
   return m;
 }
 
-/* The next partner of `body` in the merged list, ascending; INDEX_NONE behind the last. */
+/* The next partner of `body` in the merged list, ascending; INDEX_NONE after the last. */
 SHARED uint next_partner(merging *m, uint body)
 {
   for (;;) {
@@ -48,7 +49,7 @@ SHARED uint next_partner(merging *m, uint body)
     uint partner = kept < changed ? kept : changed;
     if (partner == INDEX_NONE) return partner;
     if (kept == partner) m->kept = m->kept + 1u;
-    if (changed == partner) /* told twice if a box ceases to be one: both its ends pass the other's */
+    if (changed == partner) /* found twice if a box becomes invalid, because both its ends pass the other's */
       while (m->change < m->change_end && m->changes[m->change] == key) m->change = m->change + 1u;
     if (kept != changed) return partner;
   }
@@ -73,8 +74,8 @@ SHARED void merge_write_item(GLOBAL const ulong *pair_key, GLOBAL const uint *ke
     used = append_pair(pair_a, pair_b, first, used, capacity, body, b);
 }
 
-/* Changes that found no room make the list wrong: the step must run again with room for them, and from nothing. In
- * double, too, nothing is kept: places come from floats, so bodies may part within one of them without any end changing
+/* Changes beyond the capacity make the list wrong, so the step runs again with a larger one, and from nothing. In
+ * double nothing is kept either: the order comes from floats, so bodies may part within one float while no end changes
  * its place. */
 SHARED void keep_or_forget_item(GLOBAL uint *counts, uint i)
 {

@@ -1,16 +1,16 @@
-/* sweep_and_prune.h - 1-axis sort, sweep and prune (2012 talk; GS-4150 slides 21-26): the interval of each body, and
- * the plain sweep.
+/* sweep_and_prune.h - sort, sweep and prune along one axis (2012 talk; GS-4150 slides 21-26): the interval of each
+ * body, and the plain sweep.
  *
- * Small bodies are sorted by where they start along an axis, the one along which centres spread most or the principal
- * direction of their spread; each looks forward until a body starts behind its own end:
+ * Small bodies are sorted by the start of their interval along an axis: the one along which centres spread most, or the
+ * principal direction of their spread. Each body searches forward until a body starts behind its own end:
  *
  *     axis -->   |--- i ---|
  *                   |-- j --|          starts inside i: tested on all axes
  *                            |-- k --  starts behind i: the search ends
  *
- * Appending by atomics, as the talk does, has no order: here each body's neighbors are counted, scanned
- * and written, and the keys (a, b) sorted, so the list is the brute-force one. This is the form that the talk starts
- * from, one work-item a body; sweep_window.h is the one it ends with.
+ * The talk appends by atomics, which has no order. Here the neighbors of each body are counted, scanned and written,
+ * and the keys (a, b) are sorted, so the list is the brute-force one. This is the form that the talk begins with, one
+ * work-item for each body; sweep_window.h is the one that it ends with.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_AND_PRUNE_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_AND_PRUNE_H
@@ -23,8 +23,8 @@ typedef struct {
   real start, end;
 } interval;
 
-/* The interval along an axis of the world is exact. Along another direction the sums round, so the interval is wider by
- * more than they can, and no overlap is missed. */
+/* The interval along an axis of the world is exact. Along another direction the sums round, so the interval is widened
+ * by more than their rounding, and no overlap is missed. */
 SHARED interval interval_along_axis(box_bounds b, uint axis)
 {
   interval i = {axis == 0u   ? b.lower.x

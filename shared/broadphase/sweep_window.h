@@ -1,12 +1,12 @@
-/* sweep_window.h - the sweep as the talk ends with it (GS-4150 slides 23-26): boxes in local memory, several work-items
- * a body.
+/* sweep_window.h - the sweep that the talk ends with (GS-4150 slides 23-26): boxes in local memory, several work-items
+ * for each body.
  *
  *   sorted list   . . . . [ 128 bodies of a group ] . . . . . . . . . . . . . .
- *                         |<- window ->|<- window ->|<- window ->|   until the last of them ends
+ *                         |<- window ->|<- window ->|<- window ->|   until the last of their intervals ends
  *
- * A group loads the boxes of a window once for all its bodies; four work-items share each body, so that one with a long
- * interval is tested by four; a body whose interval ended sits a window out (local early-out). Where the talk appends
- * to a private buffer and then to the list, here the neighbors of each share are counted, scanned and written.
+ * A group loads the boxes of a window once for all its bodies. Four work-items share the tests of each body, which
+ * shortens long intervals. A body whose interval has ended skips the remaining windows (local early-out). The talk
+ * appends to a private buffer and then to the list; here the neighbors of each share are counted, scanned and written.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
 #define TANDEM_SHARED_BROADPHASE_SWEEP_WINDOW_H
@@ -17,7 +17,7 @@
 
 #define SWEEP_LOCAL_WORDS (SWEEP_BLOCK * SWEEP_SHARES + 6u * SWEEP_WINDOW)
 
-/* Where the interval of the body at place i ends: the first place that starts behind it. */
+/* Stores the end of the interval of the body at place i: the first place whose interval starts behind it. */
 SHARED void sweep_ends_item(GLOBAL const float4 *grid, GLOBAL const float4 *sweep_bounds, GLOBAL const uint *sort_key,
                             GLOBAL const uint *counts, GLOBAL uint *sweep_end, uint principal, uint i)
 {
@@ -25,7 +25,7 @@ SHARED void sweep_ends_item(GLOBAL const float4 *grid, GLOBAL const float4 *swee
   sweep_end[i] = upper_bound_of(sort_key, counts[COUNT_SMALL], end);
 }
 
-/* Where the last interval of a block ends. */
+/* Stores the end of the last interval of a block. */
 SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *counts, GLOBAL uint *sweep_block, uint i)
 {
   uint large = counts[COUNT_LARGE], last = 0u;
@@ -34,7 +34,7 @@ SHARED void sweep_blocks_item(GLOBAL const uint *sweep_end, GLOBAL const uint *c
   sweep_block[i] = last;
 }
 
-/* What a group sweeps with; writes: where the keys go, 0 to count only. */
+/* The state of a group's sweep. writes: where the keys are written; 0 to count only. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *flags, *filters;
@@ -50,7 +50,7 @@ SHARED void found_pair(const window_sweep *sweep, uint share, uint first, uint s
   if (!pair_allowed(sweep->parameters, sweep->flags, sweep->filters, first, second)) return;
   uint at = sweep->tally[share];
   if (sweep->pair_key) {
-    if (at >= sweep->counts[CAPACITY_PAIRS]) return; /* counted already: the step will run again with room for it */
+    if (at >= sweep->counts[CAPACITY_PAIRS]) return; /* already counted; the step runs again with a larger capacity */
     sweep->pair_key[at] = key_of_pair(first, second);
   }
   sweep->tally[share] = at + 1u;
@@ -74,7 +74,7 @@ SHARED box_bounds box_in_window(const window_sweep *sweep, uint item)
   return box;
 }
 
-/* A share of body i against the large ones before it. */
+/* Tests a share of the large bodies before body i. */
 SHARED void sweep_large(const window_sweep *sweep, uint share, uint i)
 {
   uint large = sweep->counts[COUNT_LARGE], body = i < large ? i : sweep->sort_value[i - large];
@@ -83,7 +83,7 @@ SHARED void sweep_large(const window_sweep *sweep, uint share, uint i)
     if (bounds_overlap(own, load_bounds(sweep->bounds, b))) found_pair(sweep, share, body, b);
 }
 
-/* A share of the body at `place` against the window that starts at `start`. */
+/* Tests a share of the window that starts at `start` against the body at `place`. */
 SHARED void sweep_in_window(const window_sweep *sweep, uint share, uint place, uint start)
 {
   uint end = sweep->sweep_end[place] < start + SWEEP_WINDOW ? sweep->sweep_end[place] : start + SWEEP_WINDOW;
@@ -95,7 +95,7 @@ SHARED void sweep_in_window(const window_sweep *sweep, uint share, uint place, u
       found_pair(sweep, share, sweep->sort_value[place], sweep->sort_value[at]);
 }
 
-/* begin: where each share's pairs go, 0 to count from nought. */
+/* begin: the place of each share's first pair; 0 to count from 0. */
 SHARED void sweep_group(const window_sweep *sweep, GLOBAL const uint *begin, uint block_end, uint group)
 {
   uint bodies = sweep->counts[COUNT_BODIES], large = sweep->counts[COUNT_LARGE], small = sweep->counts[COUNT_SMALL],

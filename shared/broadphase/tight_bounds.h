@@ -1,13 +1,13 @@
-/* tight_bounds.h - bounds from the support map: the least box along the axes of the world that holds a shape as it
- * stands.
+/* tight_bounds.h - bounds from the support map: the smallest box along the world axes that contains a shape at its
+ * current pose.
  *
- *     +-------+ affine       The fast bound of bounds.h turns the box that stands around the shape in its own axes: six
- *     | +---+ |              products. It holds the shape, and corners that the shape does not have. Here the farthest
- *     | | o | | tight        point along each axis of the world is asked for, both ways (2013 talk): fewer pairs, for
- *     | +---+ |              six searches a body.
+ *     +-------+ affine       The fast bound of bounds.h rotates the box around the shape in its own axes, with six
+ *     | +---+ |              products. It also encloses corners of that box where the shape has none. Here the support
+ *     | | o | | tight        map gives the farthest point along each world axis, in both directions (2013 talk): fewer
+ *     | +---+ |              pairs, for six support queries for each body.
  *     +-------+
  *
- * Spheres and boxes are tight as they are; meshes and compounds keep the fast bound under `--bounds tight`, too.
+ * Spheres and boxes have tight bounds anyway; meshes and compounds keep the fast bound under `--bounds tight`, too.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H
 #define TANDEM_SHARED_BROADPHASE_TIGHT_BOUNDS_H
@@ -15,7 +15,7 @@
 #include "shared/broadphase/bounds.h"
 #include "shared/queries/nearest.h"
 
-/* How far the shape reaches along a unit direction from the centre of its body. */
+/* The distance that the shape reaches along a unit direction from the centre of its body. */
 SHARED real reach_along(const convex *shape, vec3 direction)
 {
   return dot3(support_of(shape, direction), direction) + core_radius(shape);

@@ -1,4 +1,4 @@
-/* event_codes.h - the kinds of events; kernels and the host both name them. */
+/* event_codes.h - the kinds of events, for kernels and the host. */
 #ifndef TANDEM_SHARED_EVENTS_EVENT_CODES_H
 #define TANDEM_SHARED_EVENTS_EVENT_CODES_H
 

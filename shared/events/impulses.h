@@ -1,7 +1,7 @@
-/* impulses.h - what each contact carried over the whole step, and which pairs touch.
+/* impulses.h - the impulse that each contact carried over the whole step, and which pairs touch.
  *
- * The impulse that a solver accumulates is that of one substep: the next one starts from it, and gives back what it
- * does not need. So a contact carried in the step the sum over its substeps, the last as restitution left it:
+ * The impulse that a solver accumulates is that of one substep: the next one starts from it and removes what it does
+ * not need. The impulse of a step is therefore the sum over its substeps, with the last one as restitution left it:
  *
  *   substep            0       1          2             3         bounce
  *   accumulated        p0      p1         p2            p3    ->  p3'
@@ -17,7 +17,7 @@
 
 SHARED vec4 sum_of_rows(vec4 a, vec4 b) { return make_vec4(a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w); }
 
-/* At the start of each substep. */
+/* Runs at the start of each substep. */
 SHARED void sum_impulses_item(GLOBAL const float4 *constraint_normal_impulse, GLOBAL float4 *constraint_impulse,
                               uint substep, item_index i)
 {
@@ -34,12 +34,12 @@ SHARED void pair_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const 
                sum_of_rows(load_float4(constraint_impulse, i), load_float4(constraint_normal_impulse, i)));
 }
 
-/* Touching: some point overlaps where the step starts, or carried an impulse in it. The first alone would miss what
- * bounces between two starts, and flicker where a body rests a rounding above another; the second alone would end the
- * contact of a body that lies on three of four supports, and never sees triggers, which carry nothing. */
+/* A pair touches if some point overlaps at the start of the step or carried an impulse in it. Overlap alone would miss
+ * a bounce between two starts, and would flicker where a body rests a rounding above another one. The impulse alone
+ * would end the contact of a body that rests on three of four supports, and would miss triggers, which carry none. */
 SHARED mask point_touches(vec4 point, real impulse) { return (point.w <= R(0.0)) | (impulse > R(0.0)); }
 
-/* Of a pair without a constraint pair_impulse holds what some step before left there. */
+/* For a pair without a constraint, pair_impulse holds the value of some earlier step, so it is replaced by 0. */
 SHARED vec4 impulse_of_pair(GLOBAL const uint *pair_color, GLOBAL const float4 *pair_impulse, uint_lanes pair)
 {
   mask solved = load_uint(pair_color, pair) != (uint_lanes)COLOR_INACTIVE;

@@ -1,15 +1,15 @@
-/* list.h - the events of a step: which pairs began to touch, touch still, or ceased to.
+/* list.h - the events of a step: which pairs began to touch, still touch, or ceased to touch.
  *
- * Both lists of pairs, this step's and that of the last committed one, are sorted by (a, b) and owned by a. So each
- * body walks its two ranges side by side, as a merge does, and every pair of bodies turns up once, also where it
- * stands in one list alone:
+ * The pair lists of this step and of the last committed one are both sorted by (a, b) and owned by a. Each body merges
+ * its two ranges, so every pair of bodies occurs once, even if it is in one list only:
  *
  *   body a   now      2 .  5 5 7      touching   1 .  0 1 1
  *            before   2 3  . . 7                 0 1  . . 1        2 begins, 3 ends, 5 begins, 7 persists
  *
- * Entries with equal (a, b) stand next to one another and are one contact. Count, scan, write: the list is compact,
- * sorted by (a, b) and whole, since it can be no longer than both lists of pairs, for which there is room. It is made
- * in the range of the commit, before the cache is overwritten: a step that runs again tells nothing twice.
+ * Entries with equal (a, b) are adjacent and are one contact. The list is made by count, scan and write, so it is
+ * compact and sorted by (a, b). It is complete, because it is no longer than both pair lists together, for which there
+ * is capacity. The kernels run over the range of the commit, before the cache is overwritten, so a step that runs again
+ * reports nothing twice.
  */
 #ifndef TANDEM_SHARED_EVENTS_LIST_H
 #define TANDEM_SHARED_EVENTS_LIST_H
@@ -18,12 +18,12 @@
 #include "shared/events/event_codes.h"
 #include "shared/events/impulses.h"
 
-/* What is left of the two ranges of a body. */
+/* The rest of the two ranges of a body. */
 typedef struct {
   uint now, now_end, before, before_end;
 } pair_walk;
 
-/* One pair of bodies: its entries in this step's list (perhaps none), and what became of it. */
+/* One pair of bodies: its entries in this step's list, of which there may be none, and the kind of its event. */
 typedef struct {
   uint b, first, end, kind;
 } pair_change;
@@ -63,15 +63,15 @@ SHARED void count_events_item(read_touching_pairs touching_pairs, read_cached_to
   event_start[a] = found;
 }
 
-/* The touching points of a contact put together. */
+/* The sum over the touching points of a contact. */
 typedef struct {
-  vec3 pressed, overlapped; /* sums of the points, each times its impulse; and as they are */
-  vec3 normal;              /* of the manifold that pressed hardest, or lies deepest where none pressed */
+  vec3 pressed, overlapped; /* sums of the points, weighted by their impulses, and unweighted */
+  vec3 normal;              /* of the manifold with the largest impulse, or of the deepest one if none carried any */
   real impulse, hardest, deepest;
   uint points;
 } contact_sum;
 
-/* velocity: of body a, which has come nearer by the moment of an impact. */
+/* velocity: of body a, which moves with it until the moment of an impact. */
 SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifolds, uint stride, uint pair,
                          vec4 impulses)
 {
@@ -96,11 +96,10 @@ SHARED void add_manifold(contact_sum *sum, vec3 velocity, read_manifolds manifol
   sum->impulse = sum->impulse + impulse;
 }
 
-/* N s. An impulse that has faded below is none: its inverse, or its product with an offset, may leave the range of
- * floats. */
+/* An impulse below this counts as 0, N s: its inverse, or its product with an offset, may leave the range of floats. */
 #define FADED_IMPULSE R(1e-25)
 
-/* From the centre of a: where the impulse acts; where there is none, the middle of the points. */
+/* The point, from the centre of a, at which the impulse acts; without an impulse, the middle of the points. */
 SHARED vec3 middle_of_contact(const contact_sum *sum)
 {
   if (sum->impulse > FADED_IMPULSE) return scale(sum->pressed, R(1.0) / sum->impulse);
@@ -120,8 +119,8 @@ SHARED void store_event(GLOBAL uint *event_bodies, GLOBAL float4 *event_contact,
   store_float4(event_contact, 3u * at + 2u, extend(sum->normal, R(0.0)));
 }
 
-/* Points are where they were found, at the start of the step or as the bodies met within it: nothing is committed yet
- * when this runs. */
+/* Points are at the poses at which they were found, at the start of the step or at the impact within it, because
+ * nothing is committed yet when this kernel runs. */
 SHARED void write_events_item(read_touching_pairs touching_pairs, GLOBAL const uint *pair_color,
                               GLOBAL const float4 *pair_impulse, read_manifolds manifolds,
                               read_cached_touching_pairs cached_touching_pairs, GLOBAL const float4 *body_position,

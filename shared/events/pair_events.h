@@ -1,15 +1,15 @@
-/* pair_events.h - which pairs of bodies came near in a step, are near still, or ceased to be: the persistence of the
- * pair list.
+/* pair_events.h - the persistence of the pair list: which pairs of bodies came near in a step, stay near, or ceased to
+ * be near.
  *
- * The walk of list.h over this step's pairs and those of the last committed one, by their presence alone: whether they
- * touch is that list's question. In scenes with trees a pair is near where some of its parts are.
+ * The merge of list.h runs over the pairs of this step and of the last committed one, by their presence alone; list.h
+ * decides whether they touch. In scenes with trees a pair of bodies is near if some of its parts are.
  */
 #ifndef TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
 #define TANDEM_SHARED_EVENTS_PAIR_EVENTS_H
 
 #include "shared/events/list.h"
 
-/* The next pair of bodies of either list, once, with what became of it. */
+/* The next pair of bodies of either list, each pair once, with the kind of its event. */
 SHARED pair_change next_pair(pair_walk *walk, GLOBAL const uint *pair_b, GLOBAL const uint *cached_b)
 {
   uint b_now = walk->now < walk->now_end ? pair_b[walk->now] : INDEX_NONE;

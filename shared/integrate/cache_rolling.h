@@ -1,4 +1,4 @@
-/* cache_rolling.h - hands the torques of rolling friction to the next step, as commit.h does with other impulses. */
+/* cache_rolling.h - caches the torques of rolling friction for the next step, as commit.h does with other impulses. */
 #ifndef TANDEM_SHARED_INTEGRATE_CACHE_ROLLING_H
 #define TANDEM_SHARED_INTEGRATE_CACHE_ROLLING_H
 

@@ -41,7 +41,7 @@ SHARED void check_bodies_item(GLOBAL const float4 *body_position, GLOBAL const f
                  NONFINITE_IN_INTEGRATE);
 }
 
-/* colors: how many the host launched. */
+/* colors: the number that the host launched. */
 SHARED void finish_step_item(GLOBAL uint *counts, uint colors, uint i)
 {
   (void)i;
@@ -101,8 +101,8 @@ SHARED void clear_cached_item(GLOBAL float4 *rows, uint per_item, item_index i)
   for (uint k = 0u; k < per_item; ++k) store_float4(rows, i * per_item + k, make_vec4(R(0.0), R(0.0), R(0.0), R(0.0)));
 }
 
-/* Slots, not points, are what the next step looks for, but impulses stay with their points: slots tell them apart.
- * Friction is kept as a vector of the world, since its tangents turn with the normal. */
+/* The next step searches by slot. Impulses stay in the order of their points, and the slots identify them. Friction is
+ * stored as a vector in world axes, because its tangents turn with the normal. */
 SHARED void cache_impulses_item(GLOBAL const uint *constraint_pair, GLOBAL const float4 *constraint_normal,
                                 GLOBAL const float4 *constraint_normal_impulse,
                                 GLOBAL const float4 *constraint_friction_impulse, GLOBAL float4 *cached_normal_impulse,

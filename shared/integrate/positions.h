@@ -5,15 +5,16 @@
  * symplectic Euler step that the solver assumes, because on the parabola a body at rest would rise by half of what
  * gravity makes it fall in a substep.
  *
- * Rotation keeps the angular momentum L, not the angular velocity, constant. With the middle one m of the inverse
- * moments d the energy of spin is a sum of parts, each of which alone is an exact rotation:
+ * Rotation keeps the angular momentum L, not the angular velocity, constant. Let m be the middle one of the inverse
+ * moments d. The energy of the spin is then a sum of parts, each of which alone is an exact rotation:
  *
- *     L.L m / 2                     about L, the same for every orientation, so it commutes with the others
- *     Lk Lk (dk - m) / 2            about the body's axis k; one of the three is nothing, for a symmetric body two are
+ *     L.L m / 2                     about L; it is the same for every orientation, so it commutes with the others
+ *     Lk Lk (dk - m) / 2            about the body's axis k; one of the three is 0, for a symmetric body two are
  *
- * composed symmetrically (McLachlan, "Explicit Lie-Poisson integration and the Euler equations", 1993; Dullweber,
- * Leimkuhler and McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997). So L is exact to
- * rounding, the energy swings within bounds and never drifts, and symmetric bodies are exact at any speed of spin.
+ * They are composed symmetrically (McLachlan, "Explicit Lie-Poisson integration and the Euler equations", 1993;
+ * Dullweber, Leimkuhler and McLachlan, "Symplectic splitting methods for rigid body molecular dynamics", 1997). L is
+ * therefore exact to rounding, the energy oscillates within bounds and never drifts, and symmetric bodies are exact at
+ * any speed of spin.
  */
 #ifndef TANDEM_SHARED_INTEGRATE_POSITIONS_H
 #define TANDEM_SHARED_INTEGRATE_POSITIONS_H
@@ -21,7 +22,7 @@
 #include "shared/records.h"
 #include "shared/trigonometry.h"
 
-/* I(q)^-1 L for principal inverse moments d. */
+/* The angular velocity I(q)^-1 L, for principal inverse moments d. */
 SHARED vec3 spin_of(quat q, vec3 inverse_moments, vec3 momentum)
 {
   mat3 r = rotation_of(q);
@@ -33,7 +34,7 @@ typedef struct {
   vec3 angular;
 } spin;
 
-/* q turned about its own axis x, y or z: q times (sine, 0, 0, cosine) and so on, written out. */
+/* The orientation q rotated about its own axis x, y or z: the product of q with (sine, 0, 0, cosine) and so on. */
 SHARED quat turned_about_x(quat q, real angle)
 {
   angle_functions f = sine_cosine(R(0.5) * angle);
@@ -53,7 +54,7 @@ SHARED quat turned_about_z(quat q, real angle)
                    q.w * f.cosine - q.z * f.sine);
 }
 
-/* Moment of momentum about the body's axes. */
+/* The angular momentum in the body's axes. */
 SHARED vec3 momentum_in_body(quat q, vec3 momentum) { return rotate_back(rotation_of(q), momentum); }
 
 SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
@@ -74,12 +75,13 @@ SHARED spin turn_freely(quat q, vec3 angular, vec3 inverse_moments, real h)
 
   spin s;
   s.orientation = turned(turning, scale(momentum, middle * h));
-  /* As a change: rounding that both terms share would otherwise shrink or grow the spin a little every substep. */
+  /* The spin is updated by a change, because rounding that both terms share would otherwise shrink or grow it slightly
+   * in every substep. */
   s.angular = add(angular, subtract(spin_of(s.orientation, inverse, momentum), spin_of(q, inverse, momentum)));
   return s;
 }
 
-/* free_power: velocity times gravity as the forces alone make it (integrate_velocities). */
+/* free_power: velocity times gravity after the forces alone (integrate_velocities). */
 SHARED mask is_left_alone(GLOBAL const Parameters *parameters, spatial_velocity m, real free_power)
 {
   vec3 gravity = gravity_of(parameters);
@@ -109,7 +111,7 @@ SHARED void integrate_positions_item(GLOBAL const Parameters *parameters, GLOBAL
   quat q = quat_from(load_float4(solver_orientation, i));
   quat next = turned(q, scale(m.angular, h));
   if (HAS_FEATURE(parameters, GYROSCOPIC)) {
-    /* Per body, so that a body's bits do not depend on what else is in the scene. */
+    /* The choice is made for each body, so that its bits do not depend on the other bodies of the scene. */
     mask uneven = (m.inverse_mass > R(0.0)) & ((mass.x != mass.y) | (mass.y != mass.z));
     spin s = turn_freely(q, m.angular, xyz(mass), h);
     next = quat_from(choose4(uneven, quat_to_vec4(s.orientation), quat_to_vec4(next)));

@@ -1,7 +1,7 @@
-/* prepare.h - a body as the solver works on it: velocity, inverse inertia in world axes, motion so far.
+/* prepare.h - copies of the bodies for the solver: velocity, inverse inertia in world axes, motion so far.
  *
- * The step works on these copies and the commit stage alone writes the state, so a step that overflows
- * or fails leaves the state as it was and can be run again.
+ * The step works on these copies and only the commit stage writes the state, so a step that overflows or fails leaves
+ * the state unchanged and can be run again.
  */
 #ifndef TANDEM_SHARED_INTEGRATE_PREPARE_H
 #define TANDEM_SHARED_INTEGRATE_PREPARE_H
@@ -9,7 +9,7 @@
 #include "shared/argument_groups.h"
 #include "shared/records.h"
 
-/* Notes the first body, in pipeline order and then by index, that is not finite. */
+/* Records the first body that is not finite, in pipeline order and then by index. */
 SHARED void note_nonfinite(mask finite, GLOBAL uint *counts, uint_lanes body, uint stage)
 {
   mask bad = !finite;

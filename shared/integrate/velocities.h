@@ -1,4 +1,4 @@
-/* velocities.h - gravity, damping and the warm start over one substep: the forces of the pipeline. */
+/* velocities.h - applies gravity, damping and the warm start over one substep: the forces of the pipeline. */
 #ifndef TANDEM_SHARED_INTEGRATE_VELOCITIES_H
 #define TANDEM_SHARED_INTEGRATE_VELOCITIES_H
 

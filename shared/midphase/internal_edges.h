@@ -1,33 +1,33 @@
-/* internal_edges.h - drops internal-edge contacts: those at seams between the children of compounds, which another
+/* internal_edges.h - drops internal-edge contacts: contacts at seams between the children of compounds that another
  * contact of the same two bodies explains.
  *
- *      +------+------+        At rest the upper compound stands a little in the lower one. Child B and child C, which
- *      |  A   |  B   |        share no face, then overlap by that much, and their shortest way out is sideways (x): it
- *      +------x------+        would hold up whatever slides. All its points lie in the surface on which A stands; what
- *      |  C   |  D   |        is no thicker than the penetration that is left in place is no obstacle.
- *      +------+------+
+ *      +------+------+       At rest the upper compound stands a little in the lower one. Child B and child C, which
+ *      |  A   |  B   |       share no face, then overlap by that much, and the shortest way out is sideways (x). Such a
+ *      +------x------+       contact would stop a body that slides. All its points lie in the surface on which A
+ *      |  C   |  D   |       stands, and an overlap no thicker than the penetration that is left in place is not an
+ *      +------+------+       obstacle.
  *
- * For meshes triangle_contact.h uses the neighbours of each triangle instead; the children of a compound have none. Two
- * kernels, as in merge.h: first all manifolds are judged, then internal-edge contacts are dropped.
+ * For meshes triangle_contact.h uses the neighbours of each triangle instead; the children of a compound have none.
+ * There are two kernels, as in merge.h: the first judges all manifolds, the second drops internal-edge contacts.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_INTERNAL_EDGES_H
 #define TANDEM_SHARED_MIDPHASE_INTERNAL_EDGES_H
 
 #include "shared/midphase/merge.h"
 
-/* Cosine above which normals press the same way, though not in one group. */
+/* Cosine above which two normals push the same way, though not in one group. */
 #define ACROSS R(0.7)
-/* Penetration left in place, and what the solver leaves on top of it. */
+/* The penetration left in place and what the solver leaves beyond it, as a multiple of the slop. */
 #define INTERNAL_EDGE_SHARE R(1.25)
 
-/* Buffers of manifolds, and what counts as thin. */
+/* The buffers of manifolds, and the thickness that counts as thin. */
 typedef struct {
   read_manifolds manifolds;
   uint stride;
   real thickness;
 } manifold_list;
 
-/* All points of manifold i lie near the plane of manifold j. */
+/* Whether all points of manifold i lie near the plane of manifold j. */
 SHARED mask lies_in_plane_of(const manifold_list *list, uint i, uint j)
 {
   vec3 normal = xyz(load_float4(list->manifolds.normal, j)), origin = xyz(load_float4(list->manifolds.points, j));
@@ -45,7 +45,7 @@ SHARED mask presses(const manifold_list *list, uint j)
   return 0;
 }
 
-/* Of two that explain each other the earlier one stays. */
+/* Whether manifold j explains manifold i. Of two that explain each other, the earlier one stays. */
 SHARED mask explained_by(const manifold_list *list, uint i, uint j)
 {
   if (j == i || list->manifolds.count[j] == 0u) return 0;

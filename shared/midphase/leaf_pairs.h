@@ -1,17 +1,17 @@
-/* leaf_pairs.h - from pairs of bodies to pairs of their parts: the middle phase.
+/* leaf_pairs.h - the midphase: turns pairs of bodies into pairs of their parts.
  *
  *     bodies            trees                      pairs of leaves
  *     (a, b)   a: mesh     /\     b: hull   --->   (a: triangle 7, b)
  *                         7  9                     (a: triangle 9, b)
  *
- * Stands between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts summed,
- * then written: the list has no gaps, its order is that of the trees, and where it outgrows its room the step runs
- * again. A body without a tree is one leaf. All pairs of leaves of one pair of bodies stand next to one another, so
- * that merge.h can join their manifolds; a pair of bodies without any drops out.
+ * It runs between broadphase and narrowphase in scenes with compounds or meshes. Pairs are counted, the counts are
+ * scanned, and the pairs are written. The list has no gaps and the order of the trees, and if it exceeds its capacity,
+ * the step runs again. A body without a tree is one leaf. All pairs of leaves of one pair of bodies are adjacent, so
+ * that merge.h can join their manifolds. A pair of bodies without any is dropped.
  *
- * One leaf against a tree walks it without a stack; subtree_pairs.h does the same by work-groups. Two trees descend in
- * tandem, always the larger box of the two that are not leaves, so that the stack holds at most one entry a level of
- * either (Ericson, 2005, section 6.3.2).
+ * One leaf against a tree needs no stack; subtree_pairs.h does the same by work-groups. Two trees are descended
+ * together: the larger box of the two is opened unless it is a leaf, so the stack holds at most one entry for each
+ * level of either tree (Ericson, 2005, section 6.3.2).
  */
 #ifndef TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_LEAF_PAIRS_H
@@ -19,11 +19,10 @@
 #include "shared/midphase/tree.h"
 #include "shared/parallel/length.h"
 
-/* One entry a level of either tree, and the one looked at. */
+/* One entry for each level of either tree, and the current one. */
 #define TANDEM_STACK (2u * TREE_DEPTH_LIMIT + 1u)
 
-/* The bodies and trees of the scene. shapes: a shape's number is that of its body, or for children of compounds one
- * behind. */
+/* The bodies and trees of the scene. A shape has the index of its body; the children of compounds follow behind. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   read_shapes shapes;
@@ -32,19 +31,19 @@ typedef struct {
   read_bodies bodies;
 } midphase_scene;
 
-/* Where the pairs go; a list of no room only counts. */
+/* The list that pairs are written to; without `writes` it only counts. */
 typedef struct {
   mask writes;
   write_pairs_of_leaves pairs;
   uint at, end, found;
 } leaf_list;
 
-/* A part of a body: its shape, and of a mesh one triangle. */
+/* A part of a body: its shape, and one triangle if the shape is a mesh. */
 typedef struct {
   uint shape, triangle;
 } leaf;
 
-/* One body of a pair: where its shape's axes stand, seen from the centre of the first body. */
+/* One body of a pair, with the axes and the origin of its shape as seen from the centre of the first body. */
 typedef struct {
   uint body, tree_number, first_child;
   mat3 rotation;
@@ -64,14 +63,15 @@ SHARED tree_body load_tree_body(const midphase_scene *scene, uint body, vec3 off
   return result;
 }
 
-/* A body with continuous collision may be turned anywhere within the step: bounds_of a body in broadphase/bounds.h. */
+/* The distance that a body with continuous collision may move within the step in any direction, because a contact may
+ * deflect it; see store_bounds_of_step of broadphase/bounds.h. */
 SHARED real distance_anywhere(const midphase_scene *scene, spatial_velocity m)
 {
   real step = scene->parameters->step;
   return step * (length_of(m.linear) + step * length_of(gravity_of(scene->parameters)));
 }
 
-/* How far the parts of two bodies can come toward each other in the step, beside their linear motion: reach_of of
+/* How far the parts of two bodies can approach each other in the step beyond their linear motion; see reach_of of
  * manifold.h. */
 SHARED real midphase_margin(const midphase_scene *scene, uint a, uint b, vec3 offset)
 {
@@ -92,7 +92,7 @@ SHARED vec3 relative_motion(const midphase_scene *scene, uint from, uint of)
       scene->parameters->step);
 }
 
-/* What a tree is asked for, in its axes: a box, or all below a plane. */
+/* The region in which a tree is searched, in its axes: a box, or all below a plane. */
 typedef struct {
   mask below_plane;
   box_bounds box;
@@ -109,8 +109,8 @@ SHARED mask probe_hits(const tree_probe *probe, box_bounds box)
   return dot3(n, lowest) <= probe->height;
 }
 
-/* A box of half extents along the columns of `rotation`, as a box along the axes that rotation leads to, swept by a
- * motion. */
+/* The box of a swept, rotated box: half extents along the columns of `rotation`, swept by a motion, in the axes that
+ * the rotation leads to. */
 SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion, real margin)
 {
   vec3 reach = make_vec3(dot3(absolute(rotation.x), extent) + margin, dot3(absolute(rotation.y), extent) + margin,
@@ -121,8 +121,8 @@ SHARED box_bounds swept_box(mat3 rotation, vec3 center, vec3 extent, vec3 motion
   return box;
 }
 
-/* What a tree is asked about a body that has none. to_single: the body's centre seen from the centre of the tree's
- * body. */
+/* The region in which a tree is searched for a body without a tree. to_single: that body's centre seen from the centre
+ * of the tree's body. */
 SHARED tree_probe probe_for_single(const midphase_scene *scene, const tree_body *owner, uint single, vec3 to_single,
                                    real margin)
 {
@@ -156,7 +156,7 @@ SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint bod
 {
   if (!filters_accept(scene->parameters, scene->filters, a.shape, b.shape)) return;
   uint place = saturated_sum(list->at, list->found);
-  list->found = saturated_sum(list->found, 1u); /* two meshes may have more pairs of triangles than there are numbers */
+  list->found = saturated_sum(list->found, 1u); /* two meshes may have more than 2^32 pairs of triangles */
   if (!list->writes || place >= list->end) return;
   list->pairs.a[place] = body_a;
   list->pairs.b[place] = body_b;
@@ -166,7 +166,7 @@ SHARED void add_leaf_pair(leaf_list *list, const midphase_scene *scene, uint bod
   list->pairs.leaf[place * 4u + 3u] = b.triangle;
 }
 
-/* A pair of a body with a tree and one without. tree_first: the tree is that of the pair's first body. */
+/* A pair of a body with a tree and one without. tree_first: whether the tree is that of the pair's first body. */
 typedef struct {
   uint owner, first_child, tree_number, single;
   mask tree_first;
@@ -225,7 +225,7 @@ typedef struct {
   uint a, b;
 } node_pair;
 
-/* The children of a pair of nodes: those of the one that is no leaf, or is larger. */
+/* Pushes the children of a pair of nodes: those of the larger node, unless that is a leaf. */
 SHARED void push_children(node_pair *stack, uint *height, const midphase_scene *scene, const tree *tree_a,
                           const tree *tree_b, node_pair nodes, mask descend_a)
 {
@@ -237,7 +237,7 @@ SHARED void push_children(node_pair *stack, uint *height, const midphase_scene *
     first.b = nodes.b + 1u;
     second.b = first.b + subtree_size(word_of_node(scene->trees, tree_b, first.b));
   }
-  stack[*height] = second; /* the first comes next: the order is that of the trees */
+  stack[*height] = second; /* the first is popped next, so the order is that of the trees */
   stack[*height + 1u] = first;
   *height = *height + 2u;
 }
@@ -269,7 +269,7 @@ SHARED void walk_two_trees(leaf_list *list, const midphase_scene *scene, const t
   }
 }
 
-/* Of two trees, or of none. */
+/* Finds the leaf pairs of two bodies with trees, or of two without. */
 SHARED void find_without_walk(leaf_list *list, const midphase_scene *scene, uint a, uint b)
 {
   if (!has_tree(scene, a)) {
@@ -299,8 +299,8 @@ SHARED void count_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pair
   leaf_start[i] = list.found;
 }
 
-/* From here on a pair is one of leaves. Where the pairs of bodies already had no room for all, `needed` stays what they
- * need. */
+/* From here on a pair is a pair of leaves. If the pairs of bodies already exceeded their capacity, `needed` keeps their
+ * number. */
 SHARED void count_all_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL uint *counts, uint i)
 {
   (void)i;
@@ -320,7 +320,7 @@ SHARED void write_leaf_pairs_item(GLOBAL const Parameters *parameters, read_pair
   find_leaf_pairs(&list, &scene, pairs.a[i], pairs.b[i]);
 }
 
-/* Where the pairs of each body start, now that they are pairs of leaves. */
+/* Stores where the pairs of each body start, now that they are pairs of leaves. */
 SHARED void start_leaf_pairs_item(GLOBAL const uint *leaf_start, GLOBAL const uint *counts, GLOBAL uint *pair_start,
                                   uint i)
 {

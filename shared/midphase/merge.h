@@ -1,13 +1,12 @@
-/* merge.h - the manifolds of one pair of bodies, joined where they press the same way.
+/* merge.h - joins the manifolds of one pair of bodies whose normals agree.
  *
- *      +-----------+              A box on a mesh touches many triangles of one plane: each leaf gives a manifold, and
- *      |           |              sixteen points where four hold it. Leaves whose normals agree form a group; the first
- *    __*__*__*__*__*__            leaf of a group keeps its best four points (contact_points.h), the others are left
- *                                 with none.
- *     /\  |  /\  |  /\
+ *      +-----------+             A box on a mesh touches many triangles of one plane. Each leaf gives a manifold, so
+ *      |           |             there are sixteen points where four would do. Leaves whose normals agree form a group.
+ *    __*__*__*__*__*__           The first leaf of a group gets the best four points of all (contact_points.h), the
+ *     /\  |  /\  |  /\           others keep none.
  *
- * Two kernels, since a leaf's manifold must not change while another still reads it: group_manifolds names for each
- * leaf the first of its group, merge_manifolds joins. A group of one keeps its manifold to the bit.
+ * There are two kernels, because a manifold must not change while another leaf still reads it: group_manifolds stores
+ * the first leaf of the group of each leaf, and merge_manifolds joins. A group of one keeps its manifold to the bit.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_MERGE_H
 #define TANDEM_SHARED_MIDPHASE_MERGE_H
@@ -17,11 +16,11 @@
 
 /* Cosine of 8 degrees. */
 #define SAME_DIRECTION R(0.99)
-/* Of the step: impacts no farther apart than this are one. Arms of a joined manifold are those of one moment. */
+/* A share of the step. Impacts no farther apart count as one; the arms of a joined manifold are those of one moment. */
 #define SAME_MOMENT R(0.004)
-/* Of the slop: by this much a point may come nearer in the step for being seen along the normal of its group. */
+/* A share of the slop: how much more a point may approach in the step when seen along the normal of its group. */
 #define SAME_APPROACH R(0.1)
-/* Feature code of a joined manifold: its points are known by the part they play in the reduction. */
+/* The feature code of a joined manifold. Its points are identified by their role in the reduction. */
 #define JOINED_CODE 0xffffffu
 
 SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, uint i, uint j)
@@ -29,7 +28,7 @@ SHARED mask same_bodies(GLOBAL const uint *pair_a, GLOBAL const uint *pair_b, ui
   return pair_a[i] == pair_a[j] && pair_b[i] == pair_b[j];
 }
 
-/* Two normals with the moments of their impacts. approach: velocity of a against b. */
+/* Whether two normals, with the moments of their impacts, may join. approach: velocity of a relative to b. */
 SHARED mask press_alike(GLOBAL const Parameters *parameters, vec4 first, vec4 second, vec3 approach)
 {
   real nearer = magnitude(dot3(subtract(xyz(first), xyz(second)), approach)) * parameters->step;
@@ -44,7 +43,7 @@ SHARED mask same_material(GLOBAL const uint *flags, GLOBAL const uint *pair_leaf
          material_of(flags[pair_leaf[i * 4u + 2u]]) == material_of(flags[pair_leaf[j * 4u + 2u]]);
 }
 
-/* The first leaf of a pair of bodies goes through all of them. */
+/* The item of the first leaf of a pair of bodies groups all leaves of the pair. */
 SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_pairs pairs, GLOBAL const uint *flags,
                                  GLOBAL const float4 *velocities, read_manifolds manifolds, GLOBAL const uint *counts,
                                  GLOBAL uint *group, uint i)
@@ -67,15 +66,15 @@ SHARED void group_manifolds_item(GLOBAL const Parameters *parameters, read_part_
   }
 }
 
-/* The manifolds of a group, as they stand in the buffers. */
+/* The manifolds of a group in the buffers. */
 typedef struct {
   GLOBAL const uint *group, *counts_of_points;
   GLOBAL const float4 *points;
   uint stride, first, end; /* leaves first .. end - 1 may belong to the group of `first` */
 } manifold_group;
 
-/* One pass over all points of the group. With `wanted` it is the last one: the offset of the point that has these
- * coordinates. */
+/* Streams all points of the group through the reduction. With `wanted` it instead returns the offset of the point that
+ * has these coordinates. */
 SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axes, const clip_point *wanted)
 {
   vec3 found = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -92,7 +91,7 @@ SHARED vec3 stream_group(reduction *r, const manifold_group *group, tangents axe
   return found;
 }
 
-/* first: unit normal, and the moment of the impact. */
+/* first: the unit normal, and the moment of the impact. */
 SHARED manifold joined_manifold(const manifold_group *group, vec4 first, real size)
 {
   vec3 normal = xyz(first);

@@ -1,19 +1,20 @@
-/* pair_groups.h - how many pairs a work-group of subtree_pairs.h and of follow_boxes.h takes: known to kernels and to
- * the host that launches them.
+/* pair_groups.h - the number of pairs that a work-group of subtree_pairs.h and of follow_boxes.h processes, for kernels
+ * and for the host that launches them.
  *
- * GROUP kernels run a group for each TILE items of their range, hence a range of its own: TILE times the groups. */
+ * A GROUP kernel runs one group for each TILE items of its range, so the range is TILE times the number of groups. */
 #ifndef TANDEM_SHARED_MIDPHASE_PAIR_GROUPS_H
 #define TANDEM_SHARED_MIDPHASE_PAIR_GROUPS_H
 
 #include "shared/counts.h"
 #include "shared/parallel/length.h"
 
-/* Consecutive pairs: as they are sorted, neighbours mostly ask one tree. */
+/* Pairs of a group of subtree_pairs.h. They are consecutive; because pairs are sorted, most of them search one tree. */
 #define GROUP_PAIRS 64u
-/* More than a group has items, for to start a group takes a device longer than to look at a tile. */
+/* Pairs of a group of follow_boxes.h. They are more than a group has items, because a device takes longer to start a
+ * group than to read a tile. */
 #define FOLLOW_PAIRS 1024u
 
-/* Exact up to 2^28 pairs, as the scan behind it. */
+/* The result is exact up to 2^28 pairs, as is the scan that follows. */
 SHARED uint pair_group_items(uint pairs, uint pairs_of_group)
 {
   uint groups = units_of(pairs, pairs_of_group);

@@ -1,25 +1,25 @@
-/* subtree_pairs.h - the middle phase by work-groups: parts of a tree are read once into local memory, for all pairs of
- * a group.
+/* subtree_pairs.h - the midphase by work-groups: parts of a tree are read once into local memory, for all pairs of a
+ * group.
  *
- *     pairs of a group     (7, 0) (8, 0) (9, 0) .. (70, 0)      body 0 is a mesh: one tree, asked 64 times
- *     its tree                  .                               leaf_pairs.h: each pair reads the nodes on its way from
- *                             .   .                             global memory, each its own way
- *     subtrees of at most   /\  /\  /\  /\  ..                  here: WINDOW subtrees at a time, which all pairs of the
- *     128 nodes, 2 KiB each                                     group then walk in local memory
+ *     pairs of a group     (7, 0) (8, 0) (9, 0) .. (70, 0)     body 0 is a mesh: one tree, searched 64 times
+ *     its tree                  .                              leaf_pairs.h: each pair reads the nodes on its path from
+ *                             .   .                            global memory by itself
+ *     subtrees of at most   /\  /\  /\  /\  ..                 here: WINDOW subtrees at a time, which all pairs of the
+ *     128 nodes, 2 KiB each                                    group then traverse in local memory
  *
- * The list is that of leaf_pairs.h, to the word: subtrees hold every leaf once, in the order of the nodes, and the
- * boxes above them contain theirs, so that nothing is lost or won by leaving them out. After Bullet's btQuantizedBvh,
- * whose subtrees fit the local memory of a PlayStation 3's processors, and its walk over their headers.
+ * The list is that of leaf_pairs.h, to the word. The subtrees hold every leaf once, in the order of the nodes, and the
+ * boxes above them contain theirs, so leaving those out changes nothing. The method follows Bullet's btQuantizedBvh,
+ * whose subtrees fit the local memory of a PlayStation 3's processors, and its traversal over their headers.
  *
- * A round of a group is one window of one tree, in four phases, of which those with nothing to do are empty:
+ * A round of a group processes one window of one tree, in four phases. Phases without work are empty:
  *
- *     load    boxes of the window's subtrees         test    each pair: which of these boxes does it hit?
- *     copy    nodes of those that some pair hits     walk    each pair: those it hits, by skips, without a stack
+ *     load    boxes of the window's subtrees         test    each pair against these boxes
+ *     copy    nodes of those that some pair hits     walk    each pair through those it hits, by skips, without a stack
  *
- * A subtree beyond the reach of the group, the box around all that its pairs ask of the tree, is dropped as it is
- * loaded. Rounds run over all windows of the first tree that a pair of the group asks, then of the next: one loop,
- * since PoCL 3.1 cannot nest them around phases. Pairs of two trees, and of none, are found by leaf_pairs.h within one
- * phase before.
+ * A subtree outside the box around all regions that the group's pairs search in the tree is dropped when it is loaded.
+ * The rounds run over all windows of the first tree that a pair of the group searches, then of the next. They are one
+ * loop, because PoCL 3.1 cannot nest loops around phases. Pairs of two trees and pairs of none are found by
+ * leaf_pairs.h in one phase before.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
 #define TANDEM_SHARED_MIDPHASE_SUBTREE_PAIRS_H
@@ -27,25 +27,27 @@
 #include "shared/midphase/leaf_pairs.h"
 #include "shared/midphase/pair_groups.h"
 
-/* Subtrees in local memory at once. */
+/* The number of subtrees in local memory at once. */
 #define WINDOW 8u
 
-/* Local memory, in words. Numbers come first, as they are wider in double precision: what each pair asks, the reach of
- * all that ask one tree (at the first of them), boxes of the window. */
+/* The layout of local memory, in words. Reals come first, because they are wider in double precision: the region that
+ * each pair searches, the box around all regions in one tree (at the first pair that searches it), and the boxes of the
+ * window. */
 #define BOX_REALS 6u
 #define REACH_AT (BOX_REALS * GROUP_PAIRS)
 #define BOXES_AT (2u * BOX_REALS * GROUP_PAIRS)
 #define LOCAL_REALS (2u * BOX_REALS * GROUP_PAIRS + BOX_REALS * WINDOW)
-/* Of each pair: the tree it asks, whether for all below a plane, leaves found so far, subtrees of the window that it
- * hits; where it is the first that asks a tree, the rounds for it; the rounds up to the last of these. */
+/* For each pair: the tree that it searches, whether it searches below a plane, the leaves found so far, the subtrees of
+ * the window that it hits, and the rounds for its tree if it is the first pair to search it, summed over the pairs. */
 #define ASKED_AT (LOCAL_REALS * (uint)(sizeof(real) / sizeof(uint)))
 #define PLANE_AT (ASKED_AT + GROUP_PAIRS)
 #define FOUND_AT (PLANE_AT + GROUP_PAIRS)
 #define HITS_AT (FOUND_AT + GROUP_PAIRS)
 #define ROUNDS_AT (HITS_AT + GROUP_PAIRS)
 #define LAST_ROUND_AT (ROUNDS_AT + GROUP_PAIRS)
-/* Of the window: its tree, how many pairs hit something; how many subtrees are within reach, in even and odd rounds. Of
- * each subtree its first node, nodes (0: none, or out of reach), how many pairs hit it; last the nodes. */
+/* For the window: its tree, the number of pairs that hit something, the number of subtrees within reach in even and in
+ * odd rounds. For each subtree: its first node, its nodes (0: none, or out of reach), the number of pairs that hit it.
+ * The nodes come last. */
 #define TREE_AT (LAST_ROUND_AT + GROUP_PAIRS)
 #define ANY_HIT_AT (TREE_AT + 1u)
 #define IN_REACH_AT (TREE_AT + 2u)
@@ -55,14 +57,14 @@
 #define NODES_AT (WANTED_AT + WINDOW)
 #define SUBTREE_LOCAL_WORDS (NODES_AT + 4u * SUBTREE_NODES * WINDOW)
 
-/* What a group works on: pairs first .. first + count - 1 of bodies. */
+/* The input of a group: the pairs first .. first + count - 1 of bodies. */
 typedef struct {
   midphase_scene scene;
   GLOBAL const uint *subtrees;
   read_pairs pairs;
   uint first, count;
-  leaf_list list;                /* where the leaves of a pair go; at and found are those of the pair */
-  GLOBAL const uint *leaf_start; /* where a list that is written starts */
+  leaf_list list;                /* where the leaves of a pair are written; at and found are those of the pair */
+  GLOBAL const uint *leaf_start; /* where the list of each pair starts */
 } pair_group;
 
 SHARED leaf_list list_of_pair(const pair_group *group, uint k, uint found)
@@ -80,7 +82,7 @@ SHARED uint windows_of_tree(const midphase_scene *scene, uint number)
 
 /* --- before the rounds --------------------------------------------------------------------------------------- */
 
-/* INDEX_NONE: none, or two. */
+/* The tree that pair k searches; INDEX_NONE if neither body or both have a tree. */
 SHARED uint asked_tree(const pair_group *group, uint k)
 {
   if (k >= group->count) return INDEX_NONE;
@@ -88,7 +90,7 @@ SHARED uint asked_tree(const pair_group *group, uint k)
   return one_has_tree(&group->scene, a, b) ? load_tree_pair(&group->scene, a, b).tree_number : INDEX_NONE;
 }
 
-/* Rounds for the tree that pair k asks, where no pair before asks it. */
+/* The number of rounds for the tree that pair k searches; 0 if an earlier pair searches it. */
 SHARED uint rounds_of_pair(const midphase_scene *scene, LOCAL const uint *memory, uint k)
 {
   uint number = memory[ASKED_AT + k];
@@ -105,7 +107,7 @@ SHARED uint rounds_up_to_pair(LOCAL const uint *memory, uint k)
   return sum;
 }
 
-/* A box of a table of `stride` boxes that starts at number `at`. */
+/* Stores box i in a table of `stride` boxes that starts at number `at`. */
 SHARED void store_box(LOCAL uint *memory, uint at, uint stride, uint i, box_bounds box)
 {
   LOCAL real *to = (LOCAL real *)memory + at + i;
@@ -124,7 +126,7 @@ SHARED box_bounds load_box(LOCAL const uint *memory, uint at, uint stride, uint 
   return box;
 }
 
-/* Of a plane the normal stands in the place of the lower corner, and the height in that of the upper one. */
+/* The normal of a plane is stored in place of the lower corner, and its height in place of the upper one. */
 SHARED void store_probe(LOCAL uint *memory, uint k, const tree_probe *probe)
 {
   box_bounds plane = {probe->normal, make_vec3(probe->height, R(0.0), R(0.0))};
@@ -138,7 +140,7 @@ SHARED tree_probe load_probe(LOCAL const uint *memory, uint k)
   return probe;
 }
 
-/* What a pair asks its tree; where there is not just one, all its leaves. */
+/* Stores the region that a pair searches. If it does not search exactly one tree, all its leaf pairs are found here. */
 SHARED void prepare_pair(const pair_group *group, LOCAL uint *memory, uint k)
 {
   uint a = group->pairs.a[group->first + k], b = group->pairs.b[group->first + k];
@@ -153,7 +155,8 @@ SHARED void prepare_pair(const pair_group *group, LOCAL uint *memory, uint k)
   if (k == 0u) memory[IN_REACH_AT] = 0u;
 }
 
-/* The box around all that the pairs from k on ask of the tree of pair k; below a plane there is no end. */
+/* The box around all regions that the pairs from k on search in the tree of pair k; a region below a plane is
+ * infinite. */
 SHARED box_bounds reach_of_tree(LOCAL const uint *memory, uint k)
 {
   box_bounds reach = load_box(memory, 0u, GROUP_PAIRS, k);
@@ -177,10 +180,10 @@ SHARED void begin_window(LOCAL uint *memory, uint round, uint number)
 {
   memory[TREE_AT] = number;
   memory[ANY_HIT_AT] = 0u;
-  memory[IN_REACH_AT + ((round + 1u) & 1u)] = 0u; /* of the next round: this one's is added to in this phase */
+  memory[IN_REACH_AT + ((round + 1u) & 1u)] = 0u; /* of the next round, because this round's is in use in this phase */
 }
 
-/* One subtree of the window of this round, for the pair that asked first for its tree. */
+/* Loads one subtree of the window of this round, for the first pair that searches its tree. */
 SHARED void load_subtree(const pair_group *group, LOCAL uint *memory, uint round, uint slot)
 {
   uint k = 0u;
@@ -251,7 +254,7 @@ SHARED void walk_window(const pair_group *group, LOCAL uint *memory, uint k)
   memory[FOUND_AT + k] = list.found;
 }
 
-/* Every leaf of every pair; how many of each is left in local memory. */
+/* Finds every leaf pair of every pair, and leaves the numbers of them in local memory. */
 SHARED void find_leaf_pairs_of_group(const pair_group *group, LOCAL uint *memory)
 {
   FOR_EACH_ITEM(k, GROUP_PAIRS) memory[ASKED_AT + k] = asked_tree(group, k);

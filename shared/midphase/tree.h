@@ -1,13 +1,13 @@
-/* tree.h - the hierarchy of boxes over the parts of one body: triangles of a mesh, children of a compound.
+/* tree.h - the hierarchy of boxes over the parts of one body: the triangles of a mesh, or the children of a compound.
  *
- *         0             node:   0   1   2   3   4   5   6       16 bytes a node: six bounds of 16 bits within the
- *       /   \           word:  -7  -3   a   b  -3   c   d       tree's frame, and the number of a leaf, or minus the
- *      1     4                                                  nodes of the subtree.
- *     / \   / \         A walk needs no stack: a box that is hit is entered (next node), one that is missed is passed
- *    a   b c   d        over (by the size of its subtree). Built by host/geometry/bvh.h; after Bullet's btQuantizedBvh
- *                       and Ericson, "Real-Time Collision Detection", 2005, chapter 6.
+ *         0           node:   0   1   2   3   4   5   6       A node has 16 bytes: six bounds of 16 bits within the
+ *       /   \         word:  -7  -3   a   b  -3   c   d       tree's frame, and the index of a leaf or minus the number
+ *      1     4                                                of nodes in the subtree.
+ *     / \   / \       A traversal needs no stack: a box that is hit is entered (next node), and a box that is missed is
+ *    a   b c   d      skipped (by the size of its subtree). host/geometry/bvh.h builds the tree. It follows Bullet's
+ *                     btQuantizedBvh and Ericson, "Real-Time Collision Detection", 2005, chapter 6.
  *
- * Coordinates are those of the tree: the axes of the body's shape, not of the body.
+ * Coordinates are in the tree's axes, which are those of the body's shape, not of the body.
  */
 #ifndef TANDEM_SHARED_MIDPHASE_TREE_H
 #define TANDEM_SHARED_MIDPHASE_TREE_H
@@ -15,15 +15,15 @@
 #include "shared/argument_groups.h"
 #include "shared/broadphase/overlap.h"
 
-/* Levels of a tree of fewer than 2^30 leaves: depth_bound of host/geometry/bvh.h. */
+/* The levels of a tree of fewer than 2^30 leaves: depth_bound of host/geometry/bvh.h. */
 #define TREE_DEPTH_LIMIT 68u
 
-/* Words of a tree's header: first node, nodes, first leaf, leaves, first subtree, subtrees. */
+/* The words of a tree's header: first node, nodes, first leaf, leaves, first subtree, subtrees. */
 #define TREE_HEADER 6u
-/* Nodes of a subtree that subtree_pairs.h takes into local memory at once, at most: 2 KiB. */
+/* The most nodes of a subtree that subtree_pairs.h takes into local memory at once: 2 KiB. */
 #define SUBTREE_NODES 128u
 
-/* Of all the scene's trees, one behind the other. */
+/* The buffers of all trees of the scene, one tree behind the other. */
 typedef struct {
   GLOBAL const uint *headers;  /* TREE_HEADER a tree */
   GLOBAL const float4 *frames; /* 2 a tree: origin and step of its 16-bit coordinates */
@@ -55,7 +55,7 @@ SHARED vec3 dequantised(const tree *t, uint x, uint y, uint z)
 {
   return add(t->origin, multiply(make_vec3(to_real(x), to_real(y), to_real(z)), t->step));
 }
-/* The first three words of a node. */
+/* Decodes the box in the first three words of a node. */
 SHARED box_bounds bounds_of_words(const tree *t, uint first, uint second, uint third)
 {
   box_bounds box = {dequantised(t, first & 0xffffu, first >> 16u, second & 0xffffu),

@@ -1,4 +1,8 @@
-/* box.h - a box by its axes in the world, and the choice of one of them by index. */
+/* box.h - a box described by its axes in the world, and the choice of one axis by its index.
+ *
+ * All box kernels of the narrowphase share it. Each choice is a select, never an indexed load or a branch, so that the
+ * items of a vector may choose different axes.
+ */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_H
 
@@ -19,7 +23,7 @@ SHARED oriented_box oriented_box_of(vec4 orientation, vec3 extent)
   box.extent = extent;
   return box;
 }
-/* The same after turning evenly for a time. */
+/* The box after it has turned for a time with a constant angular velocity. */
 SHARED oriented_box turned_box(oriented_box box, vec3 angular, real time)
 {
   mat3 turn = turn_within(angular, time);
@@ -36,7 +40,7 @@ SHARED oriented_box choose_box(mask m, oriented_box a, oriented_box b)
   return box;
 }
 
-/* The axis of index 0, 1 or 2, and the two after it in cyclic order. */
+/* The axis of index 0, 1 or 2, and the two axes that follow it in cyclic order. */
 typedef struct {
   vec3 axis, u, v;
   real extent, extent_u, extent_v;
@@ -62,8 +66,8 @@ SHARED box_frame frame_of(oriented_box box, uint_lanes k)
   return frame;
 }
 
-/* The face axis most parallel to a direction. Near ties go to the lower index, so that rounding noise
- * cannot move the choice of a box that stands on an edge. */
+/* The face axis most parallel to a direction. Near ties go to the lower index, so that rounding noise cannot change the
+ * choice for a box that stands on an edge. */
 SHARED uint_lanes most_parallel_axis(oriented_box box, vec3 direction)
 {
   real x = magnitude(dot3(box.x, direction)), y = magnitude(dot3(box.y, direction));

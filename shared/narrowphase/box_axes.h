@@ -1,33 +1,33 @@
-/* box_axes.h - the axis along which two boxes are farthest apart, or overlap least.
+/* box_axes.h - the axis along which two boxes are separated most, or overlap least.
  *
- * The separating axis test: the three face normals of each box and the nine directions square to an edge
- * of both. Two boxes are apart if and only if one of these shows a gap (Gottschalk, Lin, Manocha,
- * "OBBTree", SIGGRAPH 1996). Of nearly equal axes the first in this order wins:
+ * This is the separating axis test: the three face normals of each box and the nine directions perpendicular to an edge
+ * of both. Two boxes are apart if and only if one of these axes shows a gap (Gottschalk, Lin, Manocha, "OBBTree",
+ * SIGGRAPH 1996). Of nearly equal axes the first one in this order wins:
  *
  *   code 0-2    face normals of a: x y z
  *   code 3-5    face normals of b
  *   code 6-14   edge of a x edge of b: 6 + 3 k + j
  *
- * A face carries up to four points and an edge one, so a later face, or an edge, must lead by more than what
- * rounding, or the penetration a stack is left with, can move: a box resting on a box keeps its axis.
+ * A face carries up to four points and an edge pair carries one. A later face or an edge pair must therefore lead by
+ * more than rounding or the penetration left in a stack can move, so that a box resting on a box keeps its axis.
  *
- * For contacts the axis of two edges must also be inclined. Where faces meet at a small angle it is nearly that of the
- * faces, and leads by a little: its one point would stop one corner of a box that lands, which turns about it, and the
- * next contacts are found a step later, when the corners without a point have sunk in. Points of faces lie on both
- * boxes all the same:
+ * The axis of an edge pair becomes the contact normal only if it is also inclined to the best face axis. Where faces
+ * meet at a small angle, the edge axis is nearly that of the faces and leads by little. Its one point would stop one
+ * corner of a box that lands; the box would turn about that corner, and its other corners would sink in before they get
+ * contacts in the next step. The points of the face lie on both boxes nevertheless:
  *
- *      \-----________               What the box of b is above the face of a is measured at each point, so none is
- *       o            o-----\   b     made too early; the normal alone is off by that small angle.
+ *      \-----________               The height of the box b above the face of a is measured at each point, so no
+ *       o            o-----\   b     contact is made too early; only the normal is off by that small angle.
  *      -----------------------  a
  *
- * Boxes rest in one another by the slop. So one that slides over a floor of tiles would meet the side of the next tile,
- * and one in a grid its neighbours' neighbours:
+ * Boxes rest in one another by the slop. A box that slides over a floor of tiles would therefore meet the side of the
+ * next tile, and a box in a grid would meet the neighbours of its neighbours:
  *
- *       +---------+ -->                    Where two boxes overlap by no more than the slop along one face axis of a
- *       |         |                        box, and are apart or overlap no more along another, only a bar that thin
- *    ---|--+------|-+---------  <- slop    of their edges can touch. Edges count as rounded off by that much: such
- *       +--|------+ |                      boxes are apart. A ledge lower than the slop is slid over, in every
- *                                          direction.
+ *       +---------+ -->                    If two boxes overlap by no more than the slop along one face axis of a
+ *       |         |                        box, and are apart or overlap no more along another one, only a bar of
+ *    ---|--+------|-+---------  <- slop    their edges that is as thin as the slop can touch. Edges count as rounded
+ *       +--|------+ |                      off by that much, so such boxes count as apart. A box therefore slides
+ *                                          over a ledge lower than the slop, in every direction.
  *     tile |   tile |   tile
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_AXES_H
@@ -38,8 +38,8 @@
 typedef struct {
   real separation;
   uint_lanes code;
-  uint_lanes edges; /* code of the best axis of two edges */
-  mask edges_lead;  /* the separation is theirs, though the code may be that of a face (NEARLY_ALONG) */
+  uint_lanes edges; /* code of the best axis of an edge pair */
+  mask edges_lead;  /* the separation is that of the edge pair, though the code may be that of a face (NEARLY_ALONG) */
 } separating_axis;
 
 typedef struct {
@@ -56,9 +56,9 @@ SHARED best_axis better_axis(best_axis best, real separation, uint code, real le
   return result;
 }
 
-/* One edge of a, along an axis of a whose two neighbours in cyclic order are u and v, against one edge of b:
- * all in the axes of a. `across_b` is how far b reaches along the product of the two, `noise` the rounding
- * error of the gap: the closer the edges come to parallel the less their product says. */
+/* The separation of one edge of a, along an axis of a whose two neighbours in cyclic order are u and v, from one edge
+ * of b. All values are in the axes of a. `across_b` is how far b reaches along the cross product of the two edges.
+ * `noise` is the rounding error of the gap; it weighs more the closer the edges come to parallel. */
 SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge_v, real extent_u, real extent_v,
                             real across_b, real noise)
 {
@@ -69,8 +69,8 @@ SHARED real edge_separation(real offset_u, real offset_v, real edge_u, real edge
   return choose(crossed, (gap - noise) / square_root(choose(crossed, length, (real)R(1.0))), (real)R(-1e30));
 }
 
-/* The three edges of a against one edge of b; across: how far b reaches along their three products. Of the edges the
- * best one wins: only its closest points are sure to lie on both. */
+/* The best axis of the three edges of a with one edge of b. across: how far b reaches along the three cross products.
+ * Only the best edge pair will do, because only its closest points are sure to lie on both boxes. */
 SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 extent, vec3 across, uint code, real noise)
 {
   real along_x = edge_separation(offset.y, offset.z, edge.y, edge.z, extent.y, extent.z, across.x, noise);
@@ -83,42 +83,43 @@ SHARED best_axis edges_against(best_axis best, vec3 offset, vec3 edge, vec3 exte
 SHARED vec3 in_axes_of(oriented_box box, vec3 v) { return make_vec3(dot3(box.x, v), dot3(box.y, v), dot3(box.z, v)); }
 SHARED real sum_of(vec3 v) { return v.x + v.y + v.z; }
 
-/* By how much a later axis must lead, beside rounding. least: the smallest half extent of the pair. */
+/* By how much a later axis must lead, in addition to rounding. least: the smallest half extent of the pair. */
 SHARED real lead_of(real slop, real least) { return minimum(slop * R(0.1), least * R(0.01)); }
 
-/* Cosine of the angle up to which the axis of two edges counts as that of the faces, about 8 degrees; one that no angle
- * has. */
+/* Cosines. Up to the first angle, about 8 degrees, the axis of an edge pair counts as that of the faces; no angle
+ * reaches the second. */
 #define NEARLY_ALONG R(0.99)
 #define NEVER_ALONG R(2.0)
 
-/* The slop and what a contact sags more than that, as a share of the slop. */
+/* The slop and the further sag of a contact under load, as a multiple of the slop. */
 #define ROUNDED_EDGE R(1.25)
-/* The separation of boxes of which only rounded edges meet. */
+/* The separation of boxes that touch with nothing but rounded edges. */
 #define FAR_APART R(1e30)
 
-/* gap: along the three face axes of one box; the middle one is the second largest. Where both show a gap the boxes are
- * apart in any case, and what comes ahead is for the other axes to say. lead: by how much gaps are compared. */
+/* gap: along the three face axes of one box; the middle one of them is the second largest. Where the two largest both
+ * show a gap, the boxes are apart in any case, and the other axes decide about speculative contacts. lead: the margin
+ * within which gaps count as equal. */
 SHARED mask only_edges_meet(vec3 gap, real rounded, real lead)
 {
   real second = middle_of(gap);
   return (maximum(gap.x, maximum(gap.y, gap.z)) > -rounded) & (second > -(rounded + R(2.0) * lead)) & (second < lead);
 }
 
-/* Edge k of a and edge j of b, from the code of their axis. */
+/* Edge k of a and edge j of b, decoded from the code of their axis. */
 SHARED uint_lanes edge_of_a(uint_lanes code)
 {
   return choose(code >= 12u, (uint_lanes)2u, choose(code >= 9u, (uint_lanes)1u, (uint_lanes)0u));
 }
 SHARED uint_lanes edge_of_b(uint_lanes code) { return code - 6u - edge_of_a(code) * 3u; }
 
-/* The product of axis k with a vector, both in the axes of a box. */
+/* The cross product of axis k with a vector, both in the axes of a box. */
 SHARED vec3 across_axis(uint_lanes k, vec3 v)
 {
   real zero = R(0.0);
   return pick3(k, make_vec3(zero, -v.z, v.y), make_vec3(v.z, zero, -v.x), make_vec3(-v.y, v.x, zero));
 }
 
-/* Whether the axis of two edges is inclined to that of a face. x, y, z: the axes of b, in those of a. */
+/* Whether the axis of an edge pair is inclined to that of a face. x, y, z: the axes of b in the axes of a. */
 SHARED mask is_inclined(uint_lanes edges, uint_lanes face, vec3 x, vec3 y, vec3 z, real cosine)
 {
   vec3 across = across_axis(edge_of_a(edges), pick3(edge_of_b(edges), x, y, z));
@@ -127,8 +128,8 @@ SHARED mask is_inclined(uint_lanes edges, uint_lanes face, vec3 x, vec3 y, vec3 
   return along * along < cosine * cosine * length_squared(across);
 }
 
-/* offset: centre of b seen from the centre of a, world axes. slop: penetration left in place; rounded: how much of
- * their edges counts as rounded off. Metres. nearly_along: cosine of the angle up to which the axis of two edges counts
+/* offset: centre of b seen from the centre of a, in world axes. slop: penetration left in place, m. rounded: how much
+ * of the edges counts as rounded off, m. nearly_along: cosine of the angle up to which the axis of an edge pair counts
  * as that of the faces. */
 SHARED separating_axis separating_axis_of(oriented_box a, oriented_box b, vec3 offset, real slop, real rounded,
                                           real nearly_along)

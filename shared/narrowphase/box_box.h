@@ -1,10 +1,10 @@
-/* box_box.h - two boxes touch with faces, in up to four points, or with two edges, in one.
+/* box_box.h - the contact of two boxes: up to four points between faces, or one point between two edges.
  *
  *   separating axis -> a face of a or b -> clip the other box's face -> reduce to four points
  *                   -> an edge of each  -> closest points of the two
  *
- * After the contact generation of E. Catto (GDC 2007) and D. Gregorius (GDC 2013, 2015), without a branch
- * that depends on data, so that all lanes take one path.
+ * It follows the contact generation of E. Catto (GDC 2007) and D. Gregorius (GDC 2013, 2015), but has no branch that
+ * depends on data, so that all lanes take one path.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_BOX_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_BOX_H
@@ -16,12 +16,11 @@
 /* Two boxes relative to a, and the axis between them. */
 typedef struct {
   oriented_box a, b;
-  vec3 offset;     /* centre of b seen from the centre of a */
-  vec3 normal;     /* unit, from a to b */
-  real gap;        /* along it */
-  uint_lanes code; /* of the axis: box_axes.h */
-  uint_lanes
-      edges; /* code of the edges that will do where the axis is a face's (edges_lead) and no point lies on the face */
+  vec3 offset;      /* centre of b seen from the centre of a */
+  vec3 normal;      /* unit, from a to b */
+  real gap;         /* along the normal */
+  uint_lanes code;  /* of the axis, as in box_axes.h */
+  uint_lanes edges; /* code of the edge pair that replaces a face axis on whose face no point lies (edges_lead) */
   mask edges_lead;
 } box_pair;
 
@@ -38,7 +37,8 @@ SHARED vec3 normal_of_axis(oriented_box a, oriented_box b, vec3 offset, uint_lan
   return scale(axis, sign_of(dot3(axis, offset)) / length);
 }
 
-/* From the middle of a box to the middle of that of its edges along frame.axis that lies farthest in a direction. */
+/* The vector from the middle of a box to the middle of that edge along frame.axis which lies farthest in a
+ * direction. */
 SHARED vec3 support_edge(box_frame frame, vec3 direction)
 {
   vec3 u = scale(frame.u, frame.extent_u * sign_of(dot3(frame.u, direction)));
@@ -71,20 +71,19 @@ SHARED manifold edge_contact(box_pair pair)
   return m;
 }
 
-/* The plane of the reference face: axes u and v, outward normal; offset: centre of the incident box seen from
- * the centre of the reference box. */
+/* Transforms a vector into the axes of the reference face: u, v and the outward normal. */
 SHARED vec3 in_face(box_frame reference, vec3 outward, vec3 v)
 {
   return make_vec3(dot3(reference.u, v), dot3(reference.v, v), dot3(outward, v));
 }
 
-/* The face of one box that the contact lies on, and that of the other which faces it most. */
+/* The face of one box that the contact lies on, and the face of the other box that is most opposed to it. */
 typedef struct {
   mask a_is_reference;
   uint_lanes reference_axis, incident_axis;
   box_frame reference, incident;
   vec3 outward; /* normal of the reference face */
-  real facing;  /* side of the incident box that its face is on */
+  real facing;  /* side of the incident box that its face is on, 1 or -1 */
 } face_pair;
 
 SHARED face_pair facing_faces(box_pair pair)
@@ -101,8 +100,8 @@ SHARED face_pair facing_faces(box_pair pair)
   return f;
 }
 
-/* Where the two faces are in the plane of the reference face. Its coordinates count from the middle of the smaller
- * face, so a large one does not round it away. */
+/* The positions of both faces in the plane of the reference face. Coordinates count from the middle of the smaller
+ * face, so that the coordinates of a large face do not round them away. */
 typedef struct {
   vec3 offset;  /* centre of the incident box seen from the centre of the reference box */
   vec3 to_face; /* middle of the incident face seen from the centre of its box */
@@ -157,7 +156,7 @@ SHARED uint_lanes code_of_faces(face_pair f)
          bit_if(f.facing < R(0.0), 7u);
 }
 
-/* From coordinates in the plane to offsets from the centre of a. */
+/* Converts coordinates in the plane to offsets from the centre of a. */
 SHARED manifold manifold_of_faces(box_pair pair, face_pair f, face_plane plane, const clip_point *four)
 {
   real base_u = choose(f.a_is_reference, plane.origin_u, choose(plane.from_incident, plane.to_face.x, -plane.offset.x));
@@ -187,8 +186,8 @@ SHARED manifold face_contacts(box_pair pair)
   return manifold_of_faces(pair, faces, plane, four);
 }
 
-/* Each kind of contact is computed only if some item of the group has it. none: without points, so those of the others
- * may hold anything. */
+/* Each kind of contact is computed only if some item of the group has it. none: a manifold without points, so that it
+ * also serves the items whose manifold is computed elsewhere. */
 SHARED manifold with_face_contacts(manifold none, mask wanted, box_pair pair, real reach)
 {
   if (!any_of(wanted)) return none;
@@ -202,8 +201,8 @@ SHARED manifold with_edge_contact(manifold m, mask wanted, box_pair pair, real r
   return choose_manifold(wanted, kept_within(edge_contact(pair), reach), m);
 }
 
-/* Boxes with one centre to within a thousandth of their size: the offset by which they shall part, more than an axis
- * must lead by. */
+/* The offset along which boxes are to part whose centres coincide to within a thousandth of their size. It is longer
+ * than the lead of an axis. */
 SHARED vec3 parting_offset(vec3 offset, real slop, real least, uint_lanes a, uint_lanes b)
 {
   real little = least * R(0.001);
@@ -212,7 +211,8 @@ SHARED vec3 parting_offset(vec3 offset, real slop, real least, uint_lanes a, uin
   return choose3(in_one_place, scale(parting_direction(a, b), lead_of(slop, least) * R(3.0)), offset);
 }
 
-/* toward: the offset of the boxes, or one by which they shall part. rounded, nearly_along: as separating_axis_of. */
+/* toward: the offset of the boxes, or the one along which they are to part. rounded, nearly_along: as in
+ * separating_axis_of. */
 SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rounded, real nearly_along)
 {
   separating_axis axis = separating_axis_of(boxes.a, boxes.b, toward, slop, rounded, nearly_along);
@@ -221,7 +221,7 @@ SHARED box_pair along_best_axis(box_pair boxes, vec3 toward, real slop, real rou
   return pair;
 }
 
-/* The same pair along the axis of two edges. */
+/* The same pair with the axis of its best edge pair. */
 SHARED box_pair along_edges(mask wanted, box_pair pair)
 {
   box_pair result = pair;
@@ -231,8 +231,8 @@ SHARED box_pair along_edges(mask wanted, box_pair pair)
   return result;
 }
 
-/* The manifold of two boxes as they stand. Seen along the normal of a face, edges that will meet may still pass beside
- * each other. */
+/* The manifold of two boxes at their current poses. Edges that will meet may still lie beside each other when seen
+ * along the normal of a face, so the edge pair takes over if no point lies on the face. */
 SHARED manifold boxes_contact(GLOBAL const Parameters *parameters, mask wanted, box_pair pair, pair_motion moves)
 {
   real reach = reach_of_pair(parameters, moves, pair.normal);
@@ -256,14 +256,14 @@ SHARED box_pair boxes_after(box_pair pair, pair_motion moves, real time)
   return then;
 }
 
-/* Along a unit normal from a to b. */
+/* The gap along a unit normal from a to b. */
 SHARED real gap_of_boxes_along(box_pair pair, vec3 normal)
 {
   return dot3(pair.offset, normal) - dot3(absolute(in_axes_of(pair.a, normal)), pair.a.extent) -
          dot3(absolute(in_axes_of(pair.b, normal)), pair.b.extent);
 }
 
-/* Two boxes as the step starts, whose best axis is not known yet. */
+/* Two boxes at the start of the step, before their best axis is known. */
 typedef struct {
   box_pair boxes;
   pair_motion moves;
@@ -289,8 +289,9 @@ SHARED moving_boxes load_boxes(GLOBAL const float4 *shapes, read_bodies bodies, 
   return pair;
 }
 
-/* Boxes beside each other, whose faces do not lie above one another yet, make no contact where they stand, though fast
- * ones may meet within the step. Sharp edges: rounded ones may not meet at the start and will. */
+/* Boxes beside each other, whose faces do not overlap yet when seen along the normal, have no contact at the start of
+ * the step, though fast ones may meet within it. The test takes sharp edges, because rounded ones may be apart at the
+ * start and still meet. */
 SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m, moving_boxes pair, vec3 normal)
 {
   mask beside = pair.input.far & !has_points(m);
@@ -299,7 +300,7 @@ SHARED mask may_meet_from_beside(GLOBAL const Parameters *parameters, manifold m
   return beside & (gap > pair.input.touching) & (closing_speed(pair.moves, normal) * parameters->step > gap);
 }
 
-/* Of what overlaps nothing is asked further, nor of what is apart and does not come far: nearly all pairs of a heap. */
+/* Pairs that overlap are done, and so are pairs that are apart and do not move far; these are nearly all of a pile. */
 SHARED mask may_be_followed(manifold m, toi_input input)
 {
   return (least_separation(m) > R(0.0)) & (has_points(m) | input.far);
@@ -322,7 +323,7 @@ SHARED void collide_box_box_item(read_listed_pairs pairs, GLOBAL const uint *fla
 
   mask unsure = mine & may_be_followed(m, pair.input);
   if (!any_of(unsure)) return;
-  /* Loaded once more, so that a device need not keep them in registers all the while. */
+  /* The pair is loaded again, so that a device need not keep it in registers during the contact generation. */
   pair = load_boxes(shapes, bodies, parameters, a, b);
   mask ahead = speculation_of(parameters, m, pair.boxes.offset, pair.moves, pair.input, pair.least).asked |
                may_meet_from_beside(parameters, m, pair, boxes.normal);

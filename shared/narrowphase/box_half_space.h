@@ -1,7 +1,12 @@
-/* box_half_space.h - a box touches a half-space with the four corners of the face turned most toward it.
+/* box_half_space.h - the contact of a box with a half-space: the four corners of the face that is most opposed to it.
  *
- * The lowest corner of the box is always among them. Slots are the signs of the two other axes of the
- * face: bit 0 the next axis, bit 1 the one after.
+ * The lowest corner of the box is always among them. A slot holds the signs of the two other axes of the face: bit 0 is
+ * that of the next axis, bit 1 that of the one after.
+ *
+ *      +-------+
+ *      |  box  |     o  corners of the face turned to the plane, kept where their separation
+ *      o-------o        is less than the reach
+ *    ------------- plane
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_BOX_HALF_SPACE_H
 #define TANDEM_SHARED_NARROWPHASE_BOX_HALF_SPACE_H
@@ -9,7 +14,7 @@
 #include "shared/narrowphase/box.h"
 #include "shared/narrowphase/pair_lists.h"
 
-/* Corner of the face `toward` the plane; `origin` is where offsets are counted from, seen from the box. */
+/* A corner of the face turned to the plane. `origin` is the point that offsets count from, seen from the box. */
 SHARED vec4 corner_contact(vec3 corner, vec3 center, vec3 outward, vec3 origin)
 {
   real separation = dot3(center, outward) + dot3(corner, outward);
@@ -35,8 +40,8 @@ SHARED manifold box_on_plane(oriented_box box, vec3 center, vec3 outward, vec3 o
   return m;
 }
 
-/* A box and a plane through the origin that it is seen from, with unit normal `outward`; seen from the plane's body, or
- * as the pair's first body is the box (box_first), from there. */
+/* A box and the plane through the origin of its frame, with unit normal `outward`. Contact points are offsets from the
+ * plane's body, or from the box if the box is the pair's first body (box_first). */
 typedef struct {
   oriented_box box;
   vec3 center, outward;
@@ -106,7 +111,7 @@ SHARED void collide_box_half_space_item(read_listed_pairs pairs, GLOBAL const ui
   real reach = reach_of_pair(parameters, moves, normal);
   manifold m = box_plane_contact(pair, reach);
 
-  /* A plane has no end that a body could pass; only what turns may swing by it. */
+  /* A plane has no edge that a body could pass, so only a turning body can miss it. */
   toi_input input = toi_input_of_step(parameters, moves, least, shape.w);
   speculation s =
       speculation_of(parameters, m, choose3(box_first, negate(pair.center), pair.center), moves, input, least);

@@ -1,17 +1,17 @@
 /* clamp_to_time_of_impact.h - cuts the solved motion of a body with continuous collision before the body passes a wall.
  *
- *     start  o - - - .          The contacts of a step are those of the straight ways. A body that one of them turns
- *                 /   \         aside, or sets spinning, comes where no contact was made: a second wall in a corner,
- *      deflected o  |  x end    its own other end after an edge has hit. So its motion from start to end is followed
- *                   |wall       once more, against what no impulse moves, and cut where it would pass; its velocity
- *                               stays, for the contact of the next step.
+ *     start  o - - - .          The contacts of a step are those of the unconstrained, straight motion. A body that
+ *                 /   \         such a contact deflects or sets spinning may reach a place where no contact was made:
+ *      deflected o  |  x end    a second wall in a corner, or a wall that its own other end hits. The solved motion of
+ *                   |wall       the body is therefore followed once more, against bodies that no impulse moves, and
+ *                               cut where it would pass one. The velocity stays, for the contact of the next step.
  *
- * As in Box2D 3 (Catto, 2024), the test depends on the start. A shape that starts free is followed whole. A shape that
- * starts touching has its contacts already and would be held by every graze, so only a ball in its middle must not
- * pass.
+ * The test depends on the start, as in Box2D 3 (Catto, 2024). The whole shape is tested if it starts free. A shape that
+ * starts touching has its contacts already, and every grazing contact would stop it, so only a ball in its middle is
+ * tested.
  *
- * Each pair limits the fraction of the motion that is kept, and the lowest fraction holds. Fractions are whole numbers,
- * so their minimum does not depend on order.
+ * Each pair limits the fraction of the motion that is kept, and the lowest fraction holds. Fractions are stored as
+ * whole numbers, so their minimum does not depend on order.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CLAMP_TO_TIME_OF_IMPACT_H
 #define TANDEM_SHARED_NARROWPHASE_CLAMP_TO_TIME_OF_IMPACT_H
@@ -19,7 +19,7 @@
 #include "shared/narrowphase/collide_convex.h"
 #include "shared/narrowphase/middle_ball.h"
 
-/* A wall: a shape, or all below a plane. Seen from the body's centre; times go from 0 to 1. */
+/* A wall: a convex shape or a half-space. It is seen from the body's centre, and times go from 0 to 1. */
 typedef struct {
   mask is_plane;
   moving_convex shape;
@@ -45,7 +45,7 @@ SHARED impact impact_on(const moving_convex *body, const wall *w)
   return first_impact(body, &w->shape, way_past(body, w));
 }
 
-/* How far apart they are along a normal at the end. */
+/* The gap between the body and the wall along a normal at the end of the motion. */
 SHARED real gap_at_end(const moving_convex *body, const wall *w, vec3 normal)
 {
   convex shape = shape_at(body, body->linear, R(1.0));
@@ -67,7 +67,7 @@ SHARED moving_convex middle_ball(const moving_convex *body)
   return ball;
 }
 
-/* The share of its motion that a body has free of a wall. slop: penetration that does no harm. */
+/* The fraction of its motion that a body makes before it passes a wall. slop: harmless penetration, m. */
 SHARED real free_share(const moving_convex *body, const wall *w, real slop)
 {
   impact met = impact_on(body, w);

@@ -1,9 +1,10 @@
-/* collide_convex.h - pairs with a shape that has no test of its own: any two convex shapes, and one above a half-space.
+/* collide_convex.h - the collision of pairs whose shapes have no test of their own: any two convex shapes, and a convex
+ * shape with a half-space.
  *
- * pairs.def draws which pairs these are; of compounds and meshes a pair holds one child or triangle
- * (midphase/leaf_pairs.h).
+ * The table in pairs.def shows which pairs these are. A pair of a compound or a mesh holds one child or one triangle of
+ * it (midphase/leaf_pairs.h).
  *
- * Branches follow the data: shapes of one pair differ too much for lanes.
+ * The branches depend on data, because the shapes of neighbouring pairs differ too much for lanes.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_COLLIDE_CONVEX_H
@@ -14,8 +15,8 @@
 #include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/triangle_contact.h"
 
-/* The part of a body that takes part in a pair. Without trees it is the body's only shape, whose number is that of the
- * body. */
+/* The part of a body that a pair is about. In a scene without trees it is the only shape of the body, and has the
+ * body's index. */
 typedef struct {
   uint body, shape, triangle;
 } body_part;
@@ -30,8 +31,7 @@ SHARED body_part part_of_pair(GLOBAL const Parameters *parameters, GLOBAL const 
   return part;
 }
 
-/* What body_shape, body_convex and body_shape_pose say of a part. offset: the body's centre in the frame of the
- * pair. */
+/* Loads a part from body_shape, body_convex and body_shape_pose. offset: the body's centre in the frame of the pair. */
 SHARED convex load_convex(GLOBAL const float4 *shapes, GLOBAL const uint *convexes, GLOBAL const float4 *poses,
                           GLOBAL const float4 *orientations, hull_tables tables, vec3 offset, body_part part)
 {
@@ -45,7 +45,7 @@ SHARED convex load_convex(GLOBAL const float4 *shapes, GLOBAL const uint *convex
                    convexes[part.shape * 2u + 1u], tables);
 }
 
-/* Whatever the normal will be, no gap is closed faster than the bodies approach. */
+/* The largest reach for any normal: no gap closes faster than the bodies approach. */
 SHARED real widest_reach(GLOBAL const Parameters *parameters, pair_motion moves)
 {
   vec3 approach = subtract(subtract(moves.a.linear, moves.b.linear), moves.fall);
@@ -67,12 +67,12 @@ typedef struct {
   convex first, second;
   pair_motion moves;
   vec3 offset;    /* centre of the second one's body */
-  real reach;     /* whatever the normal */
+  real reach;     /* an upper bound, for any normal */
   real thickness; /* of the thinner body */
 } convex_query;
 
-/* False where not even the balls around the bodies are within reach; the shapes are then not loaded. method: CONVEX_ in
- * its low byte, SUPPORT_ in the next. */
+/* False if not even the bounding spheres of the bodies are within reach; the shapes are then not loaded. method:
+ * CONVEX_ in its low byte, SUPPORT_ in the next. */
 SHARED mask load_convex_query(convex_query *query, read_listed_part_pairs pairs, read_shapes shapes,
                               read_surfaces surfaces, read_bodies bodies, GLOBAL const Parameters *parameters,
                               uint method, uint pair)
@@ -99,7 +99,7 @@ SHARED manifold within_reach(GLOBAL const Parameters *parameters, const convex_q
   return kept_within(m, reach_of_pair(parameters, query->moves, m.normal));
 }
 
-/* The manifold of the shapes as the query has them. */
+/* The manifold of the shapes at the poses that the query holds. */
 SHARED manifold contact_of_query(GLOBAL const Parameters *parameters, const convex_query *query, uint method)
 {
   return within_reach(
@@ -118,8 +118,8 @@ SHARED toi_input toi_input_of_query(GLOBAL const Parameters *parameters, const c
   return toi_input_of_step(parameters, query->moves, least_of_query(query), size);
 }
 
-/* A triangle makes no contact beside itself, so a pair without one may meet within the step: where its plane is
- * approached. */
+/* A triangle makes no contact with a shape beside it, so a pair without a contact may still meet within the step if the
+ * triangle's plane is approached. */
 SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_query *query)
 {
   mask of_a = is_triangle(&query->first);
@@ -129,7 +129,7 @@ SHARED mask may_meet_triangle(GLOBAL const Parameters *parameters, const convex_
   return closing * parameters->step > toi_input_of_query(parameters, query).touching;
 }
 
-/* Whether follow_convexes (follow_convexes.h) looks at the manifold m of the start of the step. */
+/* Whether follow_convexes (follow_convexes.h) must process the pair whose manifold at the start of the step is m. */
 SHARED mask is_ahead(GLOBAL const Parameters *parameters, const convex_query *query, manifold m)
 {
   if (has_points(m))
@@ -146,7 +146,7 @@ SHARED void store_start(GLOBAL const Parameters *parameters, const convex_query 
   mark_to_follow_if(is_ahead(parameters, query, m), m, manifolds.count, pair);
 }
 
-/* The pair of item i. False if it is another kernel's. */
+/* The pair of item i; false if another kernel handles it. */
 SHARED mask is_convex_pair(uint *pair, GLOBAL const Parameters *parameters, read_listed_part_pairs pairs,
                            GLOBAL const uint *flags, uint kind, uint i)
 {
@@ -158,7 +158,7 @@ SHARED void collide_convex_item(read_listed_part_pairs pairs, read_shapes shapes
                                 read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                 write_manifolds manifolds, uint method, uint i)
 {
-  /* Without it nothing is left for a compiler of devices to do. */
+  /* This test lets a device compiler drop the whole kernel in scenes without such pairs. */
   if (!HAS_FEATURE(parameters, CONVEX_CONVEX)) return;
   uint stride = counts[CAPACITY_PAIRS], pair;
   if (!is_convex_pair(&pair, parameters, pairs, shapes.flags, PAIR_KIND_CONVEX_CONVEX, i)) return;
@@ -189,7 +189,7 @@ SHARED void collide_convex_half_space_item(read_listed_part_pairs pairs, read_sh
   real reach = reach_of_pair(parameters, moves, negate(up));
   manifold m = convex_on_half_space(&shape, up, height, reach);
 
-  /* A plane has no end that a body could pass; only what turns may swing by it. */
+  /* A plane has no edge that a body could pass, so only a turning body can miss it. */
   toi_input input = toi_input_of_step(parameters, moves, least, bounding_radius_of(&shape));
   speculation s = speculation_of(parameters, m, to_plane, moves, input, least);
   if (s.asked && fastest_turning(moves) > R(0.0)) {

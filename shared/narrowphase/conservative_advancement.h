@@ -1,19 +1,18 @@
-/* conservative_advancement.h - when any two moving convex shapes meet within the step, and where they are at that
- * moment.
+/* conservative_advancement.h - when two moving convex shapes meet within the step, and where they are at that moment.
  *
- *    start            impact          The bodies move with the velocities they start with. Along the direction of the
- *     .--.    v  |     .--.|          closest points no part of one nears the other faster than the bodies approach and
- *    ( a  ) ---> |  - ( a  )| b       their turning swings round: they are advanced by the time in which they cannot
- *     '--'       |     '--'|          touch, again and again (van den Bergen, "Ray Casting against General Convex
- *      <-- gap -->                    Objects", 2004; Zhang, Lee, Kim, "Interactive Continuous Collision Detection for
- *                                     Non-Convex Polyhedra", 2006).
+ *    start            impact       The bodies move with the velocities they start with. Along the direction of
+ *     .--.    v  |     .--.|       the closest points, no part of one nears the other faster than the bodies
+ *    ( a  ) ---> |  - ( a  )| b    approach plus the speed that their spin adds. They are repeatedly advanced by the
+ *     '--'       |     '--'|       time in which they cannot touch (van den Bergen, "Ray Casting against General Convex
+ *      <-- gap -->                 Objects", 2004; Zhang, Lee, Kim, "Interactive Continuous Collision Detection for
+ *                                  Non-Convex Polyhedra", 2006).
  *
- * The manifold of that moment goes to the solver as one seen from the start of the step: its separations are larger by
- * what the points close until then, so the ordinary rows stop the bodies at the surface, without a substep of their
- * own. Arms stay those of the impact (setup/contact.h). Bodies that pass each other have no contact that could push
- * them.
+ * The solver gets the manifold of the impact as a speculative one of the start of the step: each separation is larger
+ * by what the point closes until the impact, so the ordinary constraint rows stop the bodies at the surface and no
+ * substep of their own is needed. The arms stay those of the impact (setup/contact.h). Bodies that pass each other get
+ * no contact that could push them.
  *
- * time_of_impact.h says which contacts are followed, and how far they are advanced.
+ * The file time_of_impact.h decides which contacts are followed, and how far a pair is advanced.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONSERVATIVE_ADVANCEMENT_H
 #define TANDEM_SHARED_NARROWPHASE_CONSERVATIVE_ADVANCEMENT_H
@@ -21,12 +20,12 @@
 #include "shared/narrowphase/gjk.h"
 #include "shared/narrowphase/time_of_impact.h"
 
-/* A shape of a body that moves evenly. Offsets are seen from the centre of body a at the start. */
+/* A shape of a body that moves with constant velocities. Offsets are seen from the centre of body a at the start. */
 typedef struct {
   convex shape; /* at the start, world axes */
   vec3 pivot;   /* centre of the body */
   vec3 linear, angular;
-  real radius; /* that turning swings round; 0 for a sphere in the middle of its body */
+  real radius; /* of the sphere that the spin sweeps; 0 for a sphere in the middle of its body */
 } moving_convex;
 
 SHARED moving_convex moving_convex_of(const convex *shape, vec3 pivot, vec3 linear, vec3 angular, real radius)
@@ -41,8 +40,8 @@ SHARED moving_convex moving_convex_of(const convex *shape, vec3 pivot, vec3 line
   return m;
 }
 
-/* Seen from a point that moves with the velocity `seen_from`: that of body a keeps the numbers near the impact
- * small. */
+/* The shape after a time, seen from a point that moves with the velocity `seen_from`. The velocity of body a keeps the
+ * coordinates near the impact small. */
 SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
 {
   convex shape = m->shape;
@@ -53,7 +52,7 @@ SHARED convex shape_at(const moving_convex *m, vec3 seen_from, real time)
   return shape;
 }
 
-/* The speed at which turning brings some part of a shape forward along a unit direction, at most. */
+/* The highest speed that the spin gives any part of a shape along a unit direction. */
 SHARED real swing_along(const moving_convex *m, vec3 direction)
 {
   return length_of(cross3(m->angular, direction)) * m->radius;
@@ -63,8 +62,8 @@ SHARED real fastest_swing(const moving_convex *m) { return length_of(m->angular)
 /* The first touch of two shapes, if they touch before the horizon. */
 typedef struct {
   advancement at;
-  real gap;    /* then; below 0: overlapping */
-  vec3 normal; /* then, unit, from a to b */
+  real gap;    /* at that time; negative where they overlap */
+  vec3 normal; /* at that time, unit, from a to b */
 } impact;
 
 SHARED impact no_impact(void)
@@ -73,7 +72,8 @@ SHARED impact no_impact(void)
   return met;
 }
 
-/* What is free by the chord along a normal that turns with one of the two. outward: the normal from it to the other. */
+/* The time that is free of touching by the chord bound along a normal fixed to the viewer, which turns with it.
+ * outward: the normal from the viewer to the other shape. */
 SHARED real free_beside(const moving_convex *viewer, const moving_convex *other, vec3 seen_from, vec3 outward, real gap,
                         advancement at, toi_input input)
 {
@@ -116,8 +116,8 @@ SHARED impact first_impact(const moving_convex *a, const moving_convex *b, toi_i
   return met;
 }
 
-/* The same against all that lies below a plane. up: its unit normal; height: of the plane along it; rising: how fast it
- * nears the body. */
+/* The gap between a body and a half-space after a time. up: unit normal of the plane. height: of the plane along it.
+ * rising: the speed at which the plane nears the body. */
 SHARED real gap_above_plane(const moving_convex *body, vec3 up, real height, real rising, real time)
 {
   convex shape = shape_at(body, body->linear, time);
@@ -141,8 +141,8 @@ SHARED impact first_impact_on_plane(const moving_convex *body, vec3 up, real hei
   return met;
 }
 
-/* Follows two shapes, seen from the centre of the first one's body, and moves them to their impact if their contacts
- * are to be those of that moment. */
+/* Finds the impact of two shapes, seen from the centre of the first one's body. Both are moved to their poses at the
+ * impact if the manifold is to be made there. */
 SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex *second, vec3 offset,
                       pair_motion moves, toi_input input, speculation s)
 {
@@ -157,7 +157,8 @@ SHARED encounter meet(GLOBAL const Parameters *parameters, convex *first, convex
   return met;
 }
 
-/* The same for a body seen from its own centre above a plane; `height` becomes that of the plane then. */
+/* The impact of a body, seen from its own centre, with a half-space. `height` becomes the plane's height at the
+ * impact. */
 SHARED encounter meet_plane(GLOBAL const Parameters *parameters, convex *shape, vec3 up, real *height,
                             spatial_velocity body, real radius, spatial_velocity plane, toi_input input, speculation s)
 {

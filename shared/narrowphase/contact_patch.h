@@ -1,15 +1,15 @@
-/* contact_patch.h - the points of a contact in its own axes: where two supporting features overlap, seen along its
- * normal.
+/* contact_patch.h - the points of a contact in the contact's own axes: the overlap of two supporting features, seen
+ * along the normal.
  *
- * Used by all that find a normal first (convex_contact.h, triangle_contact.h, sat_split.h): the features are clipped
- * (polygon_clip.h), the points reduced to four (contact_points.h), and placed in the world.
+ * All methods that find a normal first use it (convex_contact.h, triangle_contact.h, sat_split.h): the features are
+ * clipped (polygon_clip.h), the points are reduced to four (contact_points.h) and placed in the world.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONTACT_PATCH_H
 #define TANDEM_SHARED_NARROWPHASE_CONTACT_PATCH_H
 
 #include "shared/narrowphase/polygon_clip.h"
 
-/* Rounding error of a corner. */
+/* The rounding error of a corner. */
 SHARED real slack_of_corners(const convex *b) { return R(32.0) * ROUNDING * bounding_radius_of(b); }
 
 SHARED contact_axes contact_axes_of(vec3 normal)
@@ -50,7 +50,7 @@ SHARED void start_overlap(feature_overlap *overlap, const convex *a, const suppo
   clip->slack = slack_of_corners(b);
 }
 
-/* Height of the surface of b above a point. */
+/* The height of the surface of b above a point. */
 SHARED real height_of_b(const feature_overlap *overlap, const convex *a, const convex *b, clip_point p)
 {
   real on_a = height_of(&overlap->a, p.u, p.v) + core_radius(a),
@@ -58,14 +58,15 @@ SHARED real height_of_b(const feature_overlap *overlap, const convex *a, const c
   return overlap->b_moves ? on_a + p.separation : on_b;
 }
 
-/* The overlap misses the deepest point of the shapes: the contact then lies where no features meet face to face. */
+/* Whether the overlap misses the deepest point of the shapes. The contact then lies where no features meet face to
+ * face. */
 SHARED mask misses_deepest(const reduction *r, real gap)
 {
   return !r->deepest.point.valid || r->deepest.point.separation > gap + r->lead;
 }
 SHARED uint_lanes code_of_features(uint a, uint b) { return (a & 0xfffu) | (b & 0xfffu) << 12u; }
 
-/* Where the two supporting features overlap. False if there is no contact of that kind. */
+/* The overlap of the two supporting features. False if they do not overlap, or only away from the deepest point. */
 SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, real reach)
 {
   patch->axes = contact_axes_of(contact.normal);
@@ -85,7 +86,7 @@ SHARED mask overlap_patch(contact_patch *patch, const convex *a, const convex *b
   return 1;
 }
 
-/* A patch of one point of b. */
+/* A patch that consists of one point of b. */
 SHARED void point_patch(contact_patch *patch, const convex *a, const convex *b, core_contact contact, vec3 on_b)
 {
   vec3 at = in_contact_axes(&patch->axes, on_b);
@@ -97,7 +98,7 @@ SHARED void point_patch(contact_patch *patch, const convex *a, const convex *b, 
   }
 }
 
-/* From the pair's axes to the world's. */
+/* Transforms a patch from the pair's axes to world axes. */
 SHARED manifold placed_manifold(const convex_pair *pair, const contact_patch *patch)
 {
   const contact_axes *axes = &patch->axes;

@@ -1,16 +1,17 @@
-/* contact_points.h - at most four points of a stream of any length, that span nearly all it spans, and its deepest.
+/* contact_points.h - reduces a stream of contact points of any length to four: points that span nearly the whole
+ * contact area, and the deepest one.
  *
- * The choice of point_reduction.h for points that pass by instead of lying in an array. The first pass keeps them, and
- * the others read them there; a stream too long for that runs once a pass.
+ * It makes the choice of point_reduction.h for points that arrive one by one instead of in an array. The first pass
+ * keeps the points, and the later passes read the kept ones; a stream too long for that is generated once a pass.
  *
  *   pass 0   the farthest along a fixed direction (slot 0), and the deepest
  *   pass 1   the farthest from slot 0 (slot 2)
  *   pass 2   the farthest to the right and left of the line between them (slots 1, 3)
  *   pass 3   if one side is empty: the farthest outside the triangle of the other three
  *
- * The deepest, if not among them, then replaces the nearest. Not the deepest first: at rest all are nearly as deep as
- * each other, noise would choose, and every slot would change its point from step to step. Ties go to the earlier
- * point.
+ * The deepest point then replaces the nearest of the four, if it is not among them. The choice does not begin with the
+ * deepest point, because all points are nearly equally deep at rest: noise would choose, and every slot would change
+ * its point from step to step. Ties go to the earlier point.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
 #define TANDEM_SHARED_NARROWPHASE_CONTACT_POINTS_H
@@ -22,7 +23,7 @@
 
 typedef struct {
   int pass;
-  real lead, narrow; /* what a point must lead by: along a length, in an area */
+  real lead, narrow; /* the margin by which a point must lead: in a length, in an area */
   leader first, deepest, second, right, left, outermost;
   clip_point kept[STREAM_KEPT]; /* the valid points of the stream */
   uint points;
@@ -39,7 +40,8 @@ SHARED void start_reduction(reduction *r, real span, real noise)
   r->second = r->right = r->left = r->outermost = leader_above(nobody, R(0.0));
 }
 
-/* The side left empty, seen as the left one of the line start -> end past the tip on its right. */
+/* How far a point lies outside the triangle on its empty side. That side is seen as the left of the line start -> end,
+ * whose right side holds the tip. */
 SHARED real outside_triangle(const reduction *r, clip_point candidate)
 {
   mask right_only = r->right.point.valid;
@@ -69,7 +71,7 @@ SHARED void reduce_step(reduction *r, clip_point candidate)
   }
 }
 
-/* A pass over the points kept. False if there were too many. */
+/* Runs a pass over the kept points. False if the stream was too long to keep. */
 SHARED mask reduce_kept(reduction *r)
 {
   if (r->points > STREAM_KEPT) return 0;
@@ -77,7 +79,7 @@ SHARED mask reduce_kept(reduction *r)
   return 1;
 }
 
-/* Between two passes. False where no further pass is needed. */
+/* Prepares the next pass. False if no further pass is needed. */
 SHARED mask next_pass(reduction *r)
 {
   int done = r->pass;

@@ -1,15 +1,14 @@
-/* convex.h - any convex shape as the narrowphase sees it: a point farthest in a direction, and a radius around it.
+/* convex.h - a convex shape as the narrowphase uses it: a core given by its support map, and a radius around the core.
  *
- *      core, sharp            core + radius           Sphere: a point.  Capsule: a segment along Y.  Box, cylinder,
- *                                                                                                    hull:
- *      +---------+             .---------.            themselves, radius 0.  The tests work on the core and subtract
- *                                                                            the
- *      |    .    |            (  o-----o  )           radius in the end, so a rounded shape costs no more than its core
- *      +---------+             `---------'            and keeps the full precision of its distance.
+ *      core, sharp            core + radius           A sphere's core is a point, a capsule's a segment along Y. Boxes,
+ *      +---------+             .---------.            cylinders and hulls are their own core, with radius 0. The tests
+ *      |    .    |            (  o-----o  )           work on the core and subtract the radius in the end, so a rounded
+ *      +---------+             `---------'            shape costs no more than its core and keeps the full precision of
+ *                                                     its distance.
  *
- * A pair is moved into axes where precision lies (pair_of): those of the larger shape, whose faces are then exact,
- * about the middle of the smaller one, so that the numbers near the contact are small. Support mappings after G. van
- * den Bergen, "Collision Detection in Interactive 3D Environments", 2003.
+ * A pair is transformed into axes in which coordinates are most precise (pair_of): the axes of the larger shape, whose
+ * faces are then exact, about the middle of the smaller one, so that the coordinates near the contact are small. The
+ * support maps follow G. van den Bergen, "Collision Detection in Interactive 3D Environments", 2003.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_H
@@ -17,8 +16,8 @@
 #include "shared/narrowphase/hull_support.h"
 #include "shared/narrowphase/manifold.h"
 
-/* size: sphere radius - -; box half extents; capsule and cylinder (bottom radius, half height, top radius) along Y;
- * hull half extents of a box around it that is centred at the origin of its axes. */
+/* size: of a sphere (radius, -, -); of a box its half extents; of a capsule or a cylinder along Y (bottom radius, half
+ * height, top radius); of a hull the half extents of a box around it that is centred at the origin of its axes. */
 typedef struct {
   uint_lanes kind;
   vec3 size;
@@ -26,7 +25,7 @@ typedef struct {
   vec3 center;   /* origin of the shape's axes */
   mask aligned;  /* the rotation is the identity */
   hull_ranges hull;
-  uint triangle;      /* of a mesh: its number; its first corner is the origin of its axes */
+  uint triangle;      /* index of a mesh triangle; its first corner is the origin of the shape's axes */
   vec3 second, third; /* its other corners */
   hull_tables tables;
 } convex;
@@ -36,8 +35,8 @@ SHARED mask is_cylinder(const convex *shape) { return MAY_OCCUR(ROUND) && shape-
 SHARED mask is_capsule(const convex *shape) { return MAY_OCCUR(ROUND) && shape->kind == (uint)SHAPE_CAPSULE; }
 SHARED mask is_triangle(const convex *shape) { return MAY_OCCUR(TREES) && shape->kind == (uint)SHAPE_TRIANGLE; }
 
-/* offset: the body's centre seen from the centre of body a; middle: the shape's origin in the axes of its body, other
- * than 0 where the centre of mass lies elsewhere. hull: its index; read only for SHAPE_HULL. */
+/* offset: the body's centre seen from the centre of body a. middle: the shape's origin in the axes of its body; it is
+ * not 0 where the centre of mass lies elsewhere. hull: its index, read only for SHAPE_HULL. */
 SHARED convex convex_of(uint_lanes kind, vec3 size, mat3 rotation, vec3 offset, vec3 middle, uint_lanes hull,
                         hull_tables tables)
 {
@@ -78,14 +77,14 @@ SHARED vec3 to_shape_axes(const convex *shape, vec3 v) { return shape->aligned ?
 SHARED vec3 from_shape_axes(const convex *shape, vec3 v) { return shape->aligned ? v : rotate(shape->rotation, v); }
 SHARED vec3 point_of_shape(const convex *shape, vec3 own) { return add(from_shape_axes(shape, own), shape->center); }
 
-/* Radius around the core. */
+/* The radius around the core. */
 SHARED real core_radius(const convex *shape)
 {
   if (shape->kind == (uint)SHAPE_SPHERE) return shape->size.x;
   return is_capsule(shape) ? minimum(shape->size.x, shape->size.z) : R(0.0);
 }
 
-/* From the origin of the shape's axes to its farthest point, or somewhat more. */
+/* An upper bound of the distance from the origin of the shape's axes to its farthest point. */
 SHARED real bounding_radius_of(const convex *shape)
 {
   real widest = maximum(shape->size.x, shape->size.z);
@@ -101,7 +100,7 @@ SHARED real least_size(const convex *shape)
   return minimum(shape->size.x, minimum(shape->size.y, shape->size.z));
 }
 
-/* Direction of the horizontal part of v, x where it has none. */
+/* The unit direction of the horizontal part of v; x if v is vertical. */
 SHARED vec3 around_axis(vec3 v)
 {
   real across = square_root(v.x * v.x + v.z * v.z);
@@ -109,8 +108,8 @@ SHARED vec3 around_axis(vec3 v)
   return make_vec3(v.x / across, R(0.0), v.z / across);
 }
 
-/* The five supports below are in the shape's axes, for a unit direction; ties go to +x, +y, +z in a box, to the bottom,
- * to the lowest vertex. Of a triangle: to its first corner. */
+/* The support maps below take a unit direction in the shape's axes. Ties go to +x, +y, +z of a box, to the bottom of a
+ * cylinder or capsule, to the lowest vertex of a hull, and to the first corner of a triangle. */
 SHARED vec3 support_of_box(vec3 extent, vec3 direction)
 {
   return make_vec3(extent.x * sign_of(direction.x), extent.y * sign_of(direction.y), extent.z * sign_of(direction.z));
@@ -123,7 +122,8 @@ SHARED vec3 support_of_cylinder(vec3 size, vec3 direction)
   real radius = choose(top, size.z, size.x);
   return make_vec3(outward.x * radius, choose(top, size.y, -size.y), outward.z * radius);
 }
-/* The ends of a tapered capsule are spheres: what the larger one has beyond the smaller belongs to the core. */
+/* The ends of a tapered capsule are spheres of two radii: the part of the larger radius beyond the smaller one belongs
+ * to the core. */
 SHARED vec3 support_of_capsule_core(vec3 size, vec3 direction)
 {
   real least = minimum(size.x, size.z), up = direction.y * size.y;
@@ -160,12 +160,12 @@ SHARED vec3 support_of(const convex *shape, vec3 direction)
   return point_of_shape(shape, point);
 }
 
-/* Two shapes in the axes of the larger one, about the middle of the smaller one. */
+/* Two shapes in the axes of the larger one, about the centre of the smaller one. */
 typedef struct {
   convex a, b;  /* a: the larger */
   mat3 axes;    /* from these axes to the world's */
   vec3 origin;  /* of these axes, seen from the centre of body a, world axes */
-  vec3 up;      /* where to part what has no direction of its own: body b goes up in the world */
+  vec3 up;      /* the direction in which shapes part that have no other: body b goes up in the world */
   mask swapped; /* a here is b of the caller */
 } convex_pair;
 
@@ -186,21 +186,22 @@ SHARED convex_pair pair_of(const convex *a, const convex *b)
   return pair;
 }
 
-/* The point of the Minkowski difference a - b farthest in a unit direction. Shapes overlap where the difference holds
- * the origin. */
+/* The point of the Minkowski difference a - b farthest in a unit direction. Shapes overlap if and only if the
+ * difference contains the origin. */
 SHARED vec3 support_of_difference(const convex *a, const convex *b, vec3 direction)
 {
   return subtract(support_of(a, direction), support_of(b, negate(direction)));
 }
 
-/* The gap between the cores along a unit normal from a to b: negative where they overlap. No normal shows a larger gap
- * than their distance, none a smaller overlap than their depth, so a normal that is a little wrong costs little. */
+/* The gap between the cores along a unit normal from a to b; it is negative where they overlap. No normal shows a
+ * larger gap than the distance of the cores, and none a smaller overlap than their penetration depth, so a slightly
+ * wrong normal costs little. */
 SHARED real gap_along(const convex *a, const convex *b, vec3 normal)
 {
   return -dot3(support_of_difference(a, b, normal), normal);
 }
 
-/* What any of the tests below finds between two cores. */
+/* The result of any of the tests between two cores. */
 typedef struct {
   vec3 normal; /* unit, from a to b */
   real gap;    /* between the cores along it, negative where they overlap */

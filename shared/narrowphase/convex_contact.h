@@ -1,17 +1,18 @@
 /* convex_contact.h - the manifold of any two convex shapes.
  *
- *   pair_of -> normal and gap by one of four methods -> a face's normal instead, if as good -> supporting features
+ *   pair_of -> normal and gap by one of four methods -> a face normal instead, if it is as good -> supporting features
  *           -> their overlap seen along the normal -> four points
  *
- * Where cores are apart gjk.h has both; a separating axis that is not that of the closest points would have no contact
- * on it. Where they overlap the method decides:
+ * Where the cores are apart, gjk.h gives normal and gap; a separating axis that is not the direction of the closest
+ * points would have no contact point on it. Where the cores overlap, the method decides:
  *
- *   CONVEX_EXPANSION   epa.h: the least depth, 1.7 KiB private
- *   CONVEX_SAMPLED     sampled_depth.h: near the least depth, little memory
- *   CONVEX_AXES        hull_axes.h for boxes and hulls: the least depth, faces first; others as CONVEX_EXPANSION
- *   CONVEX_FIELDS      cube_field.h for boxes and hulls near each other: points, too; else as CONVEX_EXPANSION
+ *   CONVEX_EXPANSION   epa.h: the least depth, with 1.7 KiB of private memory
+ *   CONVEX_SAMPLED     sampled_depth.h: nearly the least depth, with little memory
+ *   CONVEX_AXES        hull_axes.h for boxes and hulls: the least depth, faces first; else as CONVEX_EXPANSION
+ *   CONVEX_FIELDS      cube_field.h for boxes and hulls near each other, which also gives points; else as
+ *                      CONVEX_EXPANSION
  *
- * Contacts are made ahead of touching, up to `reach`; a normal is unit length always.
+ * Contacts are speculative up to `reach`. A normal always has unit length.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_CONTACT_H
@@ -22,14 +23,14 @@
 #include "shared/narrowphase/hull_axes.h"
 #include "shared/narrowphase/sampled_depth.h"
 
-/* What a face must not be worse by than the best axis, to be it (box_axes.h). */
+/* The lead that an axis needs over a face to be preferred to it (box_axes.h). */
 SHARED real lead_of_faces(const convex *a, const convex *b, real slop)
 {
   real noise = R(16.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
   return minimum(slop * R(0.1), minimum(least_size(a), least_size(b)) * R(0.01)) + noise;
 }
 
-/* Normal of the flat face that a shape turns to a direction; 0 if it has none. */
+/* The normal of the flat face that a shape turns to a direction; 0 if it has none. */
 SHARED vec3 flat_normal_toward(const convex *shape, vec3 direction)
 {
   vec3 own = to_shape_axes(shape, direction), none = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -43,7 +44,8 @@ SHARED vec3 flat_normal_toward(const convex *shape, vec3 direction)
   return from_shape_axes(shape, xyz(plane_of_face(shape, k)));
 }
 
-/* A face carries up to four points; an axis that is hardly better carries fewer and changes with rounding. */
+/* The contact along a face normal, if that is nearly as good. A face carries up to four points, while an axis that is
+ * hardly better carries fewer and changes with rounding. */
 SHARED core_contact prefer_faces(core_contact contact, const convex *a, const convex *b, real lead)
 {
   vec3 face_a = flat_normal_toward(a, contact.normal), face_b = negate(flat_normal_toward(b, negate(contact.normal)));
@@ -58,9 +60,9 @@ SHARED core_contact prefer_faces(core_contact contact, const convex *a, const co
   return contact;
 }
 
-/* Depth and normal of two cores that overlap. hint: as sampled_penetration; tolerance: how much deeper than the least
- * depth the answer may be. Round shapes outlast the room of the polytope, and fixed directions miss the least depth:
- * distance queries then give what is lacking. */
+/* Depth and normal of two cores that overlap. hint: as in sampled_penetration. tolerance: how much deeper than the
+ * least depth the answer may be. Round shapes need more vertices than the polytope can hold, and fixed directions miss
+ * the least depth; distance queries then refine the answer. */
 SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 hint, real tolerance, uint_lanes method)
 {
   core_contact found = {up, R(-1e30)};
@@ -76,15 +78,15 @@ SHARED core_contact penetration(const convex *a, const convex *b, vec3 up, vec3 
   return rough ? refined_by_distance(found, a, b) : found;
 }
 
-/* What the shapes show along their normal, before any features are looked at. */
+/* What is found about a normal of the pair before features are clipped. */
 typedef struct {
   core_contact contact;
-  mask apart; /* the cores: on_b is then their closest point */
+  mask apart; /* whether the cores are apart; on_b is then the closest point of b */
   vec3 on_b;
 } core_meeting;
 
-/* by_axes: the contact is the best axis of two polytopes; their closest points are only wanted where it parts them.
- * limit: cores farther apart than this make no contact. */
+/* by_axes: `axis` is the best axis of two polytopes; their closest points are needed only if it separates them. limit:
+ * cores farther apart than this make no contact. */
 SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real lead, uint_lanes method, mask by_axes,
                                     core_contact axis)
 {
@@ -98,21 +100,22 @@ SHARED core_meeting core_meeting_of(const convex_pair *pair, real limit, real le
     met.contact = near.contact;
     met.on_b = near.on_b;
   } else if (!by_axes) {
-    /* Between the cap of a cylinder and a face not quite parallel to it lies a rim that need not be resolved. */
+    /* The tolerance covers the rim between the cap of a cylinder and a face that is nearly parallel to it, which need
+     * not be resolved. */
     met.contact = penetration(a, b, pair->up, near.contact.normal, lead * R(0.25), method);
   }
   return met;
 }
 
-/* Too far apart for one. */
+/* A manifold without points, for shapes too far apart. */
 SHARED manifold no_contact(const convex_pair *pair, vec3 normal, real gap)
 {
   vec3 placed = rotate(pair->axes, normal);
   return single_contact(pair->swapped ? negate(placed) : placed, pair->origin, gap, 0);
 }
 
-/* Both seen from the centre of the first one's body, in world axes. reach: how far ahead of touching contacts are made.
- * slop: penetration left in place. */
+/* Both shapes are seen from the centre of the first one's body, in world axes. reach: up to this separation contacts
+ * are made, m. slop: penetration left in place, m. */
 SHARED manifold convex_contact(const convex *first, const convex *second, real reach, real slop, uint_lanes method)
 {
   convex_pair pair = pair_of(first, second);
@@ -126,8 +129,8 @@ SHARED manifold convex_contact(const convex *first, const convex *second, real r
     contact = separating_hull_axis(a, b, lead, reach).contact;
     if (contact.gap >= reach) return no_contact(&pair, contact.normal, contact.gap);
   }
-  /* Where features meet: along the axis found, along a face's normal that is nearly as good, along one equal but for
-   * rounding. */
+  /* Features are clipped along up to three normals until they overlap: along the axis found, along a face normal that
+   * is nearly as good, and along one that is equal but for rounding. */
   core_meeting met = {contact, 0, b->center};
   contact_patch patch;
   mask found = MAY_OCCUR(FIELDS) && method == (uint)CONVEX_FIELDS && is_polytope(a) && is_polytope(b) &&

@@ -1,9 +1,9 @@
-/* convex_half_space.h - the manifold of any convex shape on a half-space: its supporting feature, corner by corner.
+/* convex_half_space.h - the manifold of a convex shape on a half-space, from the corners of its supporting feature.
  *
  *         .-----.
- *        /       \       The face, edge or point turned to the plane; of its corners those within reach, reduced to
- *       '----+----'      four as in contact_points.h. The farthest point of the shape counts for the deepest, so a
- *    ------------------  rounded or steep shape loses nothing.
+ *        /       \       The supporting feature is the face, edge or point turned to the plane. Its corners within
+ *       '----+----'      reach are reduced to four as in contact_points.h. The farthest point of the shape is one
+ *    ------------------  more candidate, so a rounded or steep shape keeps its deepest point.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CONVEX_HALF_SPACE_H
 #define TANDEM_SHARED_NARROWPHASE_CONVEX_HALF_SPACE_H
@@ -11,7 +11,7 @@
 #include "shared/narrowphase/contact_points.h"
 #include "shared/narrowphase/support_face.h"
 
-/* up: unit normal of the plane; height: of the plane above the origin that the shape is seen from, along up. */
+/* up: unit normal of the plane. height: height of the plane along `up` above the origin that the shape is seen from. */
 SHARED clip_point corner_above_plane(vec3 corner, tangents axes, vec3 up, real height, real reach)
 {
   clip_point point;

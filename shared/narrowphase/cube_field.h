@@ -1,21 +1,22 @@
-/* cube_field.h - contacts of two polytopes from their surfaces twice told: as points, and as a field of heights over a
- * cube.
+/* cube_field.h - contacts of two polytopes, whose surfaces are both sampled as points and stored as a height field over
+ * a cube.
  *
- *   Each shape holds the points of its surface (corners, and three along each edge) and its field: a cube around its
+ *   The points of a surface are its corners and three points along each edge. The field of a shape is a cube around its
  *   middle, each cell of which names the face that lies in the direction of the cell's middle. A point of one shape is
- *   looked up in the field of the other; the plane of the face named there tells how high above the surface the point
- *   is.
+ *   looked up in the field of the other one; the plane of the face named there gives the height of the point above the
+ *   surface.
  *
- *        .---.---.---.        points of a (o) over the field of b and points of b over the field of a; the deepest of
- *        |   | \ |   |        all names the normal, those over faces of the same normal are the contact
- *        '---'-c-\---'
- *          ____|__o_____      The "dual surface / height field" contact of the talks (E. Coumans, 2011 and 2013;
- *         |    b        |     R. Sathe, "Collision detection shader using cube-maps", ShaderX5, 2006)
+ *        .---.---.---.       Points of a (o) are looked up in the field of b, and points of b in that of a. The deepest
+ *        |   | \ |   |       of all points gives the normal, and the points over faces with the same normal form the
+ *        '---'-c-\---'       contact.
+ *          ____|__o_____
+ *         |    b        |    This is the "dual surface / height field" contact of the talks (E. Coumans, 2011 and 2013;
+ *                            R. Sathe, "Collision detection shader using cube-maps", ShaderX5, 2006).
  *
- * Approximate: a cell names one face, and an edge is four stretches long. Four cells around the direction are asked,
- * each face no farther out than the surface is, so a height is never too large (docs/pipeline.md has the errors). Where
- * no point of either touches the other, as where two long edges cross, or one lies deep in it, convex_contact() goes on
- * as for other shapes: nothing passes through.
+ * The method is approximate: a cell names one face, and an edge is sampled at its ends and three points between. The
+ * four cells around a direction are read, and no face lies farther out than the surface, so a height is never too large
+ * (docs/pipeline.md has the errors). If no point of either shape touches the other one, as where two long edges cross,
+ * or if a point lies deep, convex_contact() uses its general method instead, so nothing passes through.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_CUBE_FIELD_H
 #define TANDEM_SHARED_NARROWPHASE_CUBE_FIELD_H
@@ -23,12 +24,13 @@
 #include "shared/narrowphase/contact_patch.h"
 
 #define EDGE_POINTS 3u
-/* Cosine of the angle within which two faces count as one. */
+/* Cosine of the angle up to which two faces count as one. */
 #define FIELD_SAME_FACE R(0.999)
-/* Of the least size: deeper than this the face under a point need not be the one it came through. */
+/* A share of the least size. A point deeper than this may have come in through another face than the one it lies
+ * under. */
 #define FIELD_DEPTH R(0.1)
 
-/* The point under which a polytope's field is told: the middle of its vertices. Its own axes. */
+/* The middle of a polytope's vertices in its own axes; the cube of its field is centred there. */
 SHARED vec3 middle_of_field(const convex *shape)
 {
   if (!is_hull(shape)) return make_vec3(R(0.0), R(0.0), R(0.0));
@@ -44,7 +46,7 @@ SHARED uint surface_points_of(const convex *shape)
   return corners_of_polytope(shape) + edges_of(shape) * EDGE_POINTS;
 }
 
-/* In the shape's axes. */
+/* The point is in the shape's axes. */
 SHARED vec3 surface_point(const convex *shape, uint k)
 {
   uint corners = corners_of_polytope(shape);
@@ -71,7 +73,7 @@ SHARED field_height higher_face(field_height best, const convex *shape, vec3 own
   return found.height > best.height ? found : best;
 }
 
-/* own: in the shape's axes. Of a box the face is known, of a hull the four nearest cells are asked. */
+/* own: in the shape's axes. All six faces of a box are tried; of a hull, the faces that the four nearest cells name. */
 SHARED field_height height_above_field(const convex *shape, vec3 own)
 {
   field_height best = {R(-1e30), 0u};
@@ -94,7 +96,7 @@ SHARED field_height height_above_field(const convex *shape, vec3 own)
 
 /* --- both --------------------------------------------------------------------------------------------- */
 
-/* What a look at all points is for. */
+/* The purpose of a pass over all points. */
 enum { FIELD_DEEPEST = 0, FIELD_REDUCE = 1, FIELD_HEIGHTS = 2 };
 
 typedef struct {
@@ -114,7 +116,7 @@ SHARED void take_height(contact_patch *patch, clip_point point, real height)
       patch->height[slot] = height;
 }
 
-/* sense: 1 for points of a in the field of b, -1 for the other way round. */
+/* sense: 1 for points of a in the field of b, -1 for points of b in the field of a. */
 SHARED void look_at_point(field_search *s, vec3 at, vec3 normal, field_height found, real sense)
 {
   if (s->purpose == FIELD_DEEPEST) {
@@ -144,7 +146,7 @@ SHARED void look_at_points(field_search *s, const convex *shape, const convex *f
   }
 }
 
-/* What comes after a look. False: nothing. */
+/* Prepares the pass that follows. False if there is none. */
 SHARED mask next_look(field_search *s)
 {
   if (s->purpose == FIELD_DEEPEST) {
@@ -160,7 +162,7 @@ SHARED mask next_look(field_search *s)
   return 1;
 }
 
-/* False where no point of either is nearer to the other than `touching`, or one is deep in it. */
+/* False if no point of either shape is nearer to the other one than `touching`, or if one lies deep. */
 SHARED mask field_patch(contact_patch *patch, const convex *a, const convex *b, real reach, real touching)
 {
   field_search s;

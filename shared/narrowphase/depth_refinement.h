@@ -1,9 +1,9 @@
-/* depth_refinement.h - a normal of little overlap made one of least overlap nearby, by distance queries.
+/* depth_refinement.h - turns a normal of small overlap into one of locally least overlap, by distance queries.
  *
- *     .------.   .--.     b is moved out along the normal until the two are apart: the normal of the closest points
- *     |  a   |   | b|     there is that of the face, the pair of edges or the round side nearby, as exact as gjk.h is.
- *     '------'   '--'     Taken only where it shows less overlap, and repeated from there. It needs no memory beyond
- *                         that of a distance.
+ *     .------.   .--.    b is moved out along the normal until the two are apart. The normal of the closest points is
+ *     |  a   |   | b|    then that of the face, the edge pair or the round side nearby, as exact as gjk.h is. It is
+ *     '------'   '--'    taken only if it shows less overlap, and the search is repeated from there. It needs no memory
+ *                        beyond that of a distance query.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_DEPTH_REFINEMENT_H
 #define TANDEM_SHARED_NARROWPHASE_DEPTH_REFINEMENT_H
@@ -18,7 +18,7 @@ SHARED core_contact shallower(core_contact best, const convex *a, const convex *
   return contact.gap > best.gap ? contact : best;
 }
 
-/* Distance of a from b moved out along the normal until the gap is a small part of their sizes. */
+/* The distance of a from b after b was moved along the normal until the gap is a small part of their sizes. */
 SHARED gjk_result distance_moved_apart(const convex *a, const convex *b, core_contact contact, vec3 *shift)
 {
   real rounding = R(64.0) * ROUNDING * (bounding_radius_of(a) + bounding_radius_of(b));
@@ -42,7 +42,7 @@ SHARED core_contact refined_by_distance(core_contact best, const convex *a, cons
   return best;
 }
 
-/* The point of b deepest inside a along the normal of a contact: for contacts of a single point. */
+/* The point of b deepest inside a along the normal of a contact, for contacts of a single point. */
 SHARED vec3 deepest_point_of_b(const convex *a, const convex *b, core_contact contact)
 {
   vec3 shift;

@@ -1,4 +1,4 @@
-/* face_clip.h - the polygon in which two faces of boxes overlap, seen along the normal of one of them.
+/* face_clip.h - clips a face of one box against a face of another one, seen along the normal of the latter.
  *
  *            +-----------+            The reference face is a rectangle, the incident face a
  *            | rectangle |            parallelogram above it. Every corner of their overlap is
@@ -7,8 +7,8 @@
  *          \ x-------x---+            inside the parallelogram (4 at most).
  *           `---------`
  *
- * These 12 candidates replace the loops of Sutherland and Hodgman's clipping (CACM 17(1), 1974): all
- * lanes do the same work. Candidates may coincide; the reduction keeps one of them.
+ * These 12 candidates replace the loops of Sutherland and Hodgman's clipping (CACM 17(1), 1974), so that all lanes do
+ * the same work. Candidates may coincide; the reduction keeps one of them (point_reduction.h).
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FACE_CLIP_H
 #define TANDEM_SHARED_NARROWPHASE_FACE_CLIP_H
@@ -27,13 +27,13 @@ typedef struct {
   real low_u, high_u, low_v, high_v;
 } clip_rectangle;
 
-/* Points center + s p + t q, |s| <= 1, |t| <= 1; x and y in the plane, z above it. */
+/* The points center + s p + t q with |s| <= 1 and |t| <= 1. x and y lie in the reference plane, z is the height. */
 typedef struct {
   vec3 center, p, q;
   real length_p, length_q;
 } clip_face;
 
-/* 1 / x, huge where x is nearly 0. */
+/* 1 / x, with a large finite value where x is nearly 0. */
 SHARED real guarded_inverse(real x, real tiny)
 {
   return R(1.0) / choose(magnitude(x) < tiny, choose(x < R(0.0), -tiny, tiny), x);
@@ -49,7 +49,7 @@ SHARED clip_point point_on_side(vec3 middle, vec3 extent, real t, clip_rectangle
   return point;
 }
 
-/* The side middle + t extent, |t| <= 1, cut to the rectangle widened by slack (Liang and Barsky, 1984). */
+/* Cuts the side middle + t extent, |t| <= 1, to the rectangle widened by slack (Liang and Barsky, 1984). */
 SHARED void clip_side(clip_point *first, vec3 middle, vec3 extent, real inverse_u, real inverse_v,
                       clip_rectangle inside, real slack)
 {
@@ -61,7 +61,7 @@ SHARED void clip_side(clip_point *first, vec3 middle, vec3 extent, real inverse_
   first[1] = point_on_side(middle, extent, leave, inside, enter <= leave);
 }
 
-/* The corner of the rectangle, lifted to the plane of the incident face. `area`: of p x q in the plane. */
+/* The corner of the rectangle, lifted to the plane of the incident face. area: of p x q in the reference plane. */
 SHARED clip_point corner_under(clip_face face, real area, real inverse_area, real u, real v, real slack)
 {
   real from_u = u - face.center.x, from_v = v - face.center.y;

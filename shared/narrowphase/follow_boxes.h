@@ -1,14 +1,14 @@
-/* follow_boxes.h - pairs of boxes that may pass each other within the step are followed to where they meet.
+/* follow_boxes.h - follows pairs of boxes that may pass each other within the step to their impact.
  *
- *   collide_box_box -> follow_boxes: contacts of the impact, those of the start, or none
+ *   collide_box_box -> follow_boxes: the contacts of the impact, those of the start, or none
  *
  *   pairs | . . x . . . . x . . . . . . . x | . . .      x: marked TO_FOLLOW
  *             |         |               |
  *            [0]       [1]             [2]               the items of a group take them one after another
  *
- * A kernel of its own: it takes twice the registers of collide_box_box, for which all pairs would pay. Few pairs are
- * marked, so a group gathers those of FOLLOW_PAIRS: were each item to look at its own pair, a device would spend more
- * on starting items than on pairs.
+ * It is a kernel of its own because it needs twice the registers of collide_box_box, which would slow all pairs down.
+ * Few pairs are marked, so a group first gathers the marked ones of FOLLOW_PAIRS pairs. If each item looked at a pair
+ * of its own instead, a device would spend more time on starting items than on pairs.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_BOXES_H
@@ -17,8 +17,8 @@
 #include "shared/narrowphase/box_box.h"
 #include "shared/narrowphase/middle_ball.h"
 
-/* Along any of the fifteen axes a gap parts the boxes, so the axis found will do; edges are sharp here, or none would
- * meet. The axis turns with the box whose face it is square to. */
+/* The impact of two boxes. A gap along any of the fifteen axes separates the boxes, so the best axis serves. Edges are
+ * sharp here, because rounded ones would not meet. The axis turns with the box whose face it is normal to. */
 SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair_motion moves, toi_input input)
 {
   real turning_a = length_of(moves.a.angular), turning_b = length_of(moves.b.angular);
@@ -41,8 +41,8 @@ SHARED advancement impact_of_boxes(mask reached, box_pair start, real slop, pair
   return at;
 }
 
-/* With the ball in the middle of a box that hits a face of the other from before it. then: the boxes at the moment of
- * the impact. */
+/* Adds the middle ball of a box that hits a face of the other box while its middle is in front of that face. then: the
+ * boxes at the impact. */
 SHARED manifold with_middle_of_box(manifold m, box_pair then, pair_motion moves)
 {
   ball_owner owner = owner_of_ball(moves);
@@ -69,8 +69,8 @@ SHARED speculation speculation_of_boxes(GLOBAL const Parameters *parameters, man
   return s;
 }
 
-/* A pair that does not come far and overlaps at the end of its way has met on it, and keeps its contacts
- * (encounter_of): so does nearly all that comes to rest. */
+/* Whether a pair keeps its contacts of the start. A pair that does not move far, and overlaps at the end of its motion,
+ * has met within the step and keeps them (encounter_of); so do nearly all pairs that come to rest. */
 SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes *pair, manifold start)
 {
   if (pair->input.far || !has_points(start)) return 0;
@@ -78,8 +78,9 @@ SHARED mask keeps_start(GLOBAL const Parameters *parameters, const moving_boxes 
   return along_best_axis(end, end.offset, parameters->slop, R(0.0), NEVER_ALONG).gap <= pair->input.touching;
 }
 
-/* Where only what counts as rounded off meets, or a face just beside the other, there is no contact until a little
- * later, when more overlaps. met.time becomes that of the manifold, then the boxes of that moment. */
+/* The manifold at the impact. If only edges that count as rounded off meet, or a face just beside the other one, the
+ * manifold is empty until slightly later, when the boxes overlap more; a second attempt is made then. met.time becomes
+ * the time of the manifold, and `then` receives the boxes at that time. */
 SHARED manifold contact_at_impact(GLOBAL const Parameters *parameters, const moving_boxes *pair, encounter *met,
                                   box_pair *then)
 {
@@ -117,7 +118,7 @@ SHARED void follow_pair_of_boxes(read_listed_pairs pairs, GLOBAL const float4 *s
   store_manifold_if(1, m, stride, manifolds, i);
 }
 
-/* local_memory: how many are marked; their numbers, in any order. */
+/* local_memory: the number of marked pairs, then their indices in any order. */
 SHARED void follow_boxes_group(read_listed_pairs pairs, GLOBAL const uint *flags, GLOBAL const float4 *shapes,
                                read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                                write_manifolds manifolds, LOCAL uint *local_memory, uint group)

@@ -1,9 +1,10 @@
-/* follow_convexes.h - pairs of convex shapes that may pass each other within the step are followed to where they meet.
+/* follow_convexes.h - follows pairs of convex shapes that may pass each other within the step to their impact.
  *
- *   collide_convex or reduce_contacts -> follow_convexes: contacts of the impact, those of the start, or none
+ *   collide_convex or reduce_contacts -> follow_convexes: the contacts of the impact, those of the start, or none
  *
- * A kernel of its own: few pairs are followed, and in one kernel with the manifolds of all a device would wait for the
- * slowest of them, with the registers of both. The bodies are advanced as conservative_advancement.h says.
+ * It is a kernel of its own because few pairs are followed. In one kernel with the manifolds of all pairs, a device
+ * would wait for the slowest pair and need the registers of both. The bodies are advanced by
+ * conservative_advancement.h.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
 #define TANDEM_SHARED_NARROWPHASE_FOLLOW_CONVEXES_H
@@ -20,7 +21,7 @@ SHARED speculation speculation_of_query(GLOBAL const Parameters *parameters, con
   return s;
 }
 
-/* Whether a point lies before a face, square above it. */
+/* Whether a point lies in front of a face, within the prism above it. */
 SHARED mask is_before_face(const convex *shape, const support_face *face, vec3 point)
 {
   if (face->corners < 3u) return 0;
@@ -33,8 +34,8 @@ SHARED mask is_before_face(const convex *shape, const support_face *face, vec3 p
   return 1;
 }
 
-/* With the ball in the middle of a body that hits a face of the other from before it, as the query has them at the
- * impact. A shape beside its body's centre leaves less room for the ball. */
+/* Adds the middle ball of a body that hits a face of the other one while its middle is in front of that face. The query
+ * holds the shapes at the impact. The ball is smaller if the shape is not centred on its body. */
 SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec3 offset)
 {
   ball_owner owner = owner_of_ball(query->moves);
@@ -49,7 +50,7 @@ SHARED manifold with_middle_of_convex(manifold m, const convex_query *query, vec
   return with_middle_ball(m, middle, outward, height, radius);
 }
 
-/* The manifold of the whole step. */
+/* The manifold for the whole step. */
 SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_query *query, manifold start, uint method)
 {
   toi_input input = toi_input_of_query(parameters, query);
@@ -59,7 +60,7 @@ SHARED manifold contact_over_step(GLOBAL const Parameters *parameters, convex_qu
   if (!met.at_impact && !met.missed) return start;
   manifold m = start;
   if (met.at_impact) m = contact_of_query(parameters, query, method);
-  if (met.at_impact && !has_points(m)) { /* a triangle leaves it to its neighbour */
+  if (met.at_impact && !has_points(m)) { /* a triangle leaves the contact to its neighbour */
     met.at_impact = 0;
     met.missed = 1;
     m = start;

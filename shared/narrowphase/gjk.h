@@ -1,19 +1,29 @@
-/* gjk.h - the distance of two convex cores, their closest points, or the verdict that they overlap.
+/* gjk.h - the distance and the closest points of two convex cores, or the result that they overlap.
  *
- * Gilbert, Johnson, Keerthi (1988): walk a simplex of points of a - b toward the origin, each new point being the
- * support against the point v of the simplex that lies nearest.
+ * The algorithm is that of Gilbert, Johnson and Keerthi (1988): a simplex of points of a - b moves toward the origin.
+ * Each new point is the support point of a - b against the point v of the simplex that is nearest to the origin.
  *
- *        w2 ---- w1            v: nearest point of the simplex, |v| an upper bound of the distance
- *          \    /              w . v / |v|: the gap along v, a lower bound
- *           \v /               The walk ends where both agree, where nothing new is found, or after GJK_ROUNDS: the
- *            \/                largest gap seen and its direction are then the answer, still a true lower bound.
+ *        w2 ---- w1           v: nearest point of the simplex; |v| is an upper bound of the distance
+ *          \    /             w . v / |v|: the gap along v, a lower bound
+ *           \v /              The iteration ends where both agree, where nothing new is found, or after GJK_ROUNDS. The
+ *            \/               answer is the largest gap found and its direction, a true lower bound in every case.
  *            o origin
  *
- * The nearest point of a simplex is found feature by feature (Ericson, "Real-Time Collision Detection", 2005, section
- * 9.5) from differences of its points, never from determinants of their coordinates: these cancel for tiny against
- * huge. Every face the origin may lie outside of is tried and the nearest wins, so a flat tetrahedron needs no case of
- * its own (the aim of Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable distance
- * queries between convex objects", ACM TOG 36(3), 2017).
+ * The nearest point of a simplex is found by the Voronoi regions of its features (Ericson, "Real-Time Collision
+ * Detection", 2005, section 9.5):
+ *
+ *             \ a /              The origin lies in the Voronoi region of a vertex (a b c), an edge (ab bc ca) or the
+ *              \./               face (abc), and the nearest point lies on that feature. The points of the simplex that
+ *         ab   / \   ca          do not belong to the feature are removed (keep_carriers). The Voronoi regions meet at
+ *             /   \              lines through the vertices that are perpendicular to the edges.
+ *       `.   / abc \   .'
+ *     b   `./_______\.'   c
+ *          |   bc    |
+ *
+ * The regions are computed from differences of the points, never from determinants of their coordinates, which cancel
+ * where tiny and huge coordinates meet. Every face that may have the origin outside is tried and the nearest one wins,
+ * so a flat tetrahedron needs no special case. That is the aim of Montanari, Petrinic, Barbieri, "Improving the GJK
+ * algorithm for faster and more reliable distance queries between convex objects", ACM TOG 36(3), 2017, too.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_GJK_H
 #define TANDEM_SHARED_NARROWPHASE_GJK_H
@@ -21,30 +31,30 @@
 #include "shared/narrowphase/convex.h"
 
 #define GJK_ROUNDS 48
-/* So many rounds may pass without v growing shorter. */
+/* The number of rounds that may pass without v becoming shorter. */
 #define GJK_STALLS 4
 
-/* A point of a - b, and the point of b it came from. */
+/* A point of a - b, and the point of b that it comes from. */
 typedef struct {
   vec3 w, b;
 } difference_point;
 
 typedef struct {
   difference_point point[4];
-  real weight[4]; /* of the nearest point */
+  real weight[4]; /* barycentric coordinates of the nearest point */
   int count;
 } simplex;
 
 /* The point of some feature of a simplex nearest to the origin. */
 typedef struct {
   vec3 v;
-  real squared; /* length of v */
+  real squared; /* square of the length of v */
   real weight[4];
 } nearest_point;
 
 typedef struct {
-  mask overlapping;     /* or nearer than rounding can tell: there are then no closest points */
-  core_contact contact; /* the largest gap seen */
+  mask overlapping;     /* also set if rounding hides whether they are apart; there are then no closest points */
+  core_contact contact; /* of the largest gap found */
   vec3 on_a, on_b;      /* the closest points */
   simplex last;
 } gjk_result;
@@ -67,7 +77,7 @@ SHARED nearest_point nearest_of_edge(const simplex *s, int i, int j)
   if (t >= along) return nearest_of_vertex(s, j);
   t = t / along;
   vec3 v = add_scaled(from, edge, t);
-  /* What rounding left along the edge is removed once more: v must be square to it. */
+  /* The remainder that rounding left along the edge is removed, because v must be perpendicular to the edge. */
   real rest = dot3(v, edge) / along;
   nearest_point near;
   near.v = add_scaled(v, edge, -rest);
@@ -85,7 +95,7 @@ SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
   vec3 normal = cross3(ab, ac);
   real squared = length_squared(normal), flat = R(16.0) * ROUNDING;
   mask degenerate = squared <= flat * flat * length_squared(ab) * length_squared(ac);
-  /* Twice the areas between the origin and the three sides, times the length of the normal. */
+  /* Twice the areas of the triangles of the origin's projection with each side, times the length of the normal. */
   real of_c = dot3(normal, cross3(a, ab)), of_b = dot3(normal, cross3(ac, a)), of_a = dot3(normal, cross3(b, bc));
   if (!degenerate && of_a > R(0.0) && of_b > R(0.0) && of_c > R(0.0)) {
     nearest_point near;
@@ -107,7 +117,7 @@ SHARED nearest_point nearest_of_triangle(const simplex *s, int i, int j, int k)
   return best;
 }
 
-/* The origin is not surely on the inner side of face i j k, the side of point l. */
+/* Whether the origin may lie outside face i j k. The inner side of the face is that of point l. */
 SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size)
 {
   vec3 a = s->point[i].w;
@@ -118,9 +128,8 @@ SHARED mask outside_face(const simplex *s, int i, int j, int k, int l, real size
   return inner_side > R(0.0) ? side <= R(0.0) : side >= R(0.0);
 }
 
-/* The nearest point of a triangle, or of the faces of a tetrahedron; squared < 0 where a tetrahedron holds the origin.
- * size: of the coordinates. Every function here is called from one place, since compilers of devices copy a function to
- * each of its calls. */
+/* The nearest point of a triangle or of the faces of a tetrahedron; squared < 0 if a tetrahedron contains the origin.
+ * size: of the coordinates. Each function is called from one place here, because device compilers inline every call. */
 SHARED nearest_point nearest_of_faces(const simplex *s, real size)
 {
   nearest_point best = nearest_of_vertex(s, 0);
@@ -142,7 +151,7 @@ SHARED nearest_point nearest_of_simplex(const simplex *s, real size)
   return s->count == 2 ? nearest_of_edge(s, 0, 1) : nearest_of_faces(s, size);
 }
 
-/* Drops the points of the simplex that do not carry the nearest point. */
+/* Removes the points whose weight in the nearest point is 0. */
 SHARED void keep_carriers(simplex *s, const nearest_point *near)
 {
   int kept = 0;
@@ -175,8 +184,8 @@ SHARED vec3 carried_point(const simplex *s)
   return point;
 }
 
-/* How well the gap must be known. Beyond the limit, that it is beyond will do. Below, the error may be this share of
- * what the distance of the cores exceeds their radii by. */
+/* The accuracy that a caller needs. Beyond the limit, any lower bound above it is enough. Below the limit, the error
+ * may be a share of the distance between the cores less their radii. */
 typedef struct {
   real limit, share, radii;
 } gap_wanted;
@@ -187,7 +196,7 @@ SHARED gap_wanted whole_gap(real limit)
   return wanted;
 }
 
-/* The walk between two rounds. squared, of the last simplex, is the square of distance, or 0 before there is one. */
+/* The state between two rounds. squared is the square of `distance` for the last simplex, or 0 before there is one. */
 typedef struct {
   vec3 v; /* the nearest point of the simplex; at first, and after a restart, a direction */
   real distance, squared;
@@ -213,8 +222,8 @@ SHARED difference_point difference_point_along(const convex *a, const convex *b,
   return point;
 }
 
-/* The walk ends where both bounds agree as well as is wanted, where the gap is beyond the limit, and where the support
- * is a point that the simplex has. */
+/* Whether the iteration may end: both bounds agree to the accuracy wanted, the gap is beyond the limit, or the support
+ * point is already in the simplex. */
 SHARED mask is_known_well(const simplex *s, gap_wanted wanted, real distance, real gap, vec3 w)
 {
   if (s->count == 0) return 0;
@@ -225,21 +234,22 @@ SHARED mask is_known_well(const simplex *s, gap_wanted wanted, real distance, re
 
 enum { SIMPLEX_IS_NEARER, SIMPLEX_HOLDS_ORIGIN, SIMPLEX_IS_SLIVER };
 
-/* What the simplex has become by one more point. points: how many it had before; gap: the largest seen. */
+/* Classifies the simplex after a point was added. points: their number before; gap: the largest gap found. */
 SHARED int judge_simplex(gjk_walk *walk, real near_squared, int points, real gap, real noise)
 {
-  /* Where a gap was seen a simplex does not hold the origin: one that seems to is a sliver whose sides rounding has
-   * turned. */
+  /* A gap proves that no simplex contains the origin. One that seems to is a sliver whose sides rounding has turned. */
   if (near_squared <= noise * noise) return points > 0 && gap > noise ? SIMPLEX_IS_SLIVER : SIMPLEX_HOLDS_ORIGIN;
   if (points == 0 || !(near_squared >= walk->squared)) return SIMPLEX_IS_NEARER;
-  /* A turn of v by a small angle shortens it by the square of that: rounding hides it, and the gap still grows. */
+  /* If v turns by a small angle, its length shrinks by the square of that angle. Rounding hides this while the gap
+   * still grows. */
   walk->stalled = walk->stalled + 1;
   if (walk->stalled > GJK_STALLS || near_squared > walk->squared * (R(1.0) + R(32.0) * ROUNDING))
     return SIMPLEX_IS_SLIVER;
   return SIMPLEX_IS_NEARER;
 }
 
-/* A walk that a sliver ended starts once more, from the best direction so far. False where that would gain nothing. */
+/* Restarts the iteration once from the best direction found, after a sliver ended it. False if that would gain
+ * nothing. */
 SHARED mask restart_walk(gjk_walk *walk, simplex *s, const core_contact *best, int round, real size)
 {
   if (walk->restarted || round + 4 > GJK_ROUNDS) return 0;
@@ -259,7 +269,7 @@ SHARED void go_to_nearest(gjk_walk *walk, simplex *s, const nearest_point *near)
   walk->distance = square_root(near->squared);
 }
 
-/* One more point of the simplex; false where the walk ends. */
+/* Adds one point to the simplex; false if the iteration ends. */
 SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int round, gjk_walk *walk,
                        gjk_result *result)
 {
@@ -285,7 +295,7 @@ SHARED mask walk_round(const convex *a, const convex *b, gap_wanted wanted, int 
          (verdict == SIMPLEX_IS_SLIVER && restart_walk(walk, s, &result->contact, round, size));
 }
 
-/* v: a first guess of the way from b to a. */
+/* v: a first guess of the direction from b to a. */
 SHARED gjk_result closest_points_from(const convex *a, const convex *b, gap_wanted wanted, vec3 v)
 {
   gjk_result result;

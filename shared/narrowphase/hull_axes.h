@@ -1,25 +1,24 @@
-/* hull_axes.h - the axis along which two polytopes are farthest apart, or overlap least.
+/* hull_axes.h - the axis along which two polytopes are separated most, or overlap least.
  *
- * It is the normal of a face of either, or square to two edges that meet on the Gauss map: an edge is there the arc
- * between the normals of its two faces, and only where an arc of a crosses an arc of -b have the edges a face of a - b
- * between them. (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013.)
+ * It is either a face normal or perpendicular to two edges that meet on the Gauss map. An edge is there the arc between
+ * the normals of its two faces; an edge pair forms a face of a - b only if an arc of a crosses an arc of -b
+ * (D. Gregorius, "The separating axis test between convex polyhedra", GDC 2013).
  *
  *           left of a                Ties prefer faces, and those of the larger shape, as in box_axes.h: faces carry up
- *              |   right of -b       to four points, an edge one, and a body at rest must keep its axis.
+ *              |   right of -b       to four points and an edge pair one, and a body at rest must keep its axis.
  *     ---------+---------
  *   left of -b |
  *          right of a
  *
- * Nearly all of it is ruled out by a few points of the other shape, here called probes. No gap beyond a face is larger
- * than how far any one probe lies beyond it:
+ * A few points of the other shape, called probes here, rule out nearly all axes. No gap beyond a face is larger than
+ * the distance by which any one probe lies beyond that face:
  *
- *        a  \   . p                  1  the face beyond which the nearest probe lies farthest is the only one worth a
- *      ______\__.____ face              look; the point of b that really lies nearest to it is the next probe. Two or
- *                                       three
- *             \  b                     looks leave no face that could be better: the best is found, and proven.
- *                                    2  an edge's axes lie on the arc between the normals of its faces, so beyond 0 or
- *                                       below it no edge is better than the better one of its two faces. Where a face
- *                                       touches a face that rules out every edge.
+ *        a  \   . p                1  Only the face beyond which the nearest probe lies farthest is examined. The point
+ *      ______\__.____ face            of b nearest to it becomes the next probe. After two or three faces no other one
+ *             \  b                    could be better, so the best is found and proven.
+ *                                  2  The axes of an edge pair lie on the arc between the normals of its faces. If no
+ *                                     gap is positive, no edge pair is therefore better than the better one of the two
+ *                                     faces. Where a face touches a face, that rules out every edge pair.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_AXES_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_AXES_H
@@ -38,13 +37,13 @@ typedef struct {
   uint feature_a, feature_b; /* the face, or the two edges */
 } hull_axis;
 
-/* Of the faces of one shape the one beyond which the other lies farthest. */
+/* The search for the face of one shape beyond which the other shape lies farthest. */
 typedef struct {
   vec3 probe[PROBES]; /* points of the other shape, in the axes of this one */
   uint probes;
   uint main; /* the probe nearest to the face, or deepest behind it */
   uint face;
-  real gap; /* beyond that face */
+  real gap; /* of the other shape beyond that face */
 } face_search;
 
 /* --- faces -------------------------------------------------------------------------------------------- */
@@ -85,7 +84,7 @@ SHARED void beyond_planes(float8 *beyond, const plane_chunk *planes, vec3 p)
   *beyond = planes->x * p.x + planes->y * p.y + planes->z * p.z - planes->distance;
 }
 
-/* Of eight faces: what no gap beyond each can exceed. */
+/* Upper bounds of the gap beyond each of eight faces. */
 SHARED void bound_by_probes(float8 *bound, const face_search *s, const convex *shape, uint k)
 {
   plane_chunk planes;
@@ -124,7 +123,7 @@ SHARED void look_at_face(face_search *s, const convex *shape, const convex *othe
   s->main = at;
 }
 
-/* least: gaps up to this do not matter; enough: one beyond it need not be exceeded. */
+/* least: gaps up to this do not matter. enough: a gap beyond this need not be the largest. */
 SHARED void search_faces(face_search *s, const convex *shape, const convex *other, real least, real enough)
 {
   s->gap = R(-1e30);
@@ -141,7 +140,7 @@ SHARED void search_faces(face_search *s, const convex *shape, const convex *othe
 
 /* --- edges -------------------------------------------------------------------------------------------- */
 
-/* Edges that may matter. More than fit: all. */
+/* The edges that may matter. If there are more than the list holds, all edges of the shape count. */
 typedef struct {
   uint edge[EDGES_LISTED];
   uint count;
@@ -161,7 +160,7 @@ SHARED uint edges_listed(const edge_list *list, const convex *shape)
 }
 SHARED uint listed_edge(const edge_list *list, uint k) { return list->count <= EDGES_LISTED ? list->edge[k] : k; }
 
-/* Does every probe leave room for an axis on the arc between the normals of the two faces? */
+/* Whether every probe allows an axis on the arc between the normals of the two faces to show a gap above `least`. */
 SHARED mask edge_may_matter(const face_search *s, const convex *shape, uint left, uint right, real least)
 {
   vec4 plane_left = plane_of_face(shape, left), plane_right = plane_of_face(shape, right);
@@ -191,7 +190,7 @@ SHARED void list_edges_of_face(edge_list *list, const face_search *s, const conv
   }
 }
 
-/* The edges that no probe rules out: one of their faces must then lie before the main one. */
+/* Lists the edges that no probe rules out: the main probe must lie beyond one of their faces. */
 SHARED void list_edges(edge_list *list, const face_search *s, const convex *shape, real least)
 {
   list->count = 0u;
@@ -208,7 +207,7 @@ SHARED void list_edges(edge_list *list, const face_search *s, const convex *shap
   }
 }
 
-/* Do the arcs of the two edges cross on the Gauss map? */
+/* Whether the arcs of the two edges cross on the Gauss map. */
 SHARED mask arcs_cross(const polytope_edge *a, const polytope_edge *b)
 {
   real left_b = dot3(b->left, a->along), right_b = dot3(b->right, a->along);
@@ -227,7 +226,8 @@ SHARED polytope_edge placed_edge(const convex *shape, uint k)
   return edge;
 }
 
-/* noise: what rounding makes of the gap between two edges square to each other; the nearer to parallel, the more. */
+/* noise: the rounding error of the gap between two perpendicular edges. It grows as the edges come closer to
+ * parallel. */
 SHARED hull_axis best_edges(hull_axis best, const convex *a, const edge_list *list_a, const convex *b,
                             const edge_list *list_b, real noise)
 {
@@ -282,7 +282,7 @@ SHARED hull_axis axis_between_centers(const convex *a, const convex *b)
   return axis;
 }
 
-/* The best axis of two edges, if it leads by more than `lead`; `best` otherwise. */
+/* The best axis of an edge pair, if it leads by more than `lead`; else `best`. */
 SHARED hull_axis better_edges(hull_axis best, const convex *a, const face_search *faces_a, const convex *b,
                               const face_search *faces_b, real lead)
 {
@@ -299,9 +299,9 @@ SHARED hull_axis better_edges(hull_axis best, const convex *a, const face_search
   return edges.contact.gap > least ? edges : best;
 }
 
-/* Boxes and hulls only, as pair_of() gives them. lead: what a later kind of axis must be better by. limit: a gap beyond
- * it need not be the largest. Where a face shows the two to be apart edges are not tried: the closest points are then
- * wanted. */
+/* The shapes must be boxes or hulls as pair_of() returns them. lead: the margin by which a later kind of axis must be
+ * better. limit: a gap beyond this need not be the largest. Edge pairs are not tried if a face separates the shapes,
+ * because their closest points are then computed anyway. */
 SHARED hull_axis separating_hull_axis(const convex *a, const convex *b, real lead, real limit)
 {
   hull_axis best = axis_between_centers(a, b);

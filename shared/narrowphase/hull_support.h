@@ -1,16 +1,16 @@
-/* hull_support.h - the tables of convex hulls, and three ways to the vertex of a hull farthest in a direction.
+/* hull_support.h - the tables of convex hulls, and three support maps of a hull.
  *
- *   SUPPORT_BRUTE_FORCE    all of them, eight at once (float8.h): best up to some hundred vertices, and never branches
- *   SUPPORT_HILL_CLIMBING  from the vertex that a cube map names uphill; for large hulls. The same vertex, always
- *   SUPPORT_CUBE_MAP       the vertex that the map names: near the farthest, by how much docs/pipeline.md says
+ *   SUPPORT_BRUTE_FORCE    tests all vertices, eight at once (float8.h): best up to some hundred vertices, no branches
+ *   SUPPORT_HILL_CLIMBING  climbs from the vertex that a cube map names; for large hulls; finds the same vertex always
+ *   SUPPORT_CUBE_MAP       takes the vertex that the map names: nearly the farthest, with the error in docs/pipeline.md
  *
- *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin; each names the vertex
- *      | 3 | 3 | 7 |     farthest in the direction of its middle. (Talks on collision detection on GPUs: E. Coumans,
- *      +---+---+---+     2012, 2013.)
- *      | 3 | 5 | 7 |     On a convex body what is higher than all its neighbours is the highest. Neighbours here are
- *      '---+---+---'     the corners of all faces around a vertex, so that a face may be a little uneven. Heights
- *                        within rounding of each other (a face or edge square to the direction) are no proof: then all
- *                        are looked at.
+ *      .---+---+---.     A cube map has cells on the six sides of a cube around the origin. Each cell names the vertex
+ *      | 3 | 3 | 7 |     farthest in the direction of the cell's middle. (Talks on collision detection on GPUs: E.
+ *      +---+---+---+     Coumans, 2012, 2013.)
+ *      | 3 | 5 | 7 |     On a convex hull a vertex higher than all its neighbours is the highest. The neighbours here
+ *      '---+---+---'     are the corners of all faces around a vertex, so that a face may be slightly uneven. Heights
+ *                        within rounding of each other, as on a face or edge perpendicular to the direction, prove
+ *                        nothing; all vertices are tested then.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
 #define TANDEM_SHARED_NARROWPHASE_HULL_SUPPORT_H
@@ -21,8 +21,9 @@
 #include "shared/float8.h"
 #include "shared/math.h"
 
-/* Hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices, first face, faces,
- * first edge, edges, first corner, corners, first row of chunks, first link, cells along a side of the cube map. */
+/* The tables hold all hulls and meshes of the scene, one behind the other. A hull's header: first vertex, vertices,
+ * first face, faces, first edge, edges, first corner, corners, first row of chunks, first link, cells along a side of
+ * the cube map. */
 #define HULL_HEADER 11u
 typedef struct {
   GLOBAL const uint *headers;     /* HULL_HEADER a hull */
@@ -43,7 +44,7 @@ typedef struct {
   uint support;                       /* SUPPORT_ */
 } hull_tables;
 
-/* support: SUPPORT_, how the vertex that lies farthest is found. */
+/* support: SUPPORT_, the support map to use. */
 SHARED hull_tables tables_of(read_surfaces surfaces, uint support)
 {
   hull_tables tables = {surfaces.header,      surfaces.vertex,   surfaces.plane, surfaces.face_start,
@@ -84,13 +85,14 @@ SHARED uint_lanes highest_vertex(const hull_tables *tables, const hull_ranges *h
   return highest_of_chunk(&best).at;
 }
 
-/* Which of `cells` along a side of the cube, for -1 <= x <= 1. */
+/* The index of the cell, of `cells` along a side of the cube, that contains x; -1 <= x <= 1. */
 SHARED uint cell_of_side(real x, uint cells)
 {
   int cell = truncate_to_int((x + R(1.0)) * R(0.5) * to_real(cells));
   return cell < 0 ? 0u : (uint)cell < cells ? (uint)cell : cells - 1u;
 }
-/* Side: 0 1 +x -x, 2 3 +y -y, 4 5 +z -z; u, v: -1 to 1 along the two axes after it. */
+/* A point on the cube. side: 0 1 for +x -x, 2 3 for +y -y, 4 5 for +z -z. u, v: -1 to 1 along the two axes after it in
+ * cyclic order. */
 typedef struct {
   uint side;
   real u, v;
@@ -106,7 +108,7 @@ SHARED cube_place place_on_cube(vec3 direction)
   if (!(most > R(0.0))) place.side = 0u, place.u = place.v = R(0.0);
   return place;
 }
-/* Rows of cells along u, one after the other along v. */
+/* Cells are stored row by row: along u first, then along v. */
 SHARED uint cell_of_place(cube_place place, uint cells)
 {
   return (place.side * cells + cell_of_side(place.v, cells)) * cells + cell_of_side(place.u, cells);
@@ -122,8 +124,8 @@ SHARED real height_of_vertex(const hull_tables *tables, const hull_ranges *hull,
   return dot3(xyz(load_float4(tables->vertices, hull->first_vertex + k)), direction);
 }
 
-/* The highest of a vertex and those with which it shares a face; rival: another one is as high, for all that can be
- * told. */
+/* The highest of a vertex and the vertices that share a face with it. rival: another one is as high, to within
+ * rounding. */
 SHARED uint_lanes uphill(const hull_tables *tables, const hull_ranges *hull, uint from, vec3 direction, real rounding,
                          mask *rival)
 {
@@ -159,7 +161,7 @@ SHARED uint_lanes climbed_vertex(const hull_tables *tables, const hull_ranges *h
   return highest_vertex(tables, hull, direction);
 }
 
-/* size: half extents of a box around the hull, centred at the origin of its axes. */
+/* size: half extents of a box around the hull that is centred at the origin of its axes. */
 SHARED uint_lanes hull_support(const hull_tables *tables, const hull_ranges *hull, vec3 direction, vec3 size)
 {
   if (MAY_OCCUR(HILL_CLIMBING) && tables->support == (uint)SUPPORT_HILL_CLIMBING)

@@ -1,10 +1,11 @@
-/* list_pairs.h - the kernels that sort pairs by kind; pair_lists.h says what for.
+/* list_pairs.h - the kernels that sort pairs by kind; pair_lists.h explains why they are sorted.
  *
- * A tile is cut into chunks of consecutive pairs, so that equal kinds keep their order without an atomic:
+ * A tile is cut into chunks of consecutive pairs, so that pairs of equal kind keep their order without an atomic. Sums
+ * along the rows, then down, give the place of a chunk's pairs within the tile:
  *
  *            chunk 0   chunk 1   chunk 2 ..
- *   kind 0     3         0         1         -> sums along the rows, then down: where the pairs of a chunk go
- *   kind 1     5         8         7            within the tile
+ *   kind 0     3         0         1         ->
+ *   kind 1     5         8         7
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_LIST_PAIRS_H
 #define TANDEM_SHARED_NARROWPHASE_LIST_PAIRS_H
@@ -14,7 +15,7 @@
 
 #define LIST_STRIPS CHUNKS(128u)
 #define LIST_STRIP (TILE / LIST_STRIPS)
-/* Kinds, and behind them the pairs of none. */
+/* The kinds, and one more list for the pairs of no kind. */
 #define LISTS ((uint)PAIR_KIND_NONE + 1u)
 #define LIST_LOCAL_WORDS (((uint)PAIR_KIND_NONE + 1u) * 128u)
 
@@ -23,7 +24,7 @@ SHARED uint kind_of_pair(read_pairs pairs, GLOBAL const uint *flags, uint pair)
   return pair_kind(flags[pairs.a[pair]], flags[pairs.b[pair]]);
 }
 
-/* kind_counts[kind * tiles + tile]: pairs of the tile that are of the kind. */
+/* kind_counts[kind * tiles + tile]: the number of pairs of that kind in the tile. */
 SHARED void count_pair_kinds_group(read_pairs pairs, GLOBAL const uint *flags, GLOBAL const uint *counts,
                                    GLOBAL uint *kind_counts, LOCAL uint *local_memory, uint group)
 {
@@ -34,7 +35,7 @@ SHARED void count_pair_kinds_group(read_pairs pairs, GLOBAL const uint *flags, G
   FOR_EACH_ITEM(kind, LISTS) kind_counts[kind * tiles + group] = local_memory[kind];
 }
 
-/* kind_places: the same table after the scan. The pairs of no kind stand behind the last list. */
+/* kind_places: the same table after the scan. The pairs of no kind follow the last list. */
 SHARED void start_pair_lists_item(GLOBAL const uint *kind_places, GLOBAL uint *counts, uint i)
 {
   const uint n = counts[COUNT_PAIRS], tiles = units_of(n, TILE);
@@ -42,8 +43,8 @@ SHARED void start_pair_lists_item(GLOBAL const uint *kind_places, GLOBAL uint *c
   for (uint kind = 0u; kind < LISTS; ++kind) counts[KIND_START + kind] = n > 0u ? kind_places[kind * tiles] : 0u;
 }
 
-/* chunks: how many pairs of each kind a chunk has. A single chunk, as on the CPU, needs no counts: it starts where the
- * tile does. */
+/* chunks: the number of pairs of each kind in a chunk. The CPU has a single chunk, which starts where the tile does and
+ * needs no counts. */
 SHARED void count_strips(read_pairs pairs, GLOBAL const uint *flags, uint first, uint count, LOCAL uint *chunks)
 {
   FOR_EACH_ITEM(k, LISTS * LIST_STRIPS) chunks[k] = 0u;

@@ -1,17 +1,17 @@
-/* manifold.h - what every pair type of the narrowphase hands on: one normal and up to four points.
+/* manifold.h - the result of every pair kernel of the narrowphase: one normal and up to four points.
  *
- * Each collide_ kernel works on the pairs of its own two shapes (pair_lists.h) and writes every output
- * of them, touching or not, so that buffers never hold what an earlier step left behind.
- * Geometry is computed relative to one of the two bodies: precision holds far from the origin.
+ * Each collide_ kernel processes the pairs of its own two shapes (pair_lists.h) and writes all outputs of a pair,
+ * touching or not, so that buffers never hold the results of an earlier step. Geometry is computed relative to one of
+ * the two bodies, so precision does not depend on the distance from the origin.
  *
  *              normal (from a to b)
  *                 ^
- *      -----------|-----------  surface of b     A point lies midway between the two surfaces,
+ *      -----------|-----------  surface of b     A point lies midway between the two surfaces and is
  *                 o   point     - - - - - - -    given as an offset from the centre of a; its
  *      -----------------------  surface of a     separation is negative where they overlap.
  *
- * A point keeps its identity from step to step by (code of the feature pair, slot): the code names the
- * two faces or edges, the slot one of at most four points between them.
+ * The pair (code of the feature pair, slot) identifies a point from step to step: the code names the two faces or
+ * edges, and the slot one of at most four points between them.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
 #define TANDEM_SHARED_NARROWPHASE_MANIFOLD_H
@@ -24,7 +24,7 @@ typedef struct {
   vec4 point[4]; /* by slot: xyz the offset from the centre of a, w the separation */
   mask kept[4];
   uint_lanes code;  /* of the feature pair, 24 bits */
-  real impact_time; /* s, of the step before the bodies meet; 0: these are the contacts of the start; packed_moment */
+  real impact_time; /* s from the start of the step; 0: these are the contacts of the start; see packed_moment */
 } manifold;
 
 SHARED real sign_of(real x) { return choose(x < R(0.0), (real)R(-1.0), (real)R(1.0)); }
@@ -57,9 +57,9 @@ SHARED manifold choose_manifold(mask m, manifold a, manifold b)
   return b;
 }
 
-/* Bodies in one place have no direction between them. Each then has a place of its own in the plane, and parts from the
- * others towards it: were all pairs parted along one line, a thousand bodies would make a thousand layers, whose speeds
- * add up. Sideways, so that nothing is lifted. */
+/* Bodies whose centres coincide have no direction between them. Each body therefore has a hashed place of its own in a
+ * horizontal plane, and pairs part along the line between their places. If all pairs parted along one line, a thousand
+ * bodies would form a thousand layers whose speeds add up. The plane is horizontal so that no body is lifted. */
 SHARED vec3 place_of_its_own(uint_lanes body)
 {
   uint_lanes hash = (body + 1u) * 0x9e3779b1u;
@@ -76,8 +76,8 @@ SHARED vec3 parting_direction(uint_lanes a, uint_lanes b)
                  make_vec3(R(1.0), R(0.0), R(0.0)));
 }
 
-/* How far ahead of touching a contact is made: no gap is closed within the step unseen. radius: what turning can swing
- * round; 0 for a sphere. */
+/* The separation up to which a contact is made, so that no gap closes unseen within the step. radius: of the sphere
+ * that the spin sweeps; 0 for a sphere. */
 SHARED real reach_of(GLOBAL const Parameters *parameters, spatial_velocity a, real radius_a, spatial_velocity b,
                      real radius_b, vec3 normal)
 {
@@ -103,7 +103,7 @@ SHARED void mark_to_follow_if(mask marked, manifold m, GLOBAL uint *counts_of_po
   store_uint_if(marked, counts_of_points, pair, points_of(m) | TO_FOLLOW);
 }
 
-/* Kept points go to the front, each with its slot. Rows past the last hold zeros. */
+/* Kept points move to the front, each with its slot. The rows after the last point hold zeros. */
 SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifolds manifolds, uint_lanes pair)
 {
   vec4 packed[4];
@@ -124,7 +124,7 @@ SHARED void store_manifold_if(mask mine, manifold m, uint stride, write_manifold
   store_uint_if(mine, manifolds.feature, pair, choose(touching, (m.code << 8u) | slots, (uint_lanes)0u));
 }
 
-/* What was stored. Points without a mask hold zeros. */
+/* The manifold that was stored. Points that are not kept hold zeros. */
 SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index i)
 {
   vec4 normal = load_float4(manifolds.normal, i);
@@ -145,7 +145,7 @@ SHARED manifold load_manifold(uint stride, write_manifolds manifolds, item_index
   return m;
 }
 
-/* What the store above leaves of a manifold without points. */
+/* Stores a manifold without points, with the same result as store_manifold_if. */
 SHARED void store_no_manifold(uint stride, write_manifolds manifolds, uint i)
 {
   float4 nothing;

@@ -1,28 +1,28 @@
-/* middle_ball.h - a body that hits what nothing pushes keeps a ball in its middle before the face that it hits, however
- * it turns.
+/* middle_ball.h - a ball in the middle of a body, which stays in front of the face of a static or kinematic body that
+ * the body hits, however the body turns.
  *
- *      .---.                    Points of a manifold move on lines. What an impact sets spinning turns on circles:
- *     / (o) \  v                within the same step its next corner comes where no point is, and its middle passes the
- *      '---\.'                  face. The ball lies within the body as the body turns, and its point, square below the
- *                               middle, is turned by nothing.
- *   ====x=================
+ *      .---.                    Points of a manifold move on straight lines, while a body that an impact sets spinning
+ *     / (o) \  v                turns on circles. Within the same step its next corner reaches a place where no contact
+ *      '---\.'                  is, and its middle passes the face. The ball lies within the body in every orientation,
+ *                               and its contact point, perpendicularly below the middle, does not move as the body
+ *   ====x=================      turns.
  *
- * So it adds nothing that is not there: it acts only where the body would be half in the wall. It stands in for the
- * point that is farthest from touching, where that is farther than the others; a body that lands flat, or on a point
- * below its middle, keeps all of its points.
+ * The ball adds no contact that should not exist: it acts only if the body would be half inside the wall. It takes the
+ * place of the point with the largest separation, if that is larger than the others'. A body that lands flat, or on a
+ * point below its middle, keeps all of its points.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_MIDDLE_BALL_H
 #define TANDEM_SHARED_NARROWPHASE_MIDDLE_BALL_H
 
 #include "shared/narrowphase/time_of_impact.h"
 
-/* Radius of the ball, of the shape's least size: within every shape that is not nearly flat. */
+/* The radius of the ball as a share of the shape's least size. Every shape that is not nearly flat contains it. */
 #define CORE_SHARE R(0.25)
 
-/* Cosine of the angle up to which a contact counts as one with the face of a wall. */
+/* Cosine of the angle up to which a contact counts as one with the face of the wall. */
 #define WITH_FACE R(0.99)
 
-/* Which of the two bodies has the ball: the one that can be pushed, if the other cannot. */
+/* The body that has the ball: the one with a finite mass, if the other one has none. */
 typedef struct {
   mask in_a, in_b;
 } ball_owner;
@@ -34,7 +34,7 @@ SHARED ball_owner owner_of_ball(pair_motion moves)
   return owner;
 }
 
-/* The place of the point that is farthest from touching; one that is free before all. */
+/* The slot of the point with the largest separation; a free slot comes first. */
 SHARED uint farthest_place(manifold m)
 {
   uint last = 0u;
@@ -54,9 +54,9 @@ SHARED mask has_point_below(manifold m, vec3 foot, real radius)
   return 0;
 }
 
-/* middle: from the centre of a; outward: unit, from the face; height: of the middle above it. The ball's point comes in
- * the last place, so that a pass over the points leaves it as it shall be. The code is another then: what these points
- * carry says nothing of the next step. */
+/* middle: from the centre of a. outward: unit, from the face. height: of the middle above the face. The ball's point
+ * takes the last slot, so that a pass over the points solves it last. The code changes with it, because impulses of
+ * these points are no guess for those of the next step. */
 SHARED manifold with_middle_ball(manifold m, vec3 middle, vec3 outward, real height, real radius)
 {
   vec3 foot = add_scaled(middle, outward, -height);

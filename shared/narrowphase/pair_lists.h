@@ -1,21 +1,21 @@
-/* pair_lists.h - pairs sorted by kind: between the lists of pairs and the narrowphase, so that each of its kernels runs
- * over pairs of its own two shapes alone.
+/* pair_lists.h - the pairs sorted by kind, so that each kernel of the narrowphase runs over the pairs of its own two
+ * shapes alone.
  *
  *   pairs          B S B X S S B            kinds of pairs.def
  *   pair_of_kind   1 4 5 | 0 2 6 | 3        KIND_START: 0, 3, 6, 7
  *
- *   count_pair_kinds   how many of each kind a tile has
- *   (scan)             kind by kind, tile by tile: where each tile's pairs of a kind go
- *   start_pair_lists   where each kind starts
- *   list_pairs         each tile writes its pairs, in their order
+ *   count_pair_kinds   counts the pairs of each kind in a tile
+ *   (scan)             gives each tile the place of its pairs of a kind, kind by kind, tile by tile
+ *   start_pair_lists   stores where each kind starts
+ *   list_pairs         writes the pairs of each tile in their order
  *
- * What is found of a pair stays at the pair's own place; the lists say who looks for it. Kernels of many items an
- * instruction find all of these at work, and neighbours of a list are mostly neighbours of the pairs as well.
+ * The results for a pair stay at the pair's own index; the lists only assign pairs to kernels. All items of a vector
+ * or a warp therefore have work, and neighbours in a list are mostly neighbours among the pairs as well.
  *
- * A scene whose pairs hardly mix has no lists (host/scene/specialise.cpp says when): an item is then a pair, and a
- * kernel passes over those of other kinds. handled_pair() hides which of both it is.
+ * A scene whose pairs hardly mix has no lists (host/scene/specialise.cpp decides). An item is then a pair, and a kernel
+ * skips those of other kinds. handled_pair() hides the difference.
  *
- * The kernels that make the lists read a pair's bodies twice and write one word; the radix sort would move twice the
+ * The kernels that make the lists read a pair's bodies twice and write one word. A radix sort would move twice the
  * bytes, for its keys and values.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_PAIR_LISTS_H
@@ -24,7 +24,7 @@
 #include "shared/argument_groups.h"
 #include "shared/pair_kinds.h"
 
-/* Of the items of a kernel of this kind: kernels of groups must know. */
+/* The range of items of a kind. Kernels that run by groups must read it themselves. */
 SHARED uint start_of_list(GLOBAL const Parameters *parameters, GLOBAL const uint *counts, uint kind)
 {
   return HAS_FEATURE(parameters, PAIR_KINDS) ? counts[KIND_START + kind] : 0u;
@@ -34,7 +34,7 @@ SHARED uint end_of_list(GLOBAL const Parameters *parameters, GLOBAL const uint *
   return HAS_FEATURE(parameters, PAIR_KINDS) ? counts[KIND_START + kind + 1u] : counts[COUNT_PAIRS];
 }
 
-/* What an item of a pair kernel works on. mine: false where the pair is another kernel's. */
+/* The pair that an item of a pair kernel processes. mine: false if the pair belongs to another kernel. */
 typedef struct {
   uint_lanes pair, a, b;
   mask mine;
@@ -61,7 +61,7 @@ SHARED handled handled_pair(GLOBAL const Parameters *parameters, read_listed_pai
   if (HAS_FEATURE(parameters, PAIR_KINDS)) {
     h.a = load_uint(pairs.a, h.pair);
     h.b = load_uint(pairs.b, h.pair);
-  } else { /* in the order of memory, which lanes load at once */
+  } else { /* the index i is consecutive, so lanes load with one instruction */
     h.a = load_uint(pairs.a, i);
     h.b = load_uint(pairs.b, i);
   }

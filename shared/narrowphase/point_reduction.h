@@ -1,4 +1,4 @@
-/* point_reduction.h - four points that span nearly all of a contact polygon, and its deepest point.
+/* point_reduction.h - four points that span nearly all of a contact polygon, including its deepest point.
  *
  *              1                 slot 0: farthest along a fixed direction of the reference face
  *          .--*--.               slot 2: farthest from slot 0
@@ -6,9 +6,9 @@
  *      2   `--*--'   0           (if one side is empty: farthest outside the triangle of the other three)
  *              3                 Then the deepest point, if not among them, replaces the nearest.
  *
- * A point must lead the earlier ones by more than rounding can, so equal corners go to the first
- * candidate and slots stay with their points from step to step. The fixed direction is turned away from
- * the axes and diagonals, where corners of aligned boxes would tie.
+ * A point must lead the earlier ones by more than rounding can, so that equal corners go to the first candidate and
+ * slots keep their points from step to step. The fixed direction differs from the axes and diagonals, where the corners
+ * of aligned boxes would tie.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POINT_REDUCTION_H
 #define TANDEM_SHARED_NARROWPHASE_POINT_REDUCTION_H
@@ -25,7 +25,7 @@ SHARED clip_point choose_point(mask m, clip_point a, clip_point b)
   return point;
 }
 
-/* The candidate of the highest score, so far. */
+/* The candidate with the highest score so far. */
 typedef struct {
   clip_point point;
   real score;
@@ -70,13 +70,13 @@ SHARED void keep_deepest(clip_point *four, clip_point deepest, real lead)
   for (int k = 0; k < 4; ++k) four[k] = choose_point(missed & (slot == (uint_lanes)(uint)k), deepest, four[k]);
 }
 
-/* Twice the area of the triangle a, b, c: positive if c lies to the left of the way from a to b. */
+/* Twice the area of the triangle a, b, c. It is positive if c lies to the left of the line from a to b. */
 SHARED real area_left_of(clip_point a, clip_point b, clip_point c)
 {
   return (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
 }
 
-/* Where the polygon lies on one side of the line from four[0] to four[2], the slot of the empty side takes what lies
+/* If the polygon lies on one side of the line from four[0] to four[2], the slot of the empty side takes the candidate
  * farthest outside the triangle. */
 SHARED void fill_empty_side(clip_point *four, const clip_point *candidate, real narrow)
 {
@@ -93,7 +93,7 @@ SHARED void fill_empty_side(clip_point *four, const clip_point *candidate, real 
   four[3] = choose_point(right_only, best.point, four[3]);
 }
 
-/* span: size of the polygon at most; noise: rounding error of its corners. */
+/* span: an upper bound of the polygon's size. noise: rounding error of its corners. */
 SHARED void reduce_points(clip_point *four, const clip_point *candidate, real span, real noise)
 {
   real lead = span * R(1e-4) + noise;

@@ -1,17 +1,18 @@
-/* polygon_clip.h - where two supporting features overlap, seen along the contact normal: a stream of points, no
- * polygon.
+/* polygon_clip.h - clips two supporting features against each other, seen along the contact normal. The result is a
+ * stream of points, not a polygon.
  *
- *            +-----------+            Both features are flat outlines (u, v) with a height each along the normal. Every
- *            | reference |            corner of their overlap is an end of an edge of the moving outline cut by all the
- *        .---x-----.     |            sides of the reference (x; M. Cyrus, J. Beck, "Generalized two- and
- *         \  |      \    |            three-dimensional clipping", 1978), or a corner of the reference inside the
- *          \ x-------x---+            moving outline (+).
+ *            +-----------+          Both features are flat outlines (u, v) with a height along the normal. Every corner
+ *            | reference |          of their overlap is either an end of an edge of the moving outline that was cut by
+ *        .---x-----.     |          all sides of the reference (x; M. Cyrus, J. Beck, "Generalized two- and
+ *         \  |      \    |          three-dimensional clipping", 1978), or a corner of the reference inside the
+ *          \ x-------x---+          moving outline (+).
  *           `---------`
  *
- * The points are not collected: reduce_step() is told of one after the other. So no outline has too many corners.
+ * The points are not stored in an array: reduce_step() receives one after the other. The number of corners of an
+ * outline is therefore not limited.
  *
- * A segment is an outline of one edge; between two segments the stream holds the ends of the stretch along which they
- * run together, or the one point where they cross.
+ * A segment is an outline of one edge. Between two segments the stream holds the ends of the part along which they are
+ * parallel and overlap, or the one point where they cross.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POLYGON_CLIP_H
 #define TANDEM_SHARED_NARROWPHASE_POLYGON_CLIP_H
@@ -20,7 +21,7 @@
 #include "shared/narrowphase/support_face.h"
 
 #define OUTLINE_KEPT 8u
-/* Sine of the angle below which two segments run together. */
+/* Sine of the angle below which two segments count as parallel. */
 #define SEGMENTS_PARALLEL R(0.03)
 
 /* The axes of the contact: two in its plane, and its normal. */
@@ -33,14 +34,14 @@ SHARED vec3 in_contact_axes(const contact_axes *axes, vec3 p)
   return make_vec3(dot3(axes->u, p), dot3(axes->v, p), dot3(axes->normal, p));
 }
 
-/* A supporting feature in the axes of the contact: x and y its outline, z its height. The first corners are kept, those
- * beyond are computed whenever they are asked for. */
+/* A supporting feature in the axes of the contact: x and y are its outline, z is its height. The first corners are
+ * stored, the others are computed whenever they are needed. */
 typedef struct {
   const convex *shape;
   const support_face *face;
   const contact_axes *axes;
   uint corners;
-  real turn;             /* 1: the outline runs counter-clockwise; -1 */
+  real turn;             /* 1: the outline runs counter-clockwise; -1: clockwise */
   real slope_u, slope_v; /* of the height */
   vec3 kept[OUTLINE_KEPT];
   real side[OUTLINE_KEPT]; /* of a reference: the length of the side that ends at the corner */
@@ -74,7 +75,7 @@ SHARED void measure_sides(outline *o)
   }
 }
 
-/* Height of a feature above the point (u, v). */
+/* The height of a feature above the point (u, v). */
 SHARED real height_of(const outline *o, real u, real v)
 {
   vec3 from = o->kept[0];
@@ -90,7 +91,7 @@ typedef struct {
   const outline *reference, *moving;
   real sense; /* 1: the moving feature is that of b */
   real radii; /* of both cores */
-  real reach; /* points farther apart are none */
+  real reach; /* points with a larger separation are dropped */
   real slack; /* rounding error of a corner */
 } clipping;
 
@@ -104,7 +105,7 @@ SHARED clip_point clipped_point(const clipping *clip, vec3 at, real height_of_ot
   return point;
 }
 
-/* Cuts the stretch enter..leave of p + t edge to the inner side of from + s side. */
+/* Cuts the part enter..leave of p + t edge to the inner side of the line from + s side. */
 SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, vec3 side, real length, real turn,
                         real slack)
 {
@@ -120,7 +121,7 @@ SHARED void cut_by_side(real *enter, real *leave, vec3 p, vec3 edge, vec3 from, 
   }
 }
 
-/* The ends of what is left of an edge of the moving feature. */
+/* The ends of the remaining part of an edge of the moving feature. */
 SHARED void stream_segment(reduction *r, const clipping *clip, vec3 entry, vec3 exit)
 {
   for (int end = 0; end < 2; ++end) {
@@ -166,8 +167,8 @@ SHARED void stream_reference_corners(reduction *r, const clipping *clip)
   }
 }
 
-/* Segments that run together: the moving one cut to the ends of the other. Else the point where they cross, if they
- * do. */
+/* Parallel segments: the part of the moving one between the ends of the other one. Other segments: the point where they
+ * cross, if they do. */
 SHARED void stream_segments(reduction *r, const clipping *clip)
 {
   vec3 p = clip->moving->kept[0], edge = subtract(clip->moving->kept[1], p);
@@ -190,7 +191,7 @@ SHARED void stream_segments(reduction *r, const clipping *clip)
   stream_segment(r, clip, add_scaled(p, edge, enter), add_scaled(p, edge, leave));
 }
 
-/* The whole stream, in the same order every time. Features of one point have none. */
+/* The whole stream, always in the same order. Features of one point have an empty stream. */
 SHARED void stream_overlap(reduction *r, const clipping *clip)
 {
   uint moving = clip->moving->corners;

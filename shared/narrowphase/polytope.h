@@ -1,9 +1,8 @@
-/* polytope.h - faces, edges and corners of boxes and hulls alike, in the shape's own axes.
+/* polytope.h - faces, edges and corners of both boxes and hulls, in the shape's own axes.
  *
- *   box   face 2 k: +axis k, face 2 k + 1: -axis k     edge 4 k + (sign of u) + 2 (sign of v), along axis k; the two
- *                                                      axes after k in cyclic order are u and v, a set bit is the
- *                                                      positive side
- *   hull  as its tables say (convex.h)
+ *   box   face 2 k is +axis k, face 2 k + 1 is -axis k. Edge 4 k + (sign of u) + 2 (sign of v) is parallel to axis k;
+ *         u and v are the two axes after k in cyclic order, and a set bit is the positive side.
+ *   hull  as its tables say (hull_support.h)
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_POLYTOPE_H
 #define TANDEM_SHARED_NARROWPHASE_POLYTOPE_H
@@ -11,7 +10,7 @@
 #include "shared/narrowphase/convex.h"
 
 SHARED real coordinate(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
-/* x along an axis, y and z along the two after it. */
+/* x is along an axis, y and z are along the two axes after it in cyclic order. */
 SHARED vec3 from_axis(uint axis, real x, real y, real z)
 {
   return axis == 0u ? make_vec3(x, y, z) : axis == 1u ? make_vec3(z, x, y) : make_vec3(y, z, x);
@@ -21,7 +20,7 @@ SHARED mask is_polytope(const convex *shape) { return shape->kind == (uint)SHAPE
 SHARED uint faces_of(const convex *shape) { return is_hull(shape) ? shape->hull.faces : 6u; }
 SHARED uint edges_of(const convex *shape) { return is_hull(shape) ? shape->hull.edges : 12u; }
 
-/* Outward unit normal and distance from the origin. */
+/* The outward unit normal, and the distance from the origin. */
 SHARED vec4 plane_of_face(const convex *shape, uint k)
 {
   if (is_hull(shape)) return load_float4(shape->tables.planes, shape->hull.first_face + k);
@@ -45,8 +44,8 @@ SHARED vec3 corner_of_face(const convex *shape, uint k, uint corner)
   return multiply(from_axis(axis, side, u, v), shape->size);
 }
 
-/* An edge from its start along its direction, which is not unit; the cross product of the normals of the faces to its
- * left and right points along it. */
+/* An edge as its start and its vector to the other end. The cross product of the normals of the faces to its left and
+ * right points along it. */
 typedef struct {
   vec3 start, along, left, right;
 } polytope_edge;
@@ -63,7 +62,7 @@ SHARED polytope_edge edge_of_box(vec3 extent, uint k)
   edge.along = multiply(from_axis(axis, R(2.0) * sense, R(0.0), R(0.0)), extent);
   return edge;
 }
-/* Face to the left (side 0) or right (1) of an edge of a box. */
+/* The face to the left (side 0) or right (side 1) of an edge of a box. */
 SHARED uint face_of_box_edge(uint edge, uint side)
 {
   uint axis = ((edge >> 2u) + 1u + side) % 3u;

@@ -1,9 +1,10 @@
-/* sampled_depth.h - how deep two convex cores overlap, from a fixed set of directions: no polytope, no memory.
+/* sampled_depth.h - the penetration depth of two convex cores from a fixed set of directions, without a polytope.
  *
- * Any direction gives an upper bound of the depth. Tried are 42 of them all around (the corners of an icosahedron and
- * the middles of its edges), the faces and axes of both shapes, and the direction between their middles. The best is
- * then improved by depth_refinement.h. The cheap way of talks on collision detection on GPUs (E. Coumans, 2012 and
- * 2013): near the least depth, not proven to be it. Exact wherever a face is the answer.
+ * Any direction gives an upper bound of the depth. The directions tried are 42 fixed ones (the corners of an
+ * icosahedron and the middles of its edges), the face normals and axes of both shapes, and the direction between their
+ * middles. The best is then improved by depth_refinement.h. This is the cheap method of talks on collision detection on
+ * GPUs (E. Coumans, 2012 and 2013): its result is nearly the least depth, but not proven to be. It is exact wherever a
+ * face normal is the answer.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SAMPLED_DEPTH_H
 #define TANDEM_SHARED_NARROWPHASE_SAMPLED_DEPTH_H
@@ -13,7 +14,8 @@
 
 #define SAMPLED_DIRECTIONS 42
 
-/* Direction k of 42: three turns of (0, +-1, +-golden), an axis either way, and (+-1, +-1/golden, +-golden) / 2. */
+/* Direction k of 42: cyclic permutations of (0, +-1, +-golden), of both directions of an axis, and of
+ * (+-1, +-1/golden, +-golden) / 2. */
 SHARED vec3 sampled_direction(uint k)
 {
   uint turn = k / 14u, n = k % 14u;
@@ -24,7 +26,7 @@ SHARED vec3 sampled_direction(uint k)
   return from_axis(turn, first, R(0.0), R(0.0));
 }
 
-/* The normals of a shape's own faces, or its axis either way. */
+/* The number of normals of a shape's own faces, or of the two directions of its axis. */
 SHARED uint own_normals_of(const convex *shape)
 {
   return is_polytope(shape) ? faces_of(shape) : is_cylinder(shape) || is_capsule(shape) ? 2u : 0u;
@@ -35,14 +37,14 @@ SHARED vec3 own_normal(const convex *shape, uint k)
   return from_shape_axes(shape, own);
 }
 
-/* Square to the axis of a round shape, toward the other: the way out of its side. */
+/* The direction perpendicular to the axis of a round shape, toward the other shape, which leads out of its side. */
 SHARED vec3 sideways_of(const convex *shape, vec3 between, vec3 otherwise)
 {
   if (!is_cylinder(shape) && !is_capsule(shape)) return otherwise;
   return from_shape_axes(shape, around_axis(to_shape_axes(shape, between)));
 }
 
-/* Direction k of all that are tried; `hint` in place of those that a pair has not. */
+/* Direction k of all that are tried. `hint` takes the place of directions that a pair does not have. */
 SHARED vec3 tried_normal(const convex *a, const convex *b, vec3 up, vec3 hint, uint k)
 {
   vec3 between = subtract(b->center, a->center);
@@ -58,8 +60,9 @@ SHARED vec3 tried_normal(const convex *a, const convex *b, vec3 up, vec3 hint, u
   return sampled_direction(k - 5u - of_a - of_b);
 }
 
-/* hint: a unit direction worth trying, such as the largest gap that the distance query saw before it met the overlap:
- * near a shallow contact that is its normal. up: where to part shapes that have no better direction. */
+/* hint: a unit direction worth trying, such as that of the largest gap that the distance query found before it detected
+ * the overlap, which is the normal of a shallow contact. up: the direction in which shapes part that have no better
+ * one. */
 SHARED core_contact sampled_penetration(const convex *a, const convex *b, vec3 up, vec3 hint)
 {
   core_contact best = {up, R(-1e30)};

@@ -1,12 +1,14 @@
-/* sat_split.h - contacts of polytopes by their axes, in four kernels instead of one: `--narrowphase sat-split`.
+/* sat_split.h - contacts of polytopes by the separating axis test, in four kernels instead of one:
+ * `--narrowphase sat-split`.
  *
  *   find_separating_axis -> find_clipping_faces -> clip_faces -> reduce_contacts
  *      axis and gap           face of each           points          four of them
  *
- * So the talks have it (E. Coumans, "GPU rigid body simulation", 2013 and 2015): each kernel does one thing, with fewer
- * registers and less divergence than all of it together, and pays for that with buffers in between and with placing the
- * shapes once more. Both call the same functions, so the bits are those of `sat`. What the short way does not settle
- * (other shapes, no features that meet, too many points) the last kernel hands to convex_contact().
+ * The talks divide the work like this (E. Coumans, "GPU rigid body simulation", 2013 and 2015). Each kernel has one
+ * task and needs fewer registers and diverges less than one kernel for all; the price is the buffers in between and
+ * repeated loading of the shapes. Both variants call the same functions, so the bits are those of `sat`. Pairs that the
+ * short way does not cover (other shapes, features that do not meet, too many points) are passed to convex_contact() by
+ * the last kernel.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SAT_SPLIT_H
 #define TANDEM_SHARED_NARROWPHASE_SAT_SPLIT_H
@@ -15,7 +17,7 @@
 
 enum { SPLIT_APART = 1, SPLIT_CLIP = 2, SPLIT_WHOLE = 3 };
 
-/* Of axes: the normal in the axes of the pair, the gap along it; state: SPLIT_. */
+/* axes: the normal in the axes of the pair, and the gap along it. state: SPLIT_. */
 SHARED void find_separating_axis_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                                       read_bodies bodies, GLOBAL const Parameters *parameters,
                                       write_separating_axes axes, uint method, uint i)
@@ -35,7 +37,7 @@ SHARED void find_separating_axis_item(read_listed_part_pairs pairs, read_shapes 
   store_float4(axes.axis, pair, extend(contact.normal, contact.gap));
 }
 
-/* faces: of a and b of the pair; INDEX_NONE: none that faces the other. */
+/* faces: of a and b of the pair; INDEX_NONE if no face is turned to the other shape. */
 SHARED void find_clipping_faces_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                                      read_bodies bodies, GLOBAL const Parameters *parameters, read_separating_axes axes,
                                      GLOBAL uint *faces, uint method, uint i)
@@ -54,8 +56,8 @@ SHARED void find_clipping_faces_item(read_listed_part_pairs pairs, read_shapes s
   faces[pair * 2u + 1u] = face_b.corners > 2u ? face_b.feature : INDEX_NONE;
 }
 
-/* Of clipped: u, v, separation and height of b, planes of pairs; count: how many, INDEX_NONE if there is no room or no
- * face. */
+/* clipped: u, v, separation and height of b, one plane of all pairs for each point. count: the number of points;
+ * INDEX_NONE if there are too many or if a face is missing. */
 SHARED void clip_faces_item(read_listed_part_pairs pairs, read_shapes shapes, read_surfaces surfaces,
                             read_bodies bodies, GLOBAL const Parameters *parameters, GLOBAL const uint *counts,
                             read_separating_axes axes, GLOBAL const uint *faces, write_clipped_points clipped,
@@ -92,7 +94,7 @@ SHARED clip_point stored_point(vec4 stored)
   return point;
 }
 
-/* The patch of the points stored. False if they miss the deepest point. */
+/* The patch of the stored points. False if they miss the deepest point. */
 SHARED mask reduced_patch(contact_patch *patch, const convex_pair *pair, vec4 axis, read_clipped_points clipped,
                           uint stride, uint i)
 {

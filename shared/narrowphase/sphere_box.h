@@ -1,7 +1,7 @@
-/* sphere_box.h - a sphere touches a box where the box comes nearest to the sphere's centre.
+/* sphere_box.h - the contact of a sphere with a box, at the point of the box nearest to the sphere's centre.
  *
- *      +---------+          Outside: the centre clamped to the box is the nearest point.
- *      |         |--> o     Inside: the face of least depth pushes the sphere out.
+ *      +---------+          Centre outside: the centre clamped to the box is the nearest point.
+ *      |         |--> o     Centre inside: the face of least depth pushes the sphere out.
  *      |     o-->|
  *      +---------+
  */
@@ -11,7 +11,7 @@
 #include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/time_of_impact.h"
 
-/* Outward from the surface of a box toward a point, both in the axes of the box. */
+/* The outward direction from the surface of a box to a point, and the distance, both in the axes of the box. */
 typedef struct {
   vec3 normal;
   real distance; /* negative inside */
@@ -69,13 +69,13 @@ SHARED sphere_and_box sphere_and_box_after(sphere_and_box start, pair_motion mov
   return pair;
 }
 
-/* outward: from the box. */
+/* outward: unit, from the box to the sphere. */
 SHARED real gap_of_sphere_along(sphere_and_box pair, vec3 outward)
 {
   return dot3(outward, pair.center) - dot3(absolute(rotate_back(pair.rotation, outward)), pair.extent) - pair.radius;
 }
 
-/* The normal turns with the box. */
+/* The normal turns with the box, so the gap a span later is measured along the turned normal. */
 SHARED advancement impact_of_sphere_on_box(mask reached, sphere_and_box pair, pair_motion moves, toi_input input)
 {
   vec3 angular = choose3(pair.sphere_first, moves.b.angular, moves.a.angular);

@@ -1,6 +1,6 @@
-/* sphere_half_space.h - a sphere touches a half-space below its centre.
+/* sphere_half_space.h - the contact of a sphere with a half-space, below the sphere's centre.
  *
- * The half-space is all points with y <= 0 in its body's frame: its outward normal is the body's +Y.
+ * The half-space contains all points with y <= 0 in its body's frame; its outward normal is the body's +Y.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_HALF_SPACE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_HALF_SPACE_H

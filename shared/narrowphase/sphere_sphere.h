@@ -1,7 +1,7 @@
-/* sphere_sphere.h - two spheres touch in one point on the line of their centres.
+/* sphere_sphere.h - the contact of two spheres, one point on the line between their centres.
  *
- * Within the step they first do so at the smaller root t of |offset + t velocity| = sum of the radii, and pass each
- * other where the velocity is square to the offset.
+ * Within the step they first touch at the smaller root t of |offset + t velocity| = sum of the radii. They pass each
+ * other where the velocity is perpendicular to the offset.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
 #define TANDEM_SHARED_NARROWPHASE_SPHERE_SPHERE_H
@@ -9,7 +9,7 @@
 #include "shared/narrowphase/pair_lists.h"
 #include "shared/narrowphase/time_of_impact.h"
 
-/* between: the centre of b from that of a. fallback: the normal where both are in one place. */
+/* between: from the centre of a to the centre of b. fallback: the normal where the centres coincide. */
 SHARED manifold spheres_contact(vec3 between, real radius_a, real radius_b, vec3 fallback)
 {
   real distance = length_of(between);
@@ -19,8 +19,8 @@ SHARED manifold spheres_contact(vec3 between, real radius_a, real radius_b, vec3
   return single_contact(normal, scale(normal, radius_a + separation * R(0.5)), separation, separation == separation);
 }
 
-/* The distance at which the centres pass each other is taken from the vector itself: as a difference of squares it
- * would lose to rounding what a fast pair misses by. */
+/* The distance of the centres at their closest approach is computed from the vector itself. A difference of squares
+ * would lose to rounding the small distance by which a fast pair misses. */
 SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pair_motion moves, toi_input input)
 {
   vec3 velocity = subtract(moves.b.linear, moves.a.linear);
@@ -37,8 +37,9 @@ SHARED advancement impact_of_spheres(mask reached, vec3 between, real radii, pai
   return at;
 }
 
-/* Spheres that miss keep a contact where they pass each other, if they would run into that of the start: its plane lies
- * along their motion, which so never meets it, and what others push into it is held. */
+/* Spheres that miss each other keep a contact at their closest approach, if they would run into the contact of the
+ * start. The plane of that contact is parallel to their motion, so they never meet it, but it stops them if other
+ * bodies push them into it. */
 SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, speculation s, mask runs_into_start,
                                       advancement at, toi_input input)
 {
@@ -50,8 +51,8 @@ SHARED encounter encounter_of_spheres(GLOBAL const Parameters *parameters, specu
   return met;
 }
 
-/* How much nearer a contact takes passing spheres to come than they do, m: gravity bends the way by a quarter of its
- * mean speed, and set-up places the arms without it. */
+/* A margin for passing spheres, m: by how much a contact overestimates their approach. Gravity bends the path by a
+ * quarter of its mean speed, and the setup stage places the arms without gravity. */
 SHARED real margin_of_passing(GLOBAL const Parameters *parameters, pair_motion moves, real time)
 {
   real unplaced = (length_of(moves.a.angular) + length_of(moves.b.angular)) * time;

@@ -1,20 +1,22 @@
-/* support_face.h - the feature of a shape's core that faces a direction, as a polygon handed out corner by corner.
+/* support_face.h - the feature of a shape's core that faces a direction, as a polygon whose corners are computed one by
+ * one.
  *
- *   box, hull     of the faces at the farthest corner the one most square to the direction    its corners
- *   cylinder      the cap, where it is more square to the direction than the side             8 corners on the rim
+ *   box, hull     the face at the farthest corner whose normal is nearest to the direction    its corners
+ *   cylinder      the cap, if its normal is nearer to the direction than that of the side     8 corners on the rim
  *                 else the line on the side that faces the direction                          2
- *   capsule       up to 60 degrees to its axis: the segment on the side                       2
- *                 beyond: the end                                                             1
- *   sphere        its middle                                                                  1
+ *   capsule       the end, if the direction is less than 60 degrees from the axis             1
+ *                 else the segment on the side                                                2
+ *   sphere        its centre                                                                  1
  *   triangle      itself, from either side                                                    3
  *
- * A polygon steeper than FACE_LEAST_COSINE to the direction is none: only the farthest point is then handed out.
- * Corners run counter-clockwise seen from outside, about the origin that the pair is seen from. Of faces nearly as
- * square as each other the lowest index wins, so that noise does not move the choice.
+ * If the cosine between a polygon's normal and the direction is below FACE_LEAST_COSINE, the feature is the farthest
+ * point only. Corners run counter-clockwise seen from outside, about the origin that the pair is seen from. Of faces
+ * whose normals are nearly equally near to the direction the lowest index wins, so that noise does not change the
+ * choice.
  *
- *       .-- * --.       A cap has one corner where the rim lies farthest in the direction, so that a tilted cylinder
- *      *    |    *      keeps its deepest point. Below CAP_LEAST_TILT the corners stay with the body instead, as the
- *      *    o    *      tilt of a cylinder at rest is noise; that costs at most 0.08 tilt of the radius.
+ *       .-- * --.     One corner of a cap is where the rim lies farthest in the direction, so that a tilted cylinder
+ *      *    |    *    keeps its deepest point. Below CAP_LEAST_TILT the corners are fixed to the body instead, because
+ *      *    o    *    the tilt of a cylinder at rest is noise; this costs at most 0.08 times the tilt times the radius.
  *       '-- * --'
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_SUPPORT_FACE_H
@@ -29,11 +31,11 @@
 
 typedef struct {
   uint corners;
-  uint feature;               /* of the shape: face; 0 and 1 the caps, 2 the side, 3 and 4 the ends */
-  vec3 normal;                /* outward, of three corners or more */
-  vec3 first_end, second_end; /* of one or two corners */
-  vec3 phase;                 /* unit, from the axis of a cylinder to a cap's first corner */
-  mask turned;                /* a triangle seen from behind */
+  uint feature;               /* index in the shape: the face; or 0 and 1 the caps, 2 the side, 3 and 4 the ends */
+  vec3 normal;                /* outward; set for three corners or more */
+  vec3 first_end, second_end; /* set for one or two corners */
+  vec3 phase;                 /* unit, from the axis of a cylinder to the first corner of a cap */
+  mask turned;                /* whether a triangle is seen from behind */
 } support_face;
 
 SHARED support_face point_feature(vec3 point, uint feature)
@@ -62,7 +64,8 @@ SHARED uint box_face_toward(vec3 own)
   return axis * 2u + (coordinate(own, axis) < R(0.0) ? 1u : 0u);
 }
 
-/* Of the faces at the farthest vertex: a face elsewhere may be squarer to the direction, yet lie lower. */
+/* Only the faces at the farthest vertex count: a face elsewhere may be more perpendicular to the direction, yet
+ * lower. */
 SHARED uint hull_face_toward(const convex *shape, vec3 own)
 {
   uint_lanes vertex = support_vertex(shape, own);
@@ -94,7 +97,7 @@ SHARED support_face cylinder_feature(const convex *shape, vec3 own)
 {
   vec3 outward = around_axis(own), size = shape->size;
   real across = outward.x * own.x + outward.z * own.z;
-  /* The side leans by the difference of the radii over the length. */
+  /* The side is inclined to the axis by the difference of the radii over the length. */
   real taper = size.x - size.z, length = square_root(taper * taper + R(4.0) * size.y * size.y);
   real cosine_of_side = (across * R(2.0) * size.y + own.y * taper) / length;
   mask top = own.y > R(0.0);
@@ -122,7 +125,8 @@ SHARED support_face capsule_feature(const convex *shape, vec3 own)
   return segment_feature(point_of_shape(shape, low), point_of_shape(shape, high), 2u);
 }
 
-/* Unit normal of a triangle seen counter-clockwise; meshes hold none without (host/geometry/triangle_mesh.h). */
+/* The unit normal on the side from which the corners run counter-clockwise. Meshes hold no triangle without a normal
+ * (host/geometry/triangle_mesh.h). */
 SHARED vec3 normal_of_triangle(const convex *shape)
 {
   vec3 normal = cross3(shape->second, shape->third);
@@ -153,7 +157,7 @@ SHARED support_face support_face_of(const convex *shape, vec3 direction)
   return face;
 }
 
-/* Corner k of a cap: the phase turned by eighths of a turn. */
+/* Corner k of a cap: the phase rotated by k eighths of a turn. */
 SHARED vec3 cap_corner(const convex *shape, const support_face *face, uint k)
 {
   real diagonal = R(0.70710678118654752);

@@ -1,25 +1,24 @@
-/* time_of_impact.h - a contact ahead of touching is made only where the motion of the step would touch.
+/* time_of_impact.h - restricts speculative contacts to those that the motion of the step would touch.
  *
- *        v -->                         Seen from the start of the step, the closest points of the ball and the edge
- *      .--.                            have a slanted normal, and a contact there is an endless plane: it would stop a
- *     ( a  )  \  n                     ball that passes the edge. So the bodies are followed along their motion. A pair
- *      '--'    \                       that touches keeps its contacts; if it moves far, they are those of the moment
- *               +---------             of impact. A pair that misses loses the points that its own motion would run
- *                                      into.
- *               | b
+ *        v -->                         At the start of the step, the closest points of the ball and the edge have a
+ *      .--.                            slanted normal, and a contact there is an infinite plane. It would stop a ball
+ *     ( a  )  \  n                     that passes the edge. The bodies are therefore followed along their motion. A
+ *      '--'    \                       pair that touches keeps its contacts; if it moves far, they are replaced by
+ *               +---------             those of the impact. A pair that misses loses the points that its own motion
+ *               | b                    would run into.
  *
- * The pair is advanced repeatedly by a time in which it cannot touch, the longer of two: gap / closing speed
- * (conservative advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996), and what follows from the gap now and
- * the gap a span later, both along a normal that turns with one of the bodies. In between, no point leaves the chord by
- * more than its acceleration allows:
+ * The pair is repeatedly advanced by the longer of two times in which it cannot touch. The first is gap / closing speed
+ * (conservative advancement: Mirtich, "Impulse-based Dynamic Simulation", 1996). The second follows from the gap now
+ * and the gap a span later, both along a normal that turns with one of the bodies: in between, no point leaves the
+ * chord by more than its acceleration allows.
  *
- *   gap o                            What lies left of the chord's least is free of touching: a pair that turns as it
- *       |`- .  chord                 passes is known to miss in a few rounds, also where it rolls along with hardly a
- *       |  . ` - . _                 gap, and one that hits is found by steps that shorten as the square root of the
- *       |    `-.....` - o            gap. Of bodies that do not turn the gap along a normal is the chord itself.
+ *   gap o                          The time before the bound below the chord reaches 0 is free of touching. A pair that
+ *       |`- .  chord               turns as it passes is known to miss after a few rounds, even if it rolls along with
+ *       |  . ` - . _               hardly a gap. A pair that hits is found by steps that shrink as the square root of
+ *       |    `-.....` - o          the gap. If neither body turns, the gap along a normal is the chord itself.
  *       +------------------> time
  *
- * None of this runs at rest: touching points, and gaps that a slow pair does not close, stay as they are.
+ * Nothing of this runs at rest: touching points, and gaps that a slow pair does not close, stay as they are.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_TIME_OF_IMPACT_H
 #define TANDEM_SHARED_NARROWPHASE_TIME_OF_IMPACT_H
@@ -36,15 +35,17 @@
 /* A share of the smaller shape's least size. A pair that moves less than this within the step gets the contacts of the
  * start. */
 #define FAR_SHARE R(0.25)
-/* Of a gap: bodies advance by less than that, and the manifold has a normal of its own. */
+/* A share of the gap. Bodies advance by less than the gap, and the manifold computes its own normal, so the distance
+ * query may leave this share unknown. */
 #define ROUGHLY R(0.1)
 /* A share of the least size. Shapes this close count as touching. */
 #define TOUCHING_SHARE R(1e-3)
 /* A share of the slop. Shapes need not come closer than this within a step. */
 #define TOUCHING_SLOP R(0.02)
 
-/* Two bodies that move evenly: as far within the step as gravity brings them. radius: that turning swings round; 0 for
- * a sphere in the middle of its body. fall: what of the velocity of a against b is gravity's. */
+/* Two bodies with constant velocities that move them within the step as far as gravity does. radius: of the sphere that
+ * the spin sweeps; 0 for a sphere in the middle of its body. fall: the part of the velocity of a relative to b that
+ * gravity adds. */
 typedef struct {
   spatial_velocity a, b;
   real radius_a, radius_b;
@@ -64,18 +65,18 @@ SHARED pair_motion load_pair_motion(GLOBAL const float4 *velocities, GLOBAL cons
   return m;
 }
 
-/* How much faster than on average gravity may close a gap along a unit normal from a to b, m/s. A body falls on the
- * exact parabola (integrate/positions.h), but a contact looks ahead along the symplectic Euler step, which in the last
- * substep falls further by half of what gravity makes of that one; and where gravity parts two, they were nearer
- * before. */
+/* By how much the speed at which gravity closes a gap may exceed its average, along a unit normal from a to b, m/s. A
+ * body falls on the exact parabola (integrate/positions.h), but a contact looks ahead along the symplectic Euler step.
+ * In the last substep that step falls further by half of the velocity that gravity adds in it. If gravity separates two
+ * bodies, they were nearer before. */
 SHARED real closing_beyond_mean(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   real closing = dot3(m.fall, normal), last_substep = parameters->substep / parameters->step;
   return maximum(closing, R(0.0)) * (R(1.0) + last_substep * last_substep) - closing;
 }
 
-/* Bodies that no contact bears fall on the exact parabola (integrate/positions.h), others nearly, so contacts are made
- * no earlier for gravity: the speculative distance is enough. */
+/* Bodies without contacts fall on the exact parabola (integrate/positions.h), and others nearly so. Gravity therefore
+ * does not extend the reach of contacts: the speculative distance is enough. */
 SHARED real reach_of_pair(GLOBAL const Parameters *parameters, pair_motion m, vec3 normal)
 {
   spatial_velocity a = m.a;
@@ -99,8 +100,8 @@ SHARED real fastest_turning(pair_motion m)
   return length_of(m.a.angular) * m.radius_a + length_of(m.b.angular) * m.radius_b;
 }
 
-/* How fast points of a body accelerate, at most, as a body sees them that turns: Coriolis' terms, m/s^2. distance,
- * speed: of the centres; turning: rad/s. */
+/* The highest acceleration of a point of a body, as seen from a body that turns: the centrifugal and Coriolis terms,
+ * m/s^2. distance, speed: of the centres. turning: rad/s. */
 SHARED real acceleration_seen(real turning_viewer, real distance, real speed, real turning, real radius)
 {
   return turning_viewer * turning_viewer * (distance + radius) + R(2.0) * turning_viewer * (speed + turning * radius) +
@@ -112,14 +113,14 @@ SHARED vec3 offset_after(vec3 offset, pair_motion m, real time)
 {
   return add_scaled(offset, subtract(m.b.linear, m.a.linear), time);
 }
-/* The rotation that an even spin makes within a time. */
+/* The rotation by a constant angular velocity within a time. */
 SHARED mat3 turn_within(vec3 angular, real time)
 {
   return rotation_of(turned(make_quat(R(0.0), R(0.0), R(0.0), R(1.0)), scale(angular, time)));
 }
 
-/* How far to look, s; from which gap on shapes touch, m; no gap closes faster, m/s; which share of a gap may stay
- * unknown, and with it the normal; whether the pair comes far. */
+/* horizon: how far to look ahead, s. touching: shapes touch up to this gap, m. fastest: no gap closes faster, m/s.
+ * roughly: the share of a gap that may stay unknown, and with it the normal. far: whether the pair moves far. */
 typedef struct {
   real horizon, touching, fastest, roughly;
   mask far;
@@ -132,9 +133,9 @@ SHARED toi_input toi_input_of(real fastest, real horizon, real least, real size)
   return input;
 }
 
-/* The input of one step. Contacts are made somewhat ahead of touching, for what gravity and other contacts add: the
- * motion is followed past the end of the step until it has grown by that distance. least: of the sizes of the two;
- * size: of both. */
+/* The input of one step. Contacts are speculative, to allow for gravity and other contacts: the motion is followed past
+ * the end of the step until it has grown by the speculative distance. least: the smaller of the two sizes; size: of
+ * both. */
 SHARED toi_input toi_input_of_step(GLOBAL const Parameters *parameters, pair_motion moves, real least, real size)
 {
   real fastest = maximum(fastest_closing(moves), R(1e-6));
@@ -146,11 +147,11 @@ SHARED toi_input toi_input_of_step(GLOBAL const Parameters *parameters, pair_mot
   return input;
 }
 
-/* Where a pair has come. active: it goes on; hits: it touches at `time`. Neither: it does not touch before the
- * horizon. */
+/* The state of an advancement. active: it goes on. hits: the pair touches at `time`. If neither holds, the pair does
+ * not touch before the horizon. */
 typedef struct {
   mask active, hits;
-  real time; /* s: up to here it does not touch */
+  real time; /* s: the pair does not touch before it */
 } advancement;
 
 SHARED advancement start_advancement(mask wanted)
@@ -159,7 +160,7 @@ SHARED advancement start_advancement(mask wanted)
   return at;
 }
 
-/* How far ahead to look for the second gap, s: the chord is then off by a quarter of this one at most. */
+/* The span after which the second gap is measured, s. The chord is then off by at most a quarter of the first gap. */
 SHARED real span_of(advancement at, real gap, real acceleration, toi_input input)
 {
   real rest = maximum(input.horizon - at.time, R(0.0));
@@ -168,7 +169,7 @@ SHARED real span_of(advancement at, real gap, real acceleration, toi_input input
                 minimum(rest, square_root(R(2.0) * maximum(gap, R(0.0)) / choose(bends, acceleration, (real)R(1.0)))),
                 rest);
 }
-/* How much of the span is free of touching, s. */
+/* The part of the span that is free of touching, s. */
 SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration, toi_input input)
 {
   real stray = R(0.125) * acceleration * span * span, margin = gap - R(0.5) * input.touching;
@@ -176,7 +177,7 @@ SHARED real free_by_chord(real gap, real gap_then, real span, real acceleration,
   return span * choose(clear, (real)R(1.0), margin / choose(clear, (real)R(1.0), gap - gap_then + R(4.0) * stray));
 }
 
-/* gap: along a normal; closing: how fast at most; chord: what is free by it, s. */
+/* gap: along a normal. closing: the highest speed at which it closes. chord: the time free by the chord bound, s. */
 SHARED advancement advanced(advancement at, uint round, real gap, real closing, real chord, toi_input input)
 {
   uint_lanes rounds = choose(input.far, (uint_lanes)(uint)ADVANCEMENT_ROUNDS, (uint_lanes)(uint)SLOW_ROUNDS);
@@ -199,9 +200,9 @@ SHARED real least_separation(manifold m)
   return least;
 }
 
-/* Arms follow what the bodies slide past each other (shift_of_arms of setup/contact.h), so the plane of one that turns
- * moves along the normal, m/s: towards the other, and either way. Of what nothing pushes at most, of both if nothing
- * else turns them. */
+/* The speed at which a contact plane moves along the normal because its arm follows the sliding of the bodies
+ * (shift_of_arms of setup/contact.h), m/s: toward the other body, and in either direction. The bound covers bodies that
+ * nothing pushes; that of both bodies holds if nothing else turns them. */
 typedef struct {
   real toward, either_way;
 } slide_closing;
@@ -218,21 +219,21 @@ SHARED slide_closing closing_by_slide(GLOBAL const Parameters *parameters, pair_
   return s;
 }
 
-/* A body that turns this far does not move on a line, so it would meet the plane of a point beside it. */
+/* A body that turns this far does not move on a line, so it would hit the plane of a contact point that it passes. */
 SHARED mask swings_far(GLOBAL const Parameters *parameters, real fastest, real least)
 {
   return fastest * parameters->step > FAR_SHARE * least;
 }
 
-/* How fast the points of a manifold come nearer, m/s: on average, at most, and by arms which follow; and which of them
- * the points themselves may meet within the step. */
+/* The speeds at which the points of a manifold close, m/s: the average, the upper bound, and that of arms that follow.
+ * reached: the points that the motion may touch within the step. */
 typedef struct {
   real closing[4], fastest[4];
   mask reached[4];
   slide_closing by_slide;
 } approaching_points;
 
-/* offset: centre of b from that of a, as the points are. */
+/* offset: from the centre of a to the centre of b, at the same moment as the points. */
 SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters, manifold m, vec3 offset,
                                              pair_motion moves)
 {
@@ -248,7 +249,7 @@ SHARED approaching_points approach_of_points(GLOBAL const Parameters *parameters
   }
   return points;
 }
-/* turning: what arms that follow close beside the points, m/s. */
+/* turning: the additional closing speed by arms that follow, m/s. */
 SHARED mask reaches_point(GLOBAL const Parameters *parameters, manifold m, approaching_points points, int slot,
                           real turning)
 {
@@ -263,18 +264,19 @@ SHARED mask reaches_any_point(GLOBAL const Parameters *parameters, manifold m, v
   return any;
 }
 
-/* Which speculative contacts, all of whose points are ahead of touching, are asked for what becomes of them: those that
- * the motion of the step reaches, which are followed, and those of a body that swings far. */
+/* asked: the speculative contacts, whose points are all apart, that must be examined. They are those that the motion of
+ * the step reaches (reached), which are followed, and those of a body that swings far. */
 typedef struct {
   mask asked, reached, a_swings, b_swings;
-  real margin; /* m: so far points of bodies that pass may be put clear of them */
+  real margin; /* m: points of passing bodies may be moved by so much to clear them */
 } speculation;
 
-/* Of the size of a pair that can both be pushed. */
+/* A share of the least size of a pair whose bodies can both be pushed. */
 #define MARGIN_SHARE R(0.05)
 
-/* The bound of the whole bodies comes first, for it spares nearly all pairs the rest. A pair that does not come far,
- * and so does not swing far, and reaches none of its points would keep them all, so it is not asked. */
+/* The bound for whole bodies comes first, because it excludes nearly all pairs from the rest. A pair that does not move
+ * far, and therefore does not swing far, and that reaches none of its points would keep all of them, so it is not
+ * examined. */
 SHARED speculation speculation_of(GLOBAL const Parameters *parameters, manifold m, vec3 offset, pair_motion moves,
                                   toi_input input, real least)
 {
@@ -358,7 +360,7 @@ SHARED manifold as_seen_from_start(GLOBAL const Parameters *parameters, manifold
       choose_manifold(met.missed & met.at_impact, guard_of(parameters, found, met.a_swings, offset, moves), found);
   approaching_points points = approach_of_points(parameters, m, offset, moves);
   mask swings = met.a_swings | met.b_swings, turned_into = swings & (!swings);
-  /* Arms of another moment than the start are off by what is slid until then, or after it, and so turn either way. */
+  /* The arms of a moment other than the start are off by the sliding until then or after it, and so turn either way. */
   real farthest = choose(met.at_impact, maximum(met.time / parameters->step, (real)R(1.0)), (real)R(1.0));
   real either_way = points.by_slide.either_way * farthest;
   real toward = choose(met.at_impact, either_way, points.by_slide.toward);

@@ -1,20 +1,21 @@
-/* triangle_contact.h - a triangle of a mesh against a convex shape or another triangle: a surface, not a body of its
- * own.
+/* triangle_contact.h - the contact of a mesh triangle with a convex shape or another triangle. A triangle is part of a
+ * surface, not a body of its own.
  *
- *        .---.              Flat: the box slides over the seam of two triangles. Deep in one of them its shortest way
- *        | b |  -->         out is sideways (x), which would catch it. A normal may lean over an edge only as far as
- *    ----'-x-'----          the neighbour's does, and over a flat or concave edge not at all: then the triangle's own
- *      A  |  B              normal holds.
+ *        .---.            Flat surface: the box slides over the seam of two triangles. It is deep in one of them, so
+ *        | b |  -->       the shortest way out is sideways (x), which would stop it: an internal-edge contact. A normal
+ *    ----'-x-'----        may lean over an edge only as far as the neighbour's normal does, and not at all over a flat
+ *      A  |  B            or concave edge. Otherwise the triangle's own normal is taken.
  *
- *                  t   out  n2      convex: out lies between t and the neighbour's n2, or t is taken instead
- *                   \  |  /
- *                 ___\_|_/          concave or flat: no wedge, t is taken
+ *                  t   out  n2      convex edge: `out` is kept if it lies between the triangle's normal t and the
+ *                   \  |  /         neighbour's normal n2, else t is taken
+ *                 ___\_|_/          concave or flat edge: there is no such range, t is taken
  *                     A\B\
  *
  * Triangles are one-sided: a shape with more of itself behind than in front makes no contact. Two triangles that face
- * each other are the skins of two solids, and each may be behind the other as far as the thinner of the solids is. A
- * contact moved to the triangle's own normal counts only above the triangle; the neighbour makes the one beyond. After
- * G. van den Bergen's and E. Catto's talks on mesh contacts, and Bullet's btInternalEdgeUtility.
+ * each other are the surfaces of two solids, and each may be behind the other as far as the thinner solid is thick. A
+ * contact whose normal was replaced by the triangle's own counts only above the triangle; the neighbour makes the one
+ * beyond. The method follows the talks of G. van den Bergen and E. Catto on mesh contacts, and Bullet's
+ * btInternalEdgeUtility.
  */
 #ifndef TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
 #define TANDEM_SHARED_NARROWPHASE_TRIANGLE_CONTACT_H
@@ -22,7 +23,7 @@
 #include "shared/narrowphase/convex_contact.h"
 #include "shared/narrowphase/time_of_impact.h"
 
-/* Sine of the angle by which a normal may lean where it must not: the noise of normals near touching. */
+/* Sine of the angle by which a normal may lean where it should not at all: the noise of normals near touching. */
 #define LEAN_NOISE R(1e-3)
 /* Cosine of 2.5 degrees. */
 #define SAME_FACE R(0.999)
@@ -44,7 +45,7 @@ SHARED triangle_sides sides_of(const convex *shape)
   return t;
 }
 
-/* Normal of the triangle beyond edge k, in the axes of the pair. */
+/* The normal of a neighbour of the triangle, in the axes of the pair. */
 SHARED vec3 normal_beyond(const convex *shape, uint neighbour)
 {
   vec3 first = mesh_vertex(shape->tables, neighbour, 0u);
@@ -53,7 +54,7 @@ SHARED vec3 normal_beyond(const convex *shape, uint neighbour)
   return from_shape_axes(shape, scale(normal, R(1.0) / length_of(normal)));
 }
 
-/* Whether the surface lets a contact push out along a unit direction. */
+/* Whether the surface around the triangle permits a contact normal along the unit direction `out`. */
 SHARED mask surface_permits(const convex *shape, const triangle_sides *t, vec3 out)
 {
   real up = dot3(out, t->normal);
@@ -69,7 +70,7 @@ SHARED mask surface_permits(const convex *shape, const triangle_sides *t, vec3 o
   return 1;
 }
 
-/* More of the other core lies in front of the triangle than behind it. */
+/* Whether more of the other core lies in front of the triangle than behind it. */
 SHARED mask in_front(const triangle_sides *t, const convex *other)
 {
   vec3 highest = subtract(support_of(other, t->normal), t->corner[0]),
@@ -84,15 +85,15 @@ SHARED mask above_triangle(const triangle_sides *t, vec3 point, real slack)
   return 1;
 }
 
-/* What is known of a pair with a triangle in it. of_a, of_b: the shape is one. outside_a: b is on the outer side of
- * a. */
+/* A pair with at least one triangle. of_a, of_b: whether the shape is a triangle. outside_a: whether b is on the outer
+ * side of triangle a. */
 typedef struct {
   const convex *a, *b;
   mask of_a, of_b, outside_a, outside_b;
   triangle_sides sides_a, sides_b;
 } triangle_pair;
 
-/* thickness: of the thinner body. */
+/* thickness: least half extent of the thinner body. */
 SHARED void look_at_triangles(triangle_pair *pair, const convex *a, const convex *b, real thickness)
 {
   pair->a = a;
@@ -113,8 +114,8 @@ SHARED mask normal_permitted(const triangle_pair *pair, vec3 normal)
   return (!pair->of_a || surface_permits(pair->a, &pair->sides_a, normal)) &&
          (!pair->of_b || surface_permits(pair->b, &pair->sides_b, negate(normal)));
 }
-/* The way out leads into the back of a triangle: another face of its solid touches. Of two triangles, one may well be
- * seen so. */
+/* Whether the way out leads to the back of a triangle, which means that another face of its solid touches. Between two
+ * triangles this proves nothing. */
 SHARED mask leads_behind(const triangle_pair *pair, vec3 normal)
 {
   if (pair->of_a && pair->of_b) return 0;
@@ -122,8 +123,8 @@ SHARED mask leads_behind(const triangle_pair *pair, vec3 normal)
          (pair->of_b && dot3(normal, pair->sides_b.normal) > LEAN_NOISE);
 }
 
-/* Along a triangle's own normal; of two the one along which less is in the way. At least one has the other shape
- * outside. */
+/* The contact along a triangle's own normal; of two triangles, along the normal that shows less overlap. The other
+ * shape must be outside of at least one. */
 SHARED core_contact contact_along_face(const triangle_pair *pair)
 {
   core_contact along_a = {pair->sides_a.normal, R(-1e30)}, along_b = {negate(pair->sides_b.normal), R(-1e30)};
@@ -132,7 +133,8 @@ SHARED core_contact contact_along_face(const triangle_pair *pair)
   return along_b.gap > along_a.gap ? along_b : along_a;
 }
 
-/* Round cores that reach the surface have no way out but up; so have two flat triangles that cross. */
+/* The penetration of a pair with a triangle. Round cores that reach the surface, and two flat triangles that cross,
+ * part along a face normal only. */
 SHARED core_contact triangle_penetration(const triangle_pair *pair, vec3 up, real tolerance)
 {
   const convex *other = pair->of_a ? pair->b : pair->a;
@@ -140,7 +142,7 @@ SHARED core_contact triangle_penetration(const triangle_pair *pair, vec3 up, rea
   return only_face ? contact_along_face(pair) : penetration(pair->a, pair->b, up, up, tolerance, CONVEX_EXPANSION);
 }
 
-/* The face whose normal the contact has; 0 where it lies elsewhere. */
+/* The triangle whose normal is the contact's; 0 if it is neither's. */
 SHARED const triangle_sides *face_of_contact(const triangle_pair *pair, vec3 normal)
 {
   if (pair->of_a && dot3(normal, pair->sides_a.normal) > R(0.999999)) return &pair->sides_a;
@@ -148,7 +150,7 @@ SHARED const triangle_sides *face_of_contact(const triangle_pair *pair, vec3 nor
   return 0;
 }
 
-/* Where nothing meets the triangle on its face: the deepest point, if it lies above it. */
+/* The patch of the deepest point, if it lies above the triangle; for a face contact whose features do not overlap. */
 SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, core_contact contact,
                              const triangle_sides *face)
 {
@@ -161,15 +163,15 @@ SHARED mask face_point_patch(contact_patch *patch, const triangle_pair *pair, co
   return 1;
 }
 
-/* So near a triangle's own normal that the triangle is the face they meet on: of a tilted box's bottom and many
- * triangles each then has its own depth, not that of the box's lowest corner. */
+/* Whether the normal is so near a triangle's own that the triangle is the face of contact. Each of many triangles under
+ * a tilted box then gets its own depth, not that of the box's lowest corner. */
 SHARED mask nearly_along_face(const triangle_pair *pair, vec3 normal)
 {
   return (pair->outside_a && dot3(normal, pair->sides_a.normal) > SAME_FACE) ||
          (pair->outside_b && dot3(normal, pair->sides_b.normal) < -SAME_FACE);
 }
 
-/* A face of the shapes near the normal, where the surface permits it. */
+/* The contact along a face normal near the contact's normal, as far as the surface permits it. */
 SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact contact, real lead)
 {
   if (!normal_permitted(pair, contact.normal)) return contact_along_face(pair);
@@ -178,8 +180,8 @@ SHARED core_contact permitted_contact(const triangle_pair *pair, core_contact co
   return normal_permitted(pair, face.normal) ? face : contact;
 }
 
-/* TRIANGLE_APART: nothing is within reach in front of the triangle. TRIANGLE_BESIDE: a shape is, but has no contact
- * here as it stands. */
+/* TRIANGLE_APART: nothing is within reach in front of the triangle. TRIANGLE_BESIDE: a shape is within reach, but has
+ * no contact with the triangle at its current pose. */
 enum { TRIANGLE_APART = 0, TRIANGLE_BESIDE = 1, TRIANGLE_MEETS = 2 };
 
 SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real reach, real thickness, real lead)
@@ -197,14 +199,14 @@ SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real re
   contact = permitted_contact(&triangles, contact, lead);
   if (contact.gap - radii >= reach) return TRIANGLE_BESIDE;
   const triangle_sides *face = face_of_contact(&triangles, contact.normal);
-  /* On a face every point above it counts, whether or not the deepest of all is among them: that one may lie above a
-   * neighbour. */
+  /* On a face every point above it counts, whether or not the deepest point of all is among them, because that one may
+   * lie above a neighbour. */
   core_contact sought = {contact.normal, face ? R(1e30) : contact.gap};
   if (overlap_patch(patch, a, b, sought, reach)) return TRIANGLE_MEETS;
   if (face) {
     if (face_point_patch(patch, &triangles, contact, face)) return TRIANGLE_MEETS;
-    /* Nothing is above a face that was only preferred: the closest points lie on a sharp edge of it, whose other side
-     * may be turned away from what comes. */
+    /* Nothing lies above a face that was only preferred. The closest points lie on a sharp edge of it, whose other side
+     * may face away from the shape. */
     if (near.overlapping || !normal_permitted(&triangles, closest.normal) || closest.gap - radii >= reach)
       return TRIANGLE_BESIDE;
     contact = closest;
@@ -213,11 +215,12 @@ SHARED int triangle_patch(contact_patch *patch, const convex_pair *pair, real re
   return TRIANGLE_MEETS;
 }
 
-/* impact_time of a manifold without points, where the shape is beside the triangle: it may come before it within the
- * step. Not below 0: rusticl makes -0 of the other side of a choice between -1 and 0. */
+/* The impact_time of a manifold without points whose shape is beside the triangle and may come in front of it within
+ * the step. It is positive, because rusticl returns -0 for the other side of a choice between -1 and 0. */
 #define BESIDE R(1e30)
 
-/* As convex_contact; at least one of the two is a triangle. thickness: least half extent of the two bodies, m. */
+/* The arguments are those of convex_contact; at least one shape is a triangle. thickness: least half extent of the two
+ * bodies, m. */
 SHARED manifold triangle_contact(const convex *first, const convex *second, real reach, real thickness, real slop)
 {
   convex_pair pair = pair_of(first, second);

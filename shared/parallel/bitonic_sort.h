@@ -1,15 +1,15 @@
-/* bitonic_sort.h - Batcher's network (Sorting Networks and Their Applications, 1968) for pairs of any number.
+/* bitonic_sort.h - Batcher's bitonic sorting network ("Sorting Networks and Their Applications", 1968) for any length.
  *
  * Blocks of 2, 4, 8, .. items become sorted. Each merge begins by comparing an item with its mirror image in
  * the block, so that every comparison puts the smaller item first:
  *
  *   flip of a block of 8:  0-7 1-6 2-5 3-4     then strides 2 and 1:  0-2 1-3 4-6 5-7,  0-1 2-3 4-5 6-7
  *
- * Items beyond the end would be the largest and hence never move: comparisons with them are left out, and no
- * padding is needed. Pairs are ordered by key, then value, so the result is the only one there can be.
+ * Items past the end would be the largest and never move, so comparisons with them are left out and no padding is
+ * needed. Pairs are ordered by key, then by value, so the result is unique.
  *
- * Within tiles of BITONIC_TILE the network runs in local memory (bitonic_tile); wider comparisons run over the
- * buffers, one launch each (bitonic_step).
+ * Within tiles of BITONIC_TILE the network runs in local memory (bitonic_tile). Wider comparisons run over the buffers,
+ * with one launch each (bitonic_step).
  */
 #ifndef TANDEM_SHARED_PARALLEL_BITONIC_SORT_H
 #define TANDEM_SHARED_PARALLEL_BITONIC_SORT_H
@@ -20,8 +20,8 @@
 #define BITONIC_TILE 1024u
 #define BITONIC_LOCAL_WORDS (2u * BITONIC_TILE)
 
-/* The item that item i is compared with, or i itself where it is the second of its pair. block 0: a stride of `reach`;
- * else the flip of a block. */
+/* The item that item i is compared with, or i itself if i is the second of its pair. block 0: the partner is at a
+ * stride of `reach`; else it is the mirror image in the block. */
 SHARED uint bitonic_partner(uint i, uint block, uint reach)
 {
   const uint partner = block == 0u ? i ^ reach : i ^ (block - 1u);
@@ -33,7 +33,7 @@ SHARED int comes_after(uint key_a, uint value_a, uint key_b, uint value_b)
   return key_a > key_b || (key_a == key_b && value_a > value_b);
 }
 
-/* One comparison of a whole tile in local memory. */
+/* Makes one step of comparisons over a whole tile in local memory. */
 SHARED void bitonic_compare(LOCAL uint *keys, LOCAL uint *values, uint count, uint block, uint reach)
 {
   FOR_EACH_ITEM(i, count)
@@ -61,7 +61,8 @@ SHARED void bitonic_tile_group(GLOBAL const uint *counts, GLOBAL uint *keys, GLO
     tile_keys[i] = keys[first + i];
     tile_values[i] = values[first + i];
   }
-  /* One loop for all comparisons, which no condition guards: what PoCL 3.1 needs of a loop over phases. */
+  /* One loop makes all comparisons, and no condition guards it, because PoCL 3.1 requires this of a loop over
+   * phases. */
   const uint last_block = whole != 0u ? BITONIC_TILE : 2u * BITONIC_TILE;
   uint block = whole != 0u ? 2u : last_block, reach = whole != 0u ? 1u : block / 4u;
   do {

@@ -1,4 +1,4 @@
-/* copy.h - copies of buffers, and the numbers 0, 1, 2, .. that a sort carries along as values. */
+/* copy.h - copies of buffers, and the sequence 0, 1, 2, .. that a sort carries along as values. */
 #ifndef TANDEM_SHARED_PARALLEL_COPY_H
 #define TANDEM_SHARED_PARALLEL_COPY_H
 

@@ -1,5 +1,5 @@
-/* fill.h - a buffer of one value. The simplest kernel there is, and so the pattern of all others:
- * a plain function of one item here, and a row in kernels.def. */
+/* fill.h - fills a buffer with one value. It is the simplest kernel, and so the pattern of all others: a plain function
+ * of one item here, and a row in kernels.def. */
 #ifndef TANDEM_SHARED_PARALLEL_FILL_H
 #define TANDEM_SHARED_PARALLEL_FILL_H
 

@@ -1,10 +1,11 @@
-/* flip_float.h - floats as unsigned integers of the same order, so that the radix sort sorts floats, and back.
+/* flip_float.h - maps floats to unsigned integers of the same order and back, so that the radix sort can sort floats.
  *
  *   float      -inf .. -1 .. -denormal  -0   +0  +denormal .. 1 .. +inf
  *   bits        all inverted                 sign bit set
  *   key         0x007fffff    ..  0x7fffffff 0x80000000  ..   0xff800000
  *
- * -0 comes right before +0. NaNs lie beyond the infinities of their sign. After Herf, Radix Tricks, 2001.
+ * -0 comes right before +0. NaNs lie beyond the infinities of their sign. The mapping is that of Herf, "Radix Tricks",
+ * 2001.
  */
 #ifndef TANDEM_SHARED_PARALLEL_FLIP_FLOAT_H
 #define TANDEM_SHARED_PARALLEL_FLIP_FLOAT_H

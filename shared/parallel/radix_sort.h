@@ -6,14 +6,15 @@
  *   scan             the same table then says where each tile's keys of a digit go
  *   sort_scatter     one group a tile: sort the tile by the digit in local memory, write runs of equal digits
  *
- * Ranking within a tile: chunks of consecutive keys count their digits, each chunk in a column of
- * its own, so that no atomic is needed and the order of equal keys stays:
+ * Keys are ranked within a tile by chunks of consecutive keys. Each chunk counts its digits in a column of its own, so
+ * no atomic is needed and equal keys keep their order:
  *
  *            chunk 0   chunk 1   chunk 2 ..
  *   digit 0    3         0         1      -> sums along the row: keys of this digit in the chunks before
  *   digit 1    0         2         2      -> sums down the totals of rows: smaller digits in the tile
  *
- * The rank of a key among those of its tile is then: smaller digits + earlier chunks + earlier in the chunk.
+ * The rank of a key in its tile is the sum: smaller digits + equal digits in earlier chunks + earlier ones in its
+ * chunk.
  */
 #ifndef TANDEM_SHARED_PARALLEL_RADIX_SORT_H
 #define TANDEM_SHARED_PARALLEL_RADIX_SORT_H
@@ -28,7 +29,7 @@
 #define SORT_CHUNKS CHUNKS(32u)
 #define SORT_CHUNK (SORT_TILE / SORT_CHUNKS)
 
-/* Local memory, in words. Keys and values pass through the same words as the counts of chunks, later. */
+/* The layout of local memory, in words. Keys and values later pass through the words that held the counts of chunks. */
 #define SORT_RANKS_AT 0u /* a word a key, spread over banks: digit and rank, then place */
 #define SORT_SPREAD(i) ((i) + (i) / 64u)
 #define SORT_COUNTS_AT (SORT_TILE + SORT_TILE / 64u) /* a half_word a digit and chunk; then the tile, sorted */
@@ -92,7 +93,7 @@ SHARED void sort_count_chunks(uint count, LOCAL uint *local_memory)
   }
 }
 
-/* From counts to sums over earlier chunks, and over smaller digits. */
+/* Turns the counts into sums over earlier chunks and over smaller digits. */
 SHARED void sort_scan_chunks(LOCAL uint *local_memory)
 {
   LOCAL half_word *counters = (LOCAL half_word *)(local_memory + SORT_COUNTS_AT);
@@ -110,7 +111,7 @@ SHARED void sort_scan_chunks(LOCAL uint *local_memory)
   scan_small(starts, SORT_DIGITS, local_memory + SORT_SCRATCH_AT);
 }
 
-/* From the digits of a tile's keys to each key's place in the sorted tile, and each digit's place in the result. */
+/* Turns the digits of a tile's keys into each key's place in the sorted tile and each digit's place in the result. */
 SHARED void sort_rank_tile(GLOBAL const uint *offsets, uint n, uint count, uint bits, LOCAL uint *local_memory,
                            uint group)
 {
@@ -137,7 +138,8 @@ SHARED uint sort_target(LOCAL const uint *local_memory, uint place)
   return local_memory[SORT_BASES_AT + digits[place]] + place;
 }
 
-/* One word of each item of the tile, by way of local memory: neighbours in the result are written together. */
+/* Moves one word of each item of the tile through local memory, so that neighbours in the result are written
+ * together. */
 SHARED void sort_move(GLOBAL const uint *from, GLOBAL uint *to, uint first, uint count, LOCAL uint *local_memory)
 {
   LOCAL uint *sorted = local_memory + SORT_COUNTS_AT;

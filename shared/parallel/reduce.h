@@ -1,15 +1,14 @@
-/* reduce.h - sum, smallest and largest of numbers, whole or real, by one fixed tree.
+/* reduce.h - the sum, the smallest and the largest of whole or real numbers, by one fixed tree.
  *
- * Sums of reals round, so their order must not depend on the machine: item i of REDUCE_ITEMS adds every
- * REDUCE_ITEMS-th number of its tile in order, then a tree joins the items. The tiles' results are
- * reduced once more in the same way by one group:
+ * Sums of reals round, so their order must not depend on the machine. Item i of REDUCE_ITEMS adds every REDUCE_ITEMS-th
+ * number of its tile in order, then a tree joins the items. One group reduces the results of the tiles in the same way:
  *
  *   numbers   | tile 0 | tile 1 | ..        reduce_tiles: one group a tile of REDUCE_TILE
  *   partial     p0       p1       ..        reduce_partials: one group; item i takes p_i, p_(i + REDUCE_ITEMS), ..
  *   result[0]
  *
- * Nothing at all reduces to the neutral element: 0, the largest uint for the smallest, 0 for the largest; for
- * reals plus and minus NEUTRAL_REAL.
+ * An empty input reduces to the neutral element: 0 for sums, the largest uint for the smallest, 0 for the largest; for
+ * reals, plus and minus NEUTRAL_REAL.
  */
 #ifndef TANDEM_SHARED_PARALLEL_REDUCE_H
 #define TANDEM_SHARED_PARALLEL_REDUCE_H

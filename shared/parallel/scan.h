@@ -1,17 +1,17 @@
 /* scan.h - exclusive prefix sum of uint, at most 2^32 - 1: result[i] = values[0] + .. + values[i - 1], result[n] =
  * total.
  *
- * Every "count, scan, write" of the pipeline stands on it: no stage appends by an atomic counter, so no order
- * depends on scheduling. Three launches for any length (reduce, then scan; Merrill and Grimshaw,
- * Parallel Scan for Stream Architectures, 2009):
+ * Every "count, scan, write" of the pipeline uses it. No stage appends by an atomic counter, so no order depends on
+ * scheduling. It takes three launches for any length (reduce, then scan; Merrill and Grimshaw, "Parallel Scan for
+ * Stream Architectures", 2009):
  *
  *   values       | tile 0 | tile 1 | tile 2 | ..      SCAN_TILE items each
  *   scan_reduce    s0       s1       s2               one group a tile: sums
  *   scan_in_order  0        s0       s0+s1            one group: sums of all tiles before
  *   scan_tiles   | 0 a ab | ...                       one group a tile: values again, plus the tile's start
  *
- * values and result may be the same buffer. A sum past 2^32 - 1 stays there: what a stage has no numbers for must not
- * look like little.
+ * values and result may be the same buffer. Sums saturate at 2^32 - 1, so that a stage cannot take an overflow for a
+ * small number.
  */
 #ifndef TANDEM_SHARED_PARALLEL_SCAN_H
 #define TANDEM_SHARED_PARALLEL_SCAN_H
@@ -23,17 +23,17 @@
 #define SCAN_CHUNKS CHUNKS(256u)
 #define SCAN_CHUNK (SCAN_TILE / SCAN_CHUNKS)
 
-/* Chunks of small tables: SMALL_CHUNKS items each walk a share. */
+/* The chunks of small tables: each of SMALL_CHUNKS items runs over one. */
 #define SMALL_CHUNKS CHUNKS(32u)
 
-/* Local memory, in words: the tile, spread so that chunks start in different banks; sums of chunks. */
+/* The layout of local memory, in words: the tile, spread so that chunks start in different banks; sums of chunks. */
 #define SCAN_SPREAD(i) ((i) + (i) / 16u)
 #define SCAN_SUMS_AT (SCAN_TILE + SCAN_TILE / 16u)
 #define SCAN_SMALL_AT (SCAN_SUMS_AT + 256u)
 #define SCAN_LOCAL_WORDS (SCAN_SMALL_AT + 64u)
 
-/* Exclusive sums in place of n values in local memory; returns nothing: scratch[SMALL_CHUNKS] becomes the total.
- * n is a multiple of SMALL_CHUNKS; scratch holds SMALL_CHUNKS + 1 words. */
+/* Replaces n values in local memory by their exclusive sums, and stores the total in scratch[SMALL_CHUNKS]. n is a
+ * multiple of SMALL_CHUNKS; scratch holds SMALL_CHUNKS + 1 words. */
 SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
 {
   const uint chunk = n / SMALL_CHUNKS;
@@ -56,7 +56,7 @@ SHARED void scan_small(LOCAL uint *values, uint n, LOCAL uint *scratch)
   }
 }
 
-/* Loads a tile and leaves, for each chunk, the sum of the chunks before it; the tile's total in
+/* Loads a tile and stores, for each chunk, the sum of the chunks before it. The tile's total goes to
  * local_memory[SCAN_SMALL_AT + SMALL_CHUNKS]. Items past `count` are 0. */
 SHARED void scan_load(GLOBAL const uint *values, uint first, uint count, LOCAL uint *local_memory)
 {
@@ -107,7 +107,8 @@ SHARED void scan_reduce_group(GLOBAL const uint *counts, GLOBAL const uint *valu
   FOR_EACH_ITEM(s, 1u) sums[group] = local_memory[0];
 }
 
-/* One group: exclusive sums of the first ceil(words / block) values, tile after tile; total[words] = their sum. */
+/* One group writes the exclusive sums of the first ceil(words / block) values, tile after tile; total[words] = their
+ * sum. */
 SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL uint *result,
                                 GLOBAL uint *total, uint length, uint unit, uint per_unit, uint block,
                                 LOCAL uint *local_memory, uint group)
@@ -129,7 +130,7 @@ SHARED void scan_in_order_group(GLOBAL const uint *counts, GLOBAL const uint *va
   FOR_EACH_ITEM(s, 1u) total[words] = carry[units_of(n, SCAN_TILE) & 1u];
 }
 
-/* Exclusive sums of tile `group`, which start at sums[group]. */
+/* Writes the exclusive sums of tile `group`, which start at sums[group]. */
 SHARED void scan_tiles_group(GLOBAL const uint *counts, GLOBAL const uint *values, GLOBAL const uint *sums,
                              GLOBAL uint *result, uint length, uint unit, uint per_unit, LOCAL uint *local_memory,
                              uint group)

@@ -1,4 +1,4 @@
-/* search.h - where many values would stand among sorted ones: binary search, one item a query. */
+/* search.h - the places of many values in a sorted list, by binary search, one item a query. */
 #ifndef TANDEM_SHARED_PARALLEL_SEARCH_H
 #define TANDEM_SHARED_PARALLEL_SEARCH_H
 

@@ -1,8 +1,8 @@
-/* self_test.h - every operation that the kernels are allowed, on one set of inputs.
+/* self_test.h - exercises every operation that kernels may use, on one set of inputs.
  *
- * Before an OpenCL device is trusted, the host runs this source over edge values, denormals, cancelling
- * and random numbers, and compares bits with the device's results (host/runtime/opencl/self_test.cpp,
- * docs/exactness.md). What is not exercised here must not be used in shared code.
+ * Before an OpenCL device is trusted, the host runs this source over edge values, denormals, cancelling and random
+ * numbers, and compares its bits with the device's results (host/runtime/opencl/self_test.cpp, docs/exactness.md).
+ * Shared code must not use an operation that is not exercised here.
  *
  * Three numbers a, b, c and two words p, q an item give one row of results.
  */
@@ -76,7 +76,7 @@ SHARED void self_test_item(GLOBAL const memory_real *numbers, GLOBAL const uint 
   ATOMIC_OR(&totals[SELF_TEST_TOTAL_BITS], p & q & (1u << (i & 31u)));
 }
 
-/* Local memory and barriers: each word meets its mirror image and its neighbour. */
+/* Exercises local memory and barriers: each word is combined with its mirror image and its neighbour. */
 SHARED void self_test_group(GLOBAL const uint *words, GLOBAL uint *results, LOCAL uint *memory, uint group)
 {
   FOR_EACH_ITEM(i, TILE) memory[i] = words[group * TILE + i];

@@ -1,17 +1,17 @@
-/* friction_problem.h - one frictional contact problem: impulses in Coulomb's cones, coupled by the Delassus operator W.
+/* friction_problem.h - one frictional contact problem: impulses in Coulomb cones, coupled by the Delassus operator W.
  *
  *   u = W r + q,   K* contains  u + mu |u_T| n,   perpendicular to   r in K,    K = { |r_T| <= mu r_n }
  *
- *            n                 A problem cut out of its simulation: no bodies, only contacts. x of a vector is the
- *       \    |    /            normal, y and z are the tangents. W stands in rows of 3x3 blocks, the contact's own
- *        \ K |   /             block first: blocks problem_start[i] .. problem_start[i + 1] - 1, three rows a block.
+ *            n                 The problem is separate from its simulation: it has contacts, but no bodies. x of a
+ *       \    |    /            vector is the normal, y and z are the tangents. W is stored in rows of 3x3 blocks, the
+ *        \ K |   /             contact's own first: blocks problem_start[i] .. problem_start[i + 1] - 1 of three rows.
  *         \  |  /   slope of
  *          \ | /    the side: 1 / mu
  *     ------\|/------ T
  *
- * The correction mu |u_T| of the normal velocity is De Saxce and Feng's ("The bipotential method", 1998); it turns
- * Coulomb's law into complementarity on a cone. Follows Acary, Bremond and Huber, "On solving contact problems with
- * Coulomb friction: formulations and numerical comparisons" (2018), whose problems these are.
+ * The correction mu |u_T| of the normal velocity is that of De Saxce and Feng ("The bipotential method", 1998). It
+ * turns Coulomb's law into a complementarity on a cone. The formulation follows Acary, Bremond and Huber, "On solving
+ * contact problems with Coulomb friction: formulations and numerical comparisons" (2018), whose problems are used.
  */
 #ifndef TANDEM_SHARED_PROBLEM_FRICTION_PROBLEM_H
 #define TANDEM_SHARED_PROBLEM_FRICTION_PROBLEM_H
@@ -33,7 +33,7 @@ SHARED vec3 block_times(delassus_block b, vec3 v)
   return make_vec3(dot3(b.normal, v), dot3(b.first, v), dot3(b.second, v));
 }
 
-/* Velocity of contact i under all impulses, summed in the order of its row of blocks. */
+/* The velocity of contact i under all impulses, summed in the order of its row of blocks. */
 SHARED vec3 velocity_of(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
                         GLOBAL const float4 *problem_block, vec3 free_velocity, GLOBAL const float4 *impulse, uint i)
 {
@@ -51,7 +51,7 @@ SHARED vec3 corrected_velocity(vec3 velocity, real friction)
   return make_vec3(velocity.x + friction * tangent_length(velocity), velocity.y, velocity.z);
 }
 
-/* Friction scaled down to what the normal impulse holds. */
+/* Scales friction down to the limit that the normal impulse gives. */
 SHARED vec3 limit_friction(vec3 impulse, real friction)
 {
   real length = tangent_length(impulse), limit = friction * impulse.x;

@@ -1,19 +1,19 @@
 /* pass.h - one pass over the contacts of a friction problem: Gauss-Seidel, Jacobi, and the conjugate step over either.
  *
- * problem_pass is a projected Gauss-Seidel pass in the order of the contacts, made parallel without changing it: the
- * host sorts contacts into levels, 1 + the highest level among lower-numbered neighbours, and launches level by level.
- * Within one no contact reads what another writes, so the bits are those of the plain loop:
+ * problem_pass is a projected Gauss-Seidel pass in the order of the contacts, parallelised without changing that order.
+ * The host sorts contacts into levels, 1 + the highest level among lower-numbered neighbours, and launches level by
+ * level. Within a level no contact reads what another one writes, so the bits are those of the plain loop:
  *
  *   contact   0   1   2   3   4      0-1, 1-2, 3-4 coupled
  *   level     0   1   2   0   1      launches: {0, 3} {1, 4} {2}
  *
- * problem_jacobi lets all contacts move at once, each by its share (Tonge, Benevolenski and Voroshilov, "Mass splitting
- * for jitter-free parallel rigid body simulation", 2012): with bodies each would own 1/n of a body's mass; here only W
- * is known, and the share comes from the couplings of its blocks.
+ * problem_jacobi solves all contacts at once, each by a share (Tonge, Benevolenski and Voroshilov, "Mass Splitting for
+ * Jitter-Free Parallel Rigid Body Simulation", 2012). With bodies, each contact would own 1/n of a body's mass. Here
+ * only W is known, so the share follows from the couplings of its blocks.
  *
- * problem_conjugate is the nonsmooth nonlinear conjugate gradient step over a pass (Silcowitz, Niebe and Erleben,
- * 2010): the change made by a pass stands for the negative gradient, directions are joined after Fletcher and Reeves,
- * and a change that grows restarts.
+ * problem_conjugate is the step of the nonsmooth nonlinear conjugate gradient method over a pass (Silcowitz, Niebe and
+ * Erleben, 2010): the change by a pass takes the place of the negative gradient, directions are combined after Fletcher
+ * and Reeves, and a change that grows restarts the method.
  */
 #ifndef TANDEM_SHARED_PROBLEM_PASS_H
 #define TANDEM_SHARED_PROBLEM_PASS_H
@@ -25,8 +25,8 @@ SHARED real block_size(delassus_block b)
   return square_root(dot3(b.normal, b.normal) + dot3(b.first, b.first) + dot3(b.second, b.second));
 }
 
-/* problem_step: inverse normal mass, inverse tangent mass, share of a pass in which all move at once. The tangent mass
- * is the trace of the 2x2 block, which no direction exceeds. */
+/* problem_step: the normal mass, the tangent mass, and the share of a pass that solves all contacts at once. The
+ * tangent mass is 1 / the trace of the 2x2 block, which the response along no direction exceeds. */
 SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const uint *problem_column,
                                  GLOBAL const float4 *problem_block, GLOBAL const float4 *problem_free,
                                  GLOBAL float4 *problem_step, GLOBAL memory_real *trace, GLOBAL memory_real *reference,
@@ -47,7 +47,8 @@ SHARED void problem_prepare_item(GLOBAL const uint *problem_start, GLOBAL const 
   reference[i] = length_squared(corrected_velocity(xyz(q), q.w));
 }
 
-/* Friction within the limit of the present normal impulse, then the normal impulse, which may lower the limit. */
+/* Solves friction within the limit of the current normal impulse, then the normal impulse, which may lower the
+ * limit. */
 SHARED vec3 solve_contact(delassus_block own, vec4 step, real share, real friction, vec3 velocity, vec3 impulse)
 {
   real tangent_step = step.y * share;
@@ -86,8 +87,8 @@ SHARED void problem_jacobi_item(GLOBAL const uint *problem_start, GLOBAL const u
   solve_problem_contact(problem_start, problem_column, problem_block, problem_free, problem_step, from, to, 1, i);
 }
 
-/* What a pass has changed, squared, in the metric in which the pass descends: over the steps, so that normal and
- * tangents count by their masses. */
+/* The square of the change by a pass, in the metric in which the pass descends: it is divided by the steps, so that
+ * normal and tangents are weighted by their masses. */
 SHARED void problem_change_item(GLOBAL const float4 *problem_step, GLOBAL const float4 *problem_impulse,
                                 GLOBAL const float4 *problem_previous, GLOBAL memory_real *change, uint i)
 {

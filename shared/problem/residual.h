@@ -1,14 +1,13 @@
 /* residual.h - how far the impulses of a friction problem are from its solution, contact by contact.
  *
- * Three measures that are 0 at a solution and nowhere else (the third: in the cone and nowhere else);
- * docs/contact-problems.md defines them and says why so. Each contact writes its term and a fixed tree adds them
+ * There are three measures, which are 0 at a solution and nowhere else (the third one in the cone and nowhere else);
+ * docs/contact-problems.md defines and explains them. Each contact writes its term, and a fixed tree adds the terms
  * (shared/parallel/reduce.h).
  *
- * natural_map             | r - P_K(r - rho (u + mu |u_T| n)) |^2
- * Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),
- *                     o = Jordan product
- *                     of the second-order cone (Fukushima, Luo and Tseng 2002)
- * violation           how far r lies outside its cone, as a friction impulse
+ *   natural map         | r - P_K(r - rho (u + mu |u_T| n)) |^2
+ *   Fischer-Burmeister  | x + y - (x o x + y o y)^(1/2) |^2,   x = (mu r_n, r_T), y = rho (u_n + mu |u_T|, mu u_T),
+ *                       o = Jordan product of the second-order cone (Fukushima, Luo and Tseng 2002)
+ *   violation           how far r lies outside its cone, as a friction impulse
  */
 #ifndef TANDEM_SHARED_PROBLEM_RESIDUAL_H
 #define TANDEM_SHARED_PROBLEM_RESIDUAL_H
@@ -16,7 +15,7 @@
 #include "shared/counts.h"
 #include "shared/problem/friction_problem.h"
 
-/* rho of the problem: an impulse for a velocity, RHO_FACTOR over the mean of the diagonal of W. */
+/* rho converts a velocity to an impulse: RHO_FACTOR over the mean of the diagonal of W. */
 #define RHO_FACTOR R(10.0)
 SHARED real rho_of(GLOBAL const uint *counts, GLOBAL const memory_real *problem_trace)
 {
@@ -29,7 +28,7 @@ SHARED real natural_term(vec3 impulse, vec3 velocity, real friction, real rho)
   return length_squared(subtract(impulse, project_on_cone(target, friction)));
 }
 
-/* x + y - (x o x + y o y)^(1/2). The square lies in the cone, its eigenvalues are head +- |tail|. */
+/* x + y - (x o x + y o y)^(1/2). The square lies in the cone, and its eigenvalues are head +- |tail|. */
 SHARED vec3 fischer_burmeister(vec3 x, vec3 y)
 {
   real head = dot3(x, x) + dot3(y, y);
@@ -41,7 +40,7 @@ SHARED vec3 fischer_burmeister(vec3 x, vec3 y)
   return subtract(add(x, y), root);
 }
 
-/* Without friction the cone is a ray, and the function that of one number and the tangent impulse itself. */
+/* Without friction the cone is a ray, and the function is that of one number and the tangent impulse itself. */
 SHARED real fischer_term(vec3 impulse, vec3 velocity, real friction, real rho)
 {
   vec3 v = scale(corrected_velocity(velocity, friction), rho);

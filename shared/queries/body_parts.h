@@ -1,8 +1,8 @@
-/* body_parts.h - the convex parts of a body that a straight way comes near: its one shape, or leaves of its tree.
+/* body_parts.h - the convex parts of a body near a straight path: its one shape, or leaves of its tree.
  *
- *        from o- - - - - - ->  way        Tree walks are those of midphase/tree.h; a box counts as near unless one of
- *                 +----+                  the axes of box and way separates them (Ericson, "Real-Time Collision
- *                 |    |                  Detection", 2005, section 5.3.3).
+ *        from o- - - - - - ->  path       The traversal is that of midphase/tree.h. A box counts as near unless one of
+ *                 +----+                  the separating axes of box and path shows a gap (Ericson, "Real-Time
+ *                 |    |                  Collision Detection", 2005, section 5.3.3).
  */
 #ifndef TANDEM_SHARED_QUERIES_BODY_PARTS_H
 #define TANDEM_SHARED_QUERIES_BODY_PARTS_H
@@ -12,7 +12,7 @@
 #include "shared/queries/body_walk.h"
 #include "shared/queries/nearest.h"
 
-/* What queries know of the scene, and of one another. */
+/* The buffers of the scene and of the queries. */
 typedef struct {
   GLOBAL const Parameters *parameters;
   GLOBAL const uint *flags, *convexes, *body_trees;
@@ -46,9 +46,9 @@ SHARED query_scene query_scene_of(GLOBAL const Parameters *parameters, read_sear
   return scene;
 }
 
-/* A way through one body, in the axes of its tree. */
+/* A path through one body, in the axes of the body's tree. */
 typedef struct {
-  uint body, node, end, first_child; /* nodes from `node` to `end` are still to come; of a body without a tree one */
+  uint body, node, end, first_child; /* nodes `node` to `end` remain; without a tree one */
   mask has_tree;
   tree t;
   vec3 center; /* of the body, seen from the start of the query */
@@ -56,7 +56,7 @@ typedef struct {
   real radius;
 } part_walk;
 
-/* displacement: from the start of the query; radius: of what goes along it. */
+/* displacement: from the start of the query. radius: of the shape that moves along the path. */
 SHARED part_walk walk_parts(const query_scene *scene, uint body, vec3 center, vec3 displacement, real radius)
 {
   part_walk walk;
@@ -90,7 +90,7 @@ SHARED mask path_near_box(const part_walk *walk, box_bounds box)
   return across.x <= h.y * d.z + h.z * d.y && across.y <= h.z * d.x + h.x * d.z && across.z <= h.x * d.y + h.y * d.x;
 }
 
-/* The next leaf; false when there is none. */
+/* Loads the next leaf; false if there is none. */
 SHARED mask next_part(const query_scene *scene, part_walk *walk, convex *part)
 {
   if (!walk->has_tree) {

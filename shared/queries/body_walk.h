@@ -1,12 +1,12 @@
-/* body_walk.h - the bodies that a straight way comes near, from the structure that the broadphase is of.
+/* body_walk.h - the bodies near a straight path, from the structure of the chosen broadphase.
  *
  *        half-spaces, which have no bounds    all of them, first
  *        QUERY_HIERARCHY                      ray_walk.h: near boxes first
  *        QUERY_GRID                           the large bodies one by one, then grid_walk.h: near layers first
  *        QUERY_EVERY_BODY                     one by one: the oracle
  *
- * Each yields the same bodies, those whose own box the way enters, and each of them once; in which order must make no
- * difference to an answer. The structure is one for a whole launch, so that all its items take the same branch.
+ * Each structure yields the same bodies, those whose own box the path enters, and each of them once. Their order must
+ * not change an answer. A launch uses one structure, so all its items take the same branch.
  */
 #ifndef TANDEM_SHARED_QUERIES_BODY_WALK_H
 #define TANDEM_SHARED_QUERIES_BODY_WALK_H
@@ -15,7 +15,7 @@
 #include "shared/queries/grid_walk.h"
 #include "shared/queries/ray_walk.h"
 
-/* The structures of a launch; what the chosen one lacks is not looked at. */
+/* The structures of a launch. Only the members of the chosen one are read. */
 typedef struct {
   uint structure; /* QUERY_ */
   body_hierarchy hierarchy;
@@ -29,13 +29,14 @@ SHARED body_structure structure_of(read_search_structures s, uint structure)
   return bodies;
 }
 
-/* Bodies up to `listed` come one by one. The grid keeps its place where the hierarchy keeps the nodes that wait. */
+/* Bodies up to `listed` are visited one by one. The grid stores its position in the stack of the hierarchy's
+ * traversal. */
 typedef struct {
   uint next, listed;
   ray_walk rays;
 } body_walk;
 
-/* extent: half of a box that goes along the way, 0 for a ray. */
+/* extent: half extents of a box that moves along the path; 0 for a ray. */
 SHARED void start_body_walk(body_walk *walk, const body_structure *bodies, double_float3 start, vec3 displacement,
                             vec3 extent)
 {
@@ -52,14 +53,15 @@ SHARED void start_body_walk(body_walk *walk, const body_structure *bodies, doubl
   }
 }
 
-/* Where the way enters a body's box: at once for a half-space, ENDLESS where it misses it or enters behind `reach`. */
+/* The fraction of the path at which it enters a body's box: 0 for a half-space, ENDLESS if the path misses the box or
+ * enters it after `reach`. */
 SHARED real way_into_body(const body_walk *walk, const body_structure *bodies, uint body, real reach)
 {
   if (body < bodies->cells.counts[COUNT_UNBOUNDED]) return R(0.0);
   return fraction_into_box(&walk->rays.path, load_bounds(bodies->cells.bounds, body), reach);
 }
 
-/* The next body that the way may meet before `reach`; INDEX_NONE behind the last. */
+/* The next body that the path may meet before `reach`; INDEX_NONE after the last. */
 SHARED uint next_body_on_path(body_walk *walk, const body_structure *bodies, real reach)
 {
   while (walk->next < walk->listed) {

@@ -1,7 +1,8 @@
-/* box_queries.h - the bodies whose boxes a box overlaps, where it stands or on a straight way.
+/* box_queries.h - the bodies whose boxes overlap a given box, at rest or along a straight path.
  *
- * Boxes of bodies are those of compute_query_bounds: around the shape where it stands. How many are found is counted,
- * scanned, and then they are written, each with how much of the way is left behind as the boxes touch.
+ * The boxes of bodies are those of compute_query_bounds, which enclose each shape at its current pose. The hits of each
+ * query are counted, the counts are scanned, and the hits are written, each with the fraction of the path at which the
+ * boxes touch.
  */
 #ifndef TANDEM_SHARED_QUERIES_BOX_QUERIES_H
 #define TANDEM_SHARED_QUERIES_BOX_QUERIES_H
@@ -15,7 +16,7 @@ typedef struct {
   GLOBAL const float4 *query_start, *query_displacement, *query_extent;
 } box_scene;
 
-/* Box i and the bodies it may meet. */
+/* Box i and the search for the bodies that it may meet. */
 typedef struct {
   uint query;
   body_walk walk;
@@ -28,8 +29,8 @@ SHARED void start_box_walk(const box_scene *scene, uint i, box_walk *b)
                   xyz(load_float4(scene->query_displacement, i)), xyz(load_float4(scene->query_extent, i)));
 }
 
-/* The next body that it meets, and after what part of its way; INDEX_NONE behind the last. A half-space has no bounds:
- * it is always met. */
+/* The next body that the box meets, and the fraction of the path at which it does; INDEX_NONE after the last. A
+ * half-space has no bounds, so it is always met. */
 SHARED uint next_body_in_box(const box_scene *scene, box_walk *b, real *fraction)
 {
   *fraction = R(0.0);

@@ -1,11 +1,11 @@
-/* cast_rays.h - what each of many rays hits: the nearest body, any body, or all of them; see nearest.h, ray_shape.h and
- * body_walk.h. */
+/* cast_rays.h - the kernels that find what each of many rays hits: the nearest body, any body, or all of them. They use
+ * nearest.h, ray_shape.h and body_walk.h. */
 #ifndef TANDEM_SHARED_QUERIES_CAST_RAYS_H
 #define TANDEM_SHARED_QUERIES_CAST_RAYS_H
 
 #include "shared/queries/body_parts.h"
 
-/* way: unit direction; length: in m, of a fraction of 1; reach: the largest fraction. */
+/* direction: unit. length: in m, of a fraction of 1. reach: the largest fraction. */
 SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, uint body)
 {
   first_hit hit = nothing_hit();
@@ -20,11 +20,11 @@ SHARED first_hit hit_of_span(span s, vec3 direction, real length, real reach, ui
   return hit;
 }
 
-/* Ray i, and the bodies it may meet. */
+/* Ray i, and the search for the bodies that it may meet. */
 typedef struct {
   double_float3 start;
   vec3 direction;               /* unit */
-  real length, reach, farthest; /* m, of a fraction of 1; the largest fraction; that in m */
+  real length, reach, farthest; /* length of a fraction of 1, m; the largest fraction; that fraction in m */
   uint query;
   body_walk walk;
 } ray;
@@ -41,19 +41,19 @@ SHARED void load_ray(const query_scene *scene, uint i, ray *r)
   start_body_walk(&r->walk, &scene->bodies, r->start, r->direction, make_vec3(R(0.0), R(0.0), R(0.0)));
 }
 
-/* The next body that the ray may meet before `reach`, in m; INDEX_NONE behind the last. */
+/* The next body that the ray may meet before `reach`, in m; INDEX_NONE after the last. */
 SHARED uint next_body_on_ray(const query_scene *scene, ray *r, real reach)
 {
   return next_body_on_path(&r->walk, &scene->bodies, reach);
 }
 
-/* Where the ray first hits a body. */
+/* The first hit of the ray on a body. */
 SHARED first_hit hit_of_body(const query_scene *scene, const ray *r, uint body, real reach)
 {
   first_hit nearest = nothing_hit();
   if (!may_hit(scene->flags, scene->query_body, scene->query_filter, body, r->query)) return nearest;
   vec3 center = seen_from(scene->positions, body, r->start), none = make_vec3(R(0.0), R(0.0), R(0.0));
-  /* As long as the ray need be to pass the body: one without an end has no length to work with. */
+  /* The ray is cut to the length that it needs to pass the body, because an infinite ray has no usable length. */
   real distance = minimum(reach, length_of(center) + load_float4(scene->shapes, body).w);
   part_walk walk = walk_parts(scene, body, center, scale(r->direction, distance), R(0.0));
   convex part;
@@ -81,7 +81,7 @@ SHARED void cast_rays_item(GLOBAL const Parameters *parameters, read_search_stru
   store_hit(nearest, hits, i);
 }
 
-/* Whether it hits anything: 1 or 0. */
+/* Whether the ray hits anything: 1 or 0. */
 SHARED void cast_rays_any_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                                read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                                read_queries queries, GLOBAL uint *query_found, uint structure, uint i)
@@ -97,7 +97,7 @@ SHARED void cast_rays_any_item(GLOBAL const Parameters *parameters, read_search_
   query_found[i] = found;
 }
 
-/* All bodies it hits: how many, and after a scan which. */
+/* The number of bodies that the ray hits; after a scan, the next kernel writes them. */
 SHARED void count_ray_hits_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                                 read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                                 read_queries queries, GLOBAL uint *query_found, uint structure, uint i)

@@ -1,15 +1,15 @@
-/* grid_walk.h - the bodies along a way, layer by layer, from the uniform grid of broadphase/grid.h.
+/* grid_walk.h - the bodies along a path, layer by layer, from the uniform grid of broadphase/grid.h.
  *
- *        |   |   |###|###|   |       Layers lie across the axis that the way follows most. A body of layer L has its
- *        |   |   |#_-|###|   |       centre there, and its box, no larger than a cell, may reach half a cell beyond: it
- *        |   |###|###|   |   |       is touched, if at all, while the way is between layers L-1 and L+1. Where the way
- *        |   |#_-|###|   |   |       is meanwhile along the other two axes, widened by what goes along it and by half a
- *        o -     L             - ->  body, is a rectangle of cells; its rows along x are one range of the sorted list
- *                                    each. Every cell is in one layer, so every body comes once.
+ *       |   |   |###|###|  |       Layers are perpendicular to the axis along which the path is longest. A body of
+ *       |   |   |#_-|###|  |       layer L has its centre there, and its box, no larger than a cell, may reach half a
+ *       |   |###|###|   |  |       cell beyond. The path can therefore touch it only between layers L-1 and L+1. In
+ *       |   |#_-|###|   |  |       that part, the path's extent along the other two axes, widened by the moving box and
+ *       o -     L            - ->  by half a body, covers a rectangle of cells. Each of its rows along x is one range
+ *                                  of the sorted list. Every cell is in one layer, so every body comes once.
  *
- * A place on the way becomes a cell by the very rounding that a body's centre did: what lies between two places then
- * lies between their cells, also in border cells, where whatever rounding moved across the border is filed. The half
- * cell that is left between a body's box and the next layer is room for what rounds along the way.
+ * A point of the path is converted to a cell with the same rounding as a body's centre. The order of points is then the
+ * order of their cells, also in border cells, which hold the bodies that rounding moved across the border. The half
+ * cell that is left between a body's box and the next layer is a margin for rounding along the path.
  */
 #ifndef TANDEM_SHARED_QUERIES_GRID_WALK_H
 #define TANDEM_SHARED_QUERIES_GRID_WALK_H
@@ -22,9 +22,9 @@ typedef struct {
   GLOBAL const uint *sort_value, *cell_start, *counts;
 } body_cells;
 
-/* Where the walk is: words of an array of the caller's. That of the hierarchy's walk will do, so that a kernel that
- * holds both walks holds no more than one of them. Layers and rows are those still to come, AT to END the bodies of the
- * present row. */
+/* The position of the traversal, in words of an array of the caller. The array may be that of the hierarchy's
+ * traversal, so that a kernel with both needs memory for one. Layers and rows are those that remain; AT to END are the
+ * bodies of the current row. */
 enum {
   GRID_LAYER,
   GRID_LAYERS_LEFT,
@@ -42,7 +42,7 @@ enum {
 
 SHARED real along_axis(vec3 v, uint axis) { return axis == 0u ? v.x : axis == 1u ? v.y : v.z; }
 
-/* The axis that the way follows most. */
+/* The axis along which the path is longest. */
 SHARED uint axis_of_layers(const straight_path *path)
 {
   vec3 inverse = absolute(path->inverse);
@@ -54,7 +54,7 @@ typedef struct {
   uint first, last;
 } cell_range;
 
-/* The cells along an axis of bodies that the way may touch on a part of it. */
+/* The cells along an axis whose bodies the path may touch in a part of it. */
 SHARED cell_range cells_touched(const body_cells *cells, const straight_path *path, uint axis, path_part part)
 {
   vec4 layout = load_float4(cells->grid, 0u);
@@ -67,11 +67,11 @@ SHARED cell_range cells_touched(const body_cells *cells, const straight_path *pa
   uint count = cells->counts[(uint)COUNT_GRID_X + axis];
   cell_range range = {(uint)cell_along(least - origin, layout.w, count), count - 1u};
   if (most - origin < UNBOUNDED)
-    range.last = (uint)cell_along(most - origin, layout.w, count); /* never from a number that is none */
+    range.last = (uint)cell_along(most - origin, layout.w, count); /* NaN is never converted */
   return range;
 }
 
-/* Between two heights in cells along an axis, with room for the rounding of either. */
+/* The part of the path between two heights in cells along an axis, widened by the rounding of either. */
 SHARED path_part part_in_layers(const body_cells *cells, const straight_path *path, uint axis, real bottom, real top,
                                 real reach)
 {
@@ -85,7 +85,7 @@ SHARED path_part part_in_layers(const body_cells *cells, const straight_path *pa
   return part;
 }
 
-/* On the way through the cells, and a cell around them. */
+/* The part of the path through the cells and one cell around them. */
 SHARED path_part part_in_grid(const body_cells *cells, const straight_path *path)
 {
   path_part whole = {R(0.0), ENDLESS};
@@ -110,7 +110,7 @@ SHARED void start_grid_walk(const body_cells *cells, const straight_path *path, 
   place[GRID_LAYERS_LEFT] = layers.last - layers.first + 1u;
 }
 
-/* The rows of a layer that the way touches on this part. */
+/* Opens the rows of a layer that the path touches in a part of it. */
 SHARED void open_layer(const body_cells *cells, const straight_path *path, uint *place, uint axis, uint layer,
                        path_part part)
 {
@@ -125,7 +125,7 @@ SHARED void open_layer(const body_cells *cells, const straight_path *path, uint 
   place[GRID_Y_FIRST] = place[GRID_Y];
 }
 
-/* False where none is left before `reach`: those behind it come later still. */
+/* False if no layer is left before `reach`; later layers are farther away still. */
 SHARED mask next_layer(const body_cells *cells, const straight_path *path, uint *place, real reach)
 {
   uint axis = axis_of_layers(path);
@@ -156,7 +156,7 @@ SHARED mask next_row(const body_cells *cells, uint *place)
   return 1;
 }
 
-/* The next body whose box the way enters before `reach`; INDEX_NONE behind the last. */
+/* The next body whose box the path enters before `reach`; INDEX_NONE after the last. */
 SHARED uint next_in_grid(const body_cells *cells, const straight_path *path, uint *place, real reach)
 {
   do {

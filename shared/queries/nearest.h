@@ -1,7 +1,7 @@
-/* nearest.h - what every query asks of every body: may it be hit, can it be, and is it nearer than the nearest so far.
+/* nearest.h - the tests that every query makes with a body: whether the filters allow a hit, whether the body is near
+ * enough, and whether the hit is nearer than the nearest so far.
  *
- * Which bodies are asked is the broadphase's choice (body_walk.h); in which order makes no difference to the
- * nearest. */
+ * The broadphase chooses which bodies are tested (body_walk.h). Their order makes no difference to the nearest hit. */
 #ifndef TANDEM_SHARED_QUERIES_NEAREST_H
 #define TANDEM_SHARED_QUERIES_NEAREST_H
 
@@ -9,8 +9,8 @@
 
 typedef struct {
   uint body;     /* its number in the scene, INDEX_NONE for nothing */
-  real fraction; /* of the way */
-  vec3 normal;   /* of the body's surface, unit, outward; against the way where it starts inside */
+  real fraction; /* of the path */
+  vec3 normal;   /* of the body's surface, unit, outward; against the path if that starts inside */
   vec3 point;    /* on it, from the start */
 } first_hit;
 
@@ -20,7 +20,7 @@ SHARED first_hit nothing_hit(void)
   return hit;
 }
 
-/* Of hits at one place the body of the lower number. */
+/* The nearer of two hits; of equally near ones, that on the body with the lower index. */
 SHARED first_hit nearer_hit(first_hit a, first_hit b)
 {
   if (a.body == INDEX_NONE) return b;
@@ -38,8 +38,8 @@ SHARED mask may_hit(GLOBAL const uint *flags, GLOBAL const uint *query_body, GLO
          (query_body[4u * body + 2u] & query_filter[2u * query]) != 0u;
 }
 
-/* Whether a ball that moves comes near one that does not; both radii with what rounding may take. way: from the
- * start. */
+/* Whether a moving ball comes near a ball at rest. radius: the sum of both, with a margin for rounding. displacement:
+ * from the start. */
 SHARED mask passes_near(vec3 center, vec3 displacement, real radius)
 {
   real square = length_squared(displacement), along = dot3(center, displacement);
@@ -49,14 +49,14 @@ SHARED mask passes_near(vec3 center, vec3 displacement, real radius)
   return length_squared(add_scaled(center, displacement, -t)) <= most * most * R(1.000001);
 }
 
-/* Seen from a place of the world: a body's centre, from two floats less two floats. */
+/* The centre of a body seen from a point of the world, as the difference of two double-float positions. */
 SHARED vec3 seen_from(GLOBAL const float4 *positions, uint body, double_float3 from)
 {
   double_float3 p = load_position(positions, body);
   return add(subtract(p.high, from.high), subtract(p.low, from.low));
 }
 
-/* Any body's shape, also one that the narrowphase has a test of its own for. */
+/* The shape of a body as a convex, even if the narrowphase has a test of its own for it. */
 SHARED convex shape_of_body(GLOBAL const uint *flags, GLOBAL const float4 *shapes, GLOBAL const uint *convexes,
                             GLOBAL const float4 *poses, GLOBAL const float4 *orientations, hull_tables tables,
                             vec3 center, uint body)

@@ -1,8 +1,8 @@
-/* ray_shape.h - where a line enters and leaves a shape, in closed form where there is one.
+/* ray_shape.h - the points at which a line enters and leaves a shape, in closed form where there is one.
  *
- *            enter         leave       The line is o + s u in the shape's axes, u of length 1, o near the shape: the
- *     o-------->(#############)--->    caller starts it at the point nearest to the shape's middle, so that the numbers
- *                                      that are squared are no larger than the shape, however far away the ray began.
+ *            enter         leave      The line is o + s u in the shape's axes, with u of length 1. The caller starts it
+ *     o-------->(#############)--->   at the point nearest to the shape's middle, so that the numbers that are squared
+ *                                     are no larger than the shape, however far away the ray began.
  *
  *   sphere             a quadratic
  *   cylinder, cone     the slab between the caps, and a quadratic for the side
@@ -16,10 +16,10 @@
 
 #include "shared/narrowphase/polytope.h"
 
-/* Without an end on one side or both; more than any distance in a scene. */
+/* A distance larger than any in a scene; spans that are infinite on one side or both end there. */
 #define ENDLESS R(1e30)
 
-/* Nothing where leave < enter. normal: unit, outward, where it enters. */
+/* The span is empty if leave < enter. normal: unit, outward, at the entry. */
 typedef struct {
   real enter, leave;
   vec3 normal;
@@ -47,7 +47,7 @@ SHARED span common_span(span a, span b)
   s.leave = minimum(a.leave, b.leave);
   return s;
 }
-/* Of two parts of one convex shape. */
+/* The span of the union of two parts of one convex shape. */
 SHARED span joined_span(span a, span b)
 {
   if (is_nothing(a)) return b;
@@ -57,7 +57,7 @@ SHARED span joined_span(span a, span b)
   return s;
 }
 
-/* What lies below a plane of a unit normal at a distance from the origin. */
+/* The span below the plane with a unit normal and a distance from the origin. */
 SHARED span span_below_plane(vec3 o, vec3 u, vec3 normal, real distance)
 {
   real height = dot3(normal, o) - distance, rise = dot3(normal, u);
@@ -82,7 +82,7 @@ SHARED span span_in_polytope(const convex *shape, vec3 o, vec3 u)
   return s;
 }
 
-/* About a centre on the axis. */
+/* The span in a sphere whose centre is on the axis. */
 SHARED span span_in_sphere(vec3 o, vec3 u, real height, real radius)
 {
   vec3 from = make_vec3(o.x, o.y - height, o.z);
@@ -96,8 +96,8 @@ SHARED span span_in_sphere(vec3 o, vec3 u, real height, real radius)
   return s;
 }
 
-/* Roots of a s^2 + 2 b s + c, the lower first: one of them by the product of both, since their difference may cancel.
- * False where there is none. One without a square has its other root without an end. */
+/* The roots of a s^2 + 2 b s + c, the lower one first. One root is computed from the product of both, because their
+ * difference may cancel. False if there is none. If a is 0, the other root is infinite. */
 SHARED mask roots_of(real a, real b, real c, real *low, real *high)
 {
   real square = b * b - a * c;
@@ -116,7 +116,7 @@ SHARED mask roots_of(real a, real b, real c, real *low, real *high)
   return 1;
 }
 
-/* Outward normal of the side of a cone that grows by `growth` a metre of height. */
+/* The outward normal of the side of a cone whose radius grows by `growth` a metre of height. */
 SHARED vec3 normal_of_side(vec3 at, real growth)
 {
   vec3 out = around_axis(at);
@@ -124,7 +124,7 @@ SHARED vec3 normal_of_side(vec3 at, real growth)
   return make_vec3(out.x / length, -growth / length, out.z / length);
 }
 
-/* Between two heights on the axis, with the radii there. */
+/* The span in a cone between two heights on the axis, with the radii there. */
 SHARED span span_in_cone(vec3 o, vec3 u, real bottom, real top, real radius_bottom, real radius_top)
 {
   span s = span_below_plane(o, u, make_vec3(R(0.0), R(1.0), R(0.0)), top);
@@ -149,7 +149,7 @@ SHARED span span_in_cone(vec3 o, vec3 u, real bottom, real top, real radius_bott
   return common_span(s, side);
 }
 
-/* size: that of a capsule. */
+/* size: as that of a capsule. */
 SHARED span span_in_capsule(vec3 o, vec3 u, vec3 size)
 {
   real sine = (size.x - size.z) / (R(2.0) * size.y), cosine = square_root(maximum(R(1.0) - sine * sine, R(0.0)));
@@ -157,7 +157,7 @@ SHARED span span_in_capsule(vec3 o, vec3 u, vec3 size)
   return joined_span(joined_span(span_in_sphere(o, u, -size.y, size.x), side), span_in_sphere(o, u, size.y, size.z));
 }
 
-/* Hit at one place, or not at all; the normal is that of the side the ray comes from. */
+/* A triangle is hit at one point or not at all; the normal is on the side that the ray comes from. */
 SHARED span span_in_triangle(const convex *shape, vec3 o, vec3 u)
 {
   vec3 normal = cross3(shape->second, shape->third);
@@ -184,7 +184,8 @@ SHARED span span_in_shape(const convex *shape, vec3 o, vec3 u)
   return span_in_polytope(shape, o, u);
 }
 
-/* The line from a point along a unit direction, both of the world, seen from the same place as the shape. */
+/* The span of the line from a point along a unit direction, both in world axes and seen from the same point as the
+ * shape. */
 SHARED span ray_span(const convex *shape, vec3 from, vec3 direction)
 {
   vec3 offset = subtract(from, shape->center);

@@ -1,10 +1,10 @@
 /* ray_walk.h - the bodies along a ray, near ones first, from the hierarchy of broadphase/hierarchy.h.
  *
- *        ray  - - ->  [ near ]   [ far ]       Both children of a node are tested; the nearer one comes next, and where
- *                                              the other is hit too, it waits on a stack.
+ *        ray  - - ->  [ near ]   [ far ]       Both children of a node are tested. The nearer one is visited next; if
+ *                                              the other one is hit too, it waits on a stack.
  *
- * A waiting node is not asked again whether something nearer has been hit since: to remember where the ray enters it
- * costs more than the two boxes that such a node is good for (docs/departures.md).
+ * A waiting node is not tested again when a nearer hit has been found. Storing the distance at which the ray enters it
+ * would cost more than the two box tests that it would save (docs/departures.md).
  */
 #ifndef TANDEM_SHARED_QUERIES_RAY_WALK_H
 #define TANDEM_SHARED_QUERIES_RAY_WALK_H
@@ -12,7 +12,7 @@
 #include "shared/broadphase/hierarchy_walks.h"
 #include "shared/queries/straight_path.h"
 
-/* The tree as kernels are given it. */
+/* The buffers of the tree. */
 typedef struct {
   GLOBAL const float4 *nodes;
   GLOBAL const uint *links, *leaf_body, *counts;
@@ -30,7 +30,7 @@ SHARED real way_into_slot(const ray_walk *walk, uint slot, real reach)
   return fraction_into_box(&walk->path, load_bounds(walk->tree.nodes, slot), reach);
 }
 
-/* A tree of a single leaf has no node above it that tests its box. */
+/* A tree of a single leaf has no node above the leaf that tests its box, so the test is made here. */
 SHARED void start_ray_walk(ray_walk *walk)
 {
   walk->slot = root_slot(walk->tree.counts);
@@ -38,7 +38,7 @@ SHARED void start_ray_walk(ray_walk *walk)
   if (is_leaf_slot(walk->slot) && !(way_into_slot(walk, walk->slot, ENDLESS) < ENDLESS)) walk->slot = INDEX_NONE;
 }
 
-/* To the last that waits. */
+/* Continues at the node that was pushed last. */
 SHARED void go_on_along_ray(ray_walk *walk)
 {
   walk->slot = INDEX_NONE;
@@ -47,7 +47,7 @@ SHARED void go_on_along_ray(ray_walk *walk)
   walk->slot = walk->waiting[walk->height];
 }
 
-/* Below an inner node, to the nearer of its children. */
+/* Continues below an inner node, at the nearer of its children. */
 SHARED void go_down_along_ray(ray_walk *walk, real reach)
 {
   GLOBAL const uint *links = walk->tree.links + LINKS * walk->slot;
@@ -65,7 +65,7 @@ SHARED void go_down_along_ray(ray_walk *walk, real reach)
   }
 }
 
-/* The slot of the next leaf whose box the ray enters before `reach`; INDEX_NONE behind the last. */
+/* The slot of the next leaf whose box the ray enters before `reach`; INDEX_NONE after the last. */
 SHARED uint next_on_ray(ray_walk *walk, real reach)
 {
   while (walk->slot != INDEX_NONE) {

@@ -1,12 +1,13 @@
-/* straight_path.h - what every structure of bodies tests its boxes against: a ray, or a box that goes straight.
+/* straight_path.h - the test of a path against a box, which every structure of bodies uses. The path is that of a ray
+ * or of a moving box.
  *
- *       +--+                    A box that moves hits a box where its middle, as a ray, hits that box grown by its own
- *       |  |- - - ->  [   ]     half extents (Minkowski). One that stands still goes a way of length 0.
+ *       +--+                    A moving box hits a box if its middle, as a ray, hits that box grown by its own half
+ *       |  |- - - ->  [   ]     extents (Minkowski). A box at rest has a path of length 0.
  *       +--+
  *
- * Boxes are in the world's coordinates, of which the way has a float and what that float lost: boxes are widened by as
- * much. One test for all structures: which bodies are asked, hence every bit of an answer, must not depend on the
- * structure.
+ * Boxes are in world coordinates. The start of the path is known as a float and what that float lost, so boxes are
+ * widened by as much. All structures share one test, because the bodies that are tested, and with them every bit of an
+ * answer, must not depend on the structure.
  */
 #ifndef TANDEM_SHARED_QUERIES_STRAIGHT_PATH_H
 #define TANDEM_SHARED_QUERIES_STRAIGHT_PATH_H
@@ -14,19 +15,19 @@
 #include "shared/broadphase/overlap.h"
 #include "shared/queries/ray_shape.h"
 
-/* The way is start + s way, s from 0 to `reach`. Boxes are wider than they are by start_low - start, and start -
- * start_high. */
+/* The path is start + s displacement, with s from 0 to `reach`. Boxes are widened by start_low - start and
+ * start - start_high. */
 typedef struct {
   vec3 start_low, start_high, inverse;
 } straight_path;
 
-/* As good as infinite where the way runs along a face; 0 times it is still 0. */
+/* A finite stand-in for infinity if the path is parallel to a face; 0 times it is still 0. */
 SHARED real inverse_of_component(real component)
 {
   return magnitude(component) > R(1e-30) ? R(1.0) / component : component < R(0.0) ? -ENDLESS : ENDLESS;
 }
 
-/* extent: half of a box that goes along the way, 0 for a ray. */
+/* extent: half extents of a box that moves along the path; 0 for a ray. */
 SHARED straight_path straight_path_of(double_float3 start, vec3 displacement, vec3 extent)
 {
   vec3 widening = add(extent, scale(absolute(start.high), R(2.4e-7)));
@@ -36,7 +37,7 @@ SHARED straight_path straight_path_of(double_float3 start, vec3 displacement, ve
   return w;
 }
 
-/* From where to where along the way it is in the box, within 0 and `reach`. */
+/* The part of the path inside a box, between 0 and `reach`. */
 typedef struct {
   real enter, leave;
 } path_part;
@@ -53,10 +54,10 @@ SHARED path_part part_in_box(const straight_path *path, box_bounds box, real rea
 }
 SHARED mask is_part(path_part part) { return part.enter <= part.leave + R(1e-6) * magnitude(part.leave); }
 
-/* Where along the way it enters the box; ENDLESS where it misses it, or enters behind `reach`. */
+/* The fraction at which the path enters the box; ENDLESS if it misses the box or enters it after `reach`. */
 SHARED real fraction_into_box(const straight_path *path, box_bounds box, real reach)
 {
-  /* What is no box, or is turned inside out as that of an empty node, would seem endless. */
+  /* An inverted box, as that of an empty node, or one with NaN would otherwise seem infinite. */
   mask is_box = box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z;
   path_part part = part_in_box(path, box, reach);
   return is_box && is_part(part) ? part.enter : ENDLESS;

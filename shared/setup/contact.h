@@ -14,10 +14,11 @@
 #include "shared/argument_groups.h"
 #include "shared/records.h"
 
-/* Slower sliding than this counts as sticking, where the static coefficient holds. m/s */
+/* Below this sliding speed contacts count as sticking, and the static coefficient holds, m/s. */
 #define STICKING_SPEED R(0.01)
 
-/* Codes of the combination rules: Combine of host/include/tandem/scene.h. Of two rules the first in this order wins. */
+/* The codes of the combination rules are those of Combine in host/include/tandem/scene.h. Of two rules the one that
+ * comes first in this order holds. */
 SHARED real combined(uint_lanes rule_a, uint_lanes rule_b, real a, real b)
 {
   uint_lanes rule = choose(rule_a < rule_b, rule_a, rule_b);
@@ -42,7 +43,7 @@ SHARED surface surface_between(GLOBAL const float4 *material, uint_lanes materia
   return s;
 }
 
-/* The two bodies of a constraint. offset: centre of b minus centre of a. */
+/* The two bodies of a constraint. offset: from the centre of a to the centre of b. */
 typedef struct {
   uint_lanes a, b;
   spatial_velocity velocity_a, velocity_b;
@@ -55,7 +56,7 @@ SHARED vec3 relative_velocity(body_pair bodies, vec3 arm_a, vec3 arm_b)
   return subtract(velocity_at(bodies.velocity_b, arm_b), velocity_at(bodies.velocity_a, arm_a));
 }
 
-/* How much relative velocity along `second` a unit impulse along `first` gives. */
+/* The relative velocity along `second` that a unit impulse along `first` gives. */
 SHARED real response(body_pair bodies, vec3 arm_a, vec3 arm_b, vec3 first, vec3 second)
 {
   vec3 inertia_cross_a = symmetric_times(bodies.inertia_a, cross3(arm_a, first));
@@ -127,7 +128,7 @@ SHARED body_pair load_body_pair(GLOBAL const uint *pair_a, GLOBAL const uint *pa
   return bodies;
 }
 
-/* Acceleration of b against a along the normal under gravity. */
+/* The acceleration of b relative to a along the normal under gravity. */
 SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass, body_pair bodies,
                           vec3 normal)
 {
@@ -136,7 +137,7 @@ SHARED real relative_pull(GLOBAL const Parameters *parameters, GLOBAL const floa
   return (b - a) * dot3(gravity_of(parameters), normal);
 }
 
-/* constraint_normal keeps friction beside the normal, as a number below 0 where arms do not follow the bodies. */
+/* constraint_normal stores friction beside the normal, as a negative number if the arms do not follow the bodies. */
 SHARED real packed_friction(real friction, mask arms_stay) { return choose(arms_stay, R(-1.0) - friction, friction); }
 SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - packed, packed); }
 
@@ -145,23 +146,24 @@ SHARED real friction_of(real packed) { return choose(packed < R(0.0), R(-1.0) - 
  * impact, and would lie far outside the bodies afterwards. */
 #define FOLLOWED_SHARE R(1.0)
 
-/* How far a gap may close within the step, m: gravity, where it parts the two, does so only later. It is counted as a
- * contact looks ahead, along the symplectic Euler step (closing_beyond_mean of narrowphase/time_of_impact.h). speed,
- * pull: of b against a along the normal. */
+/* How far a gap may close within the step, m. If gravity separates the two, it does so only later and does not count.
+ * The gap closes along the symplectic Euler step, as a contact looks ahead (closing_beyond_mean of
+ * narrowphase/time_of_impact.h). speed, pull: of b relative to a along the normal. */
 SHARED real farthest_closed(GLOBAL const Parameters *parameters, real speed, real pull)
 {
   real fall = R(0.5) * (parameters->step * parameters->step + parameters->substep * parameters->substep);
   return maximum(R(0.0) - pull, R(0.0)) * fall - speed * parameters->step;
 }
 
-/* By its normal force alone a contact bears at most the square of the cosine between normal and gravity. */
+/* Whether a contact may bear weight: its normal force bears at most the square of the cosine between normal and
+ * gravity. */
 SHARED mask bears_weight(vec3 gravity, vec3 normal)
 {
   real along = dot3(gravity, normal);
   return along * along > WEIGHTLESS * length_squared(gravity);
 }
 
-/* By how much the arms of two bodies move as these slide past each other. */
+/* The displacement of the arms of two bodies that slide past each other. */
 typedef struct {
   vec3 a, b;
 } arm_shift;
@@ -173,16 +175,16 @@ SHARED arm_shift shift_of_arms(spatial_velocity velocity_a, spatial_velocity vel
   return s;
 }
 
-/* A ball that cannot be pushed moves its surface along itself, if it spins, so its arm does not follow what slides over
- * it: the plane of the contact would turn with it into the other body. */
+/* A spinning ball that cannot be pushed moves its surface along itself. Its arm therefore does not follow a body that
+ * slides over it; the plane of the contact would turn with the arm into the other body. */
 SHARED mask is_driven_ball(uint_lanes flags, spatial_velocity m)
 {
   return (m.inverse_mass == R(0.0)) & (shape_of(flags) == (uint_lanes)(uint)SHAPE_SPHERE);
 }
 
-/* Where friction acts: the centre of the points about to touch, and their mean distance from it, the arm of the twist.
- * Of a fast spinning box the manifold also holds corners that are far ahead; they take part only where no point is
- * near. */
+/* The point at which friction acts: the centre of the points about to touch, and their mean distance from it, which is
+ * the arm of the twist. The manifold of a fast spinning box also holds corners that are far ahead; they take part only
+ * if no point is near. */
 typedef struct {
   vec3 center;
   real radius;
@@ -211,9 +213,9 @@ SHARED friction_patch patch_of(GLOBAL const float4 *manifold_points, uint_lanes 
   return patch;
 }
 
-/* What constraint_slop holds: penetration left in place so that contacts persist (small bodies would vanish in it), or
- * DEEP where a point starts the step deeper than DEEP_SHARE of the pair's size. No impact brings bodies there, only a
- * start that should not be, or a load beyond what the settings carry. */
+/* The content of constraint_slop. It is the penetration left in place so that contacts persist, which is less for small
+ * bodies, or DEEP if a point starts the step deeper than DEEP_SHARE of the pair's size. No impact brings bodies that
+ * deep, only a bad initial state or a load beyond what the settings carry. */
 #define DEEP R(-1.0)
 #define DEEP_SHARE R(0.1)
 SHARED real slop_or_deep(GLOBAL const Parameters *parameters, real size, real deepest)
@@ -222,18 +224,18 @@ SHARED real slop_or_deep(GLOBAL const Parameters *parameters, real size, real de
 }
 SHARED real slop_of(real slop_or_deep) { return maximum(slop_or_deep, R(0.0)); }
 
-/* Penetration is never removed faster than this. Push speeds of layers of bodies add up, and what relaxing cannot take
- * out of a long chain in one pass stays as energy, which grows with their square: bodies deep in one another are parted
- * slowly. */
+/* Penetration is never removed faster than this. The push speeds of layers of bodies add up, and the part that one
+ * relaxing pass cannot take out of a long chain stays as energy, which grows with their square. Bodies deep in one
+ * another are therefore separated slowly. */
 #define DEEP_PUSH R(0.1)
 SHARED real push_limit(GLOBAL const Parameters *parameters, real slop_or_deep)
 {
   return parameters->push_speed * choose(slop_or_deep < R(0.0), (real)DEEP_PUSH, (real)R(1.0));
 }
 
-/* A pair of bodies as its constraint is set up. Of bodies that meet within the step arms and masses are those of that
- * moment. What is stored is such that the solver's shift of arms brings them there by then, or those themselves where
- * arms do not follow: arms_back leads from the former to what is stored. */
+/* A pair of bodies during the setup of its constraint. If the bodies meet within the step, arms and masses are those of
+ * that moment. The stored arms are such that the solver's shift of arms brings them to that moment, or the arms of that
+ * moment themselves if arms do not follow. arms_back: from the arms of that moment to the stored ones. */
 typedef struct {
   uint_lanes pair, points, feature;
   body_pair bodies;
@@ -295,7 +297,7 @@ SHARED old_impulses load_old_impulses(read_cached_contacts cached_contacts, uint
   return old;
 }
 
-/* What the points of a manifold start with. near: whether one of them may close within the step. */
+/* The initial values of the points of a manifold. near: whether one of them may close within the step. */
 typedef struct {
   real impulse[4], target_velocity[4], deepest;
   mask near;
@@ -320,7 +322,7 @@ SHARED void prepare_point(GLOBAL const Parameters *parameters, const contact_set
   points->near = points->near | (used & (point.w <= farthest_closed(parameters, speed, s->pull)));
 }
 
-/* A body that a contact bears does not fall. */
+/* Marks bodies that a contact bears, because they do not fall. */
 SHARED void mark_borne(GLOBAL const Parameters *parameters, const contact_setup *s, mask near, GLOBAL uint *body_falls)
 {
   mask bears = near & bears_weight(gravity_of(parameters), s->normal);
@@ -335,7 +337,7 @@ SHARED real friction_between(const contact_setup *s, vec3 center_a, vec3 center_
   return choose(length_of(slide) < STICKING_SPEED, s->between.static_friction, s->between.dynamic_friction);
 }
 
-/* The impulse of the last step, along the tangents of now. */
+/* The friction impulse of the last step, along the tangents of this step. */
 SHARED vec4 kept_friction(const old_impulses *old, vec3 normal, real radius)
 {
   tangents t = tangents_of(normal);

@@ -1,8 +1,8 @@
 /* rolling.h - rolling and spinning friction from materials: coefficients, and the torque of the last step.
  *
  * A contact of zero size gives no torque against rolling. Real contacts have a size, and their pressure moves ahead of
- * the centre. The material states by how much, in metres: the torque that resists is that length times the normal
- * force. See shared/solve/rolling.h. Only in scenes where a material has it.
+ * the centre. The material states by how much, in metres; the torque that resists is that length times the normal force
+ * (shared/solve/rolling.h). The kernel exists only in scenes whose materials have such friction.
  */
 #ifndef TANDEM_SHARED_SETUP_ROLLING_H
 #define TANDEM_SHARED_SETUP_ROLLING_H

@@ -1,23 +1,24 @@
 /* avbd.h - augmented vertex block descent: constraints as penalties with multipliers, and their update.
  *
- * Giles, Diaz and Yuksel, "Augmented Vertex Block Descent", SIGGRAPH 2025. Bodies minimise the energy of an implicit
- * step,
+ * The method is that of Giles, Diaz and Yuksel, "Augmented Vertex Block Descent", SIGGRAPH 2025. Bodies minimise the
+ * energy of an implicit step,
  *
  *   1/2 (w - v*)^T M (w - v*)  +  penalties     w: velocities over the substep, v*: those of inertia and gravity alone
  *
- * one body at a time with all others held (avbd_bodies.h), then every constraint takes the force of its penalty into
- * its multiplier and grows stiffer by how far it is violated:
+ * one body at a time with all others fixed (avbd_bodies.h). Then every constraint adds the force of its penalty to its
+ * multiplier, and its penalty grows with its violation:
  *
  *   impulse    p = clamp(lambda - kappa c)      lambda <- p,   kappa <- kappa + beta m |c|  unless p was clamped
  *
- * All is in velocities: c = h J w + s over h (m/s), kappa = h^2 times the paper's stiffness (kg), p = h times its force
- * (N s), so that kappa compares with the effective mass m of its row and needs no unit of its own. The change of
- * position is h w by construction. Of a penetration s < 0 a share of 1 - alpha is corrected in a step, as in the paper;
- * points ahead of touching keep their whole distance. A penalty far above the mass it moves locks two bodies to each
- * other's velocity of the moment: in an impact they would not share their momentum within the iterations of a step. So
- * one grows freely to a few masses only and then by a factor, which takes a lasting load of 1,000 masses some steps and
- * leaves impacts alone. Normal rows stand at the points, friction (a circular cone of two tangents, and a twist) at the
- * centre of the manifold. A clamped row is as stiff as the force it still bears over its violation.
+ * All quantities are in velocities: c = h J w + s over h (m/s), kappa = h^2 times the paper's stiffness (kg), p = h
+ * times its force (N s). kappa therefore compares with the effective mass m of its row and needs no unit of its own.
+ * The change of position is h w by construction. A share of 1 - alpha of a penetration s < 0 is corrected in a step, as
+ * in the paper; speculative points keep their whole distance. A penalty far above the mass that it moves locks two
+ * bodies to each other's current velocity, so in an impact they would not share their momentum within the iterations of
+ * a step. A penalty therefore grows freely to a few masses only and then by a factor, which takes some steps for a
+ * lasting load of 1,000 masses and does not affect impacts. Normal rows act at the points, and friction (a circular
+ * cone of two tangents, and a twist) at the centre of the manifold. The stiffness of a clamped row is the force that it
+ * still bears over its violation.
  */
 #ifndef TANDEM_SHARED_SOLVE_AVBD_H
 #define TANDEM_SHARED_SOLVE_AVBD_H
@@ -28,8 +29,8 @@
 #define AVBD_GAMMA R(0.99)        /* what multipliers and penalties keep from one step to the next */
 #define AVBD_BETA R(30.0)         /* s/m, growth of a penalty in units of the effective mass */
 #define AVBD_FIRST_PENALTY R(1.0) /* of a new point, in units of the effective mass */
-#define AVBD_FREE_PENALTY R(2.0)  /* up to here a penalty grows as it will, */
-#define AVBD_GROWTH R(1.04)       /* from there on at most so much in an iteration */
+#define AVBD_FREE_PENALTY R(2.0)  /* up to this a penalty grows freely */
+#define AVBD_GROWTH R(1.04)       /* beyond it, the largest growth in an iteration */
 #define AVBD_LAST_PENALTY R(1e4)
 
 /* Impulses and violations of one constraint at the present velocities. */
@@ -43,14 +44,15 @@ typedef struct {
   real slide_speed, twist_speed;
 } contact_forces;
 
-/* Penetration and approach of point k as a speed that the constraint wants to be 0 or more. */
+/* The violation of point k as a speed, from its penetration and approach; the constraint requires it to be 0 or
+ * more. */
 SHARED real point_violation(GLOBAL const Parameters *parameters, real separation, real speed)
 {
   real recovered = maximum((R(1.0) - AVBD_ALPHA) * separation * parameters->inverse_substep, -parameters->push_speed);
   return choose(separation > R(0.0), separation * parameters->inverse_substep, recovered) + speed;
 }
 
-/* How much of a force of this size a limit leaves. */
+/* The share of a force of this size that a limit leaves. */
 SHARED real share_within(real size, real limit)
 {
   mask beyond = size > limit;
@@ -77,7 +79,7 @@ SHARED void friction_forces(contact_forces *f, contact c, arm_shift shift, vec4 
   f->twist = twist * f->twist_share;
 }
 
-/* penalty, second row: those of sliding and of twisting. */
+/* The second row of `penalty` holds the penalties of sliding and of twisting. */
 SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patches patches,
                                 GLOBAL const float4 *constraint_normal_impulse,
                                 GLOBAL const float4 *constraint_friction_impulse,
@@ -106,7 +108,7 @@ SHARED contact_forces forces_of(GLOBAL const Parameters *parameters, read_patche
   return f;
 }
 
-/* Bodies start from where they would be without gravity if something touches them: most of them rest on it. */
+/* A body with constraints starts from its position without gravity, because most such bodies rest on another one. */
 SHARED void avbd_begin_item(GLOBAL const Parameters *parameters, GLOBAL const float4 *body_mass,
                             GLOBAL const uint *body_constraint_start, GLOBAL float4 *solver_velocity,
                             GLOBAL float4 *avbd_target, item_index i)
@@ -126,7 +128,7 @@ SHARED real kept_penalty(real mass, real old)
                 (real)R(0.0));
 }
 
-/* Penalties of the same features in the last step; a pair that did not touch then has none. */
+/* The penalties of the same features in the last step; a pair that did not touch then has none. */
 SHARED void avbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
                               GLOBAL const uint *manifold_feature, GLOBAL const uint *cached_color,
                               GLOBAL const uint *cached_feature, GLOBAL const float4 *cached_penalty,

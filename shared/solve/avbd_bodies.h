@@ -1,23 +1,24 @@
 /* avbd_bodies.h - augmented vertex block descent: one body against all its constraints; see avbd.h.
  *
- * A Newton step on the six velocities of a body, in coordinates y = M^(1/2) (w - v*), angles along its principal axes:
+ * The solver makes a Newton step on the six velocities of a body, in coordinates y = M^(1/2) (w - v*) with angles along
+ * its principal axes:
  *
  *   (1 + sum kappa j j^T) dy = -y + sum j p      j = M^(-1/2) J: the row of a constraint, p: its impulse
  *
- * So the matrix is the unit matrix and more, pivots are at least 1 whatever the masses, and a moment that is infinite
- * is a row of zeros. L D L^T by hand, 21 numbers.
+ * The matrix is the unit matrix plus a positive semidefinite one, so pivots are at least 1 whatever the masses, and an
+ * infinite moment of inertia gives a row of zeros. The factorisation L D L^T of its 21 numbers is written out.
  */
 #ifndef TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 #define TANDEM_SHARED_SOLVE_AVBD_BODIES_H
 
 #include "shared/solve/avbd.h"
 
-/* Lower triangle, row by row, and right-hand side. */
+/* The lower triangle, row by row, and the right-hand side. */
 typedef struct {
   real matrix[21], vector[6];
 } block_system;
 
-/* What turns a row of a constraint into the body's own coordinates. side: -1 for body a, 1 for b. */
+/* The transformation of a constraint row into the body's own coordinates. side: -1 for body a, 1 for b. */
 typedef struct {
   mat3 axes;
   vec3 root_moments; /* of the inverse */
@@ -29,7 +30,7 @@ SHARED real over_or_zero(real x, real divisor)
   return choose(divisor > R(0.0), x / choose(divisor > R(0.0), divisor, (real)R(1.0)), (real)R(0.0));
 }
 
-/* zero: a 0 from memory, for llvmpipe takes 0 + x for x, also for -0. */
+/* zero: a 0 from memory, because llvmpipe simplifies 0 + x to x, also for -0. */
 SHARED block_system begin_block(block_frame frame, spatial_velocity m, spatial_velocity target, real zero)
 {
   block_system s;
@@ -46,7 +47,7 @@ SHARED block_system begin_block(block_frame frame, spatial_velocity m, spatial_v
   return s;
 }
 
-/* Coordinates `first` to 5 of a row. */
+/* Adds the coordinates `first` to 5 of a row. */
 SHARED void add_row_from(block_system *s, uint first, const real *j, real stiffness, real impulse)
 {
   for (uint r = first; r < 6u; ++r) {
@@ -65,7 +66,7 @@ SHARED void add_row(block_system *s, block_frame frame, vec3 direction, vec3 tur
   add_row_from(s, 0u, j, stiffness, impulse);
 }
 
-/* A row that only turns. */
+/* Adds a row that only turns the body. */
 SHARED void add_turning_row(block_system *s, block_frame frame, vec3 turn, real stiffness, real impulse)
 {
   vec3 twist = scale(multiply(rotate_back(frame.axes, turn), frame.root_moments), frame.side);
@@ -73,8 +74,8 @@ SHARED void add_turning_row(block_system *s, block_frame frame, vec3 turn, real 
   add_row_from(s, 3u, j, stiffness, impulse);
 }
 
-/* L D L^T in place, and the solution in place of the right-hand side. Rounding cannot take a pivot below the 1 it
- * has. */
+/* Factorises L D L^T in place, and replaces the right-hand side by the solution. Rounding cannot take a pivot below 1,
+ * because terms are only added to it. */
 SHARED void solve_block(block_system *s)
 {
   real *m = s->matrix, *v = s->vector;
@@ -104,7 +105,7 @@ SHARED void add_contact(block_system *s, block_frame frame, GLOBAL const float4 
   real held = R(0.0);
   for (uint k = 0; k < 4u; ++k) {
     if (f.impulse[k] > R(0.0) ||
-        component(multipliers, k) > R(0.0)) /* one that just let go may press again: it stays stiff */
+        component(multipliers, k) > R(0.0)) /* a point that has just parted may press again, so it stays stiff */
       add_row(s, frame, c.normal, frame.side > R(0.0) ? f.r_cross_n_b[k] : f.r_cross_n_a[k], component(penalty, k),
               f.impulse[k]);
     held = held + f.impulse[k];
@@ -145,7 +146,7 @@ SHARED void avbd_body(GLOBAL const Parameters *parameters, read_blocks blocks, r
   store_velocity(solver_velocity, body, m);
 }
 
-/* Bodies of one colour, all at once. */
+/* Solves the bodies of one colour at once. */
 SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
                              read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
                              GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,
@@ -155,8 +156,8 @@ SHARED void avbd_bodies_item(GLOBAL const Parameters *parameters, read_blocks bl
             sort_value[i]);
 }
 
-/* The bodies from this colour on, in order by one item: those of colours that the host did not expect, and the overflow
- * constraints. Bodies of one colour do not touch, so the result is that of launching each colour. */
+/* One item solves the bodies from this colour on in order: those of colours that the host did not launch, and those of
+ * the overflow colour. Bodies of one colour share no constraint, so the result is that of launching each colour. */
 SHARED void avbd_rest_item(GLOBAL const Parameters *parameters, read_blocks blocks, read_contacts contacts,
                            read_patches patches, read_duals duals, read_body_constraint_lists body_constraint_lists,
                            GLOBAL const uint *sort_value, GLOBAL const uint *counts, GLOBAL float4 *solver_velocity,

@@ -86,7 +86,7 @@ SHARED real speed_along(contact c, vec3 direction, vec3 r_cross_n_a, vec3 r_cros
          dot3(r_cross_n_a, c.velocity_a.angular);
 }
 
-/* What the bodies have moved since the step began. */
+/* The motion of the bodies since the step began. */
 typedef struct {
   vec3 translation, rotation_a, rotation_b;
 } delta_pose;
@@ -152,7 +152,7 @@ SHARED wrench wrench_of(contact c, normal_rows s, vec3 center_a, vec3 center_b, 
   return w;
 }
 
-/* The first substep of a step: the impulses of the last step. Later ones find theirs in warm_start_impulse. */
+/* Applies the impulses of the last step in the first substep. Later substeps find theirs in warm_start_impulse. */
 SHARED void warm_start_item(read_contacts contacts, read_patches patches,
                             GLOBAL const float4 *constraint_normal_impulse,
                             GLOBAL const float4 *constraint_friction_impulse, GLOBAL const float4 *solver_inertia,
@@ -191,10 +191,11 @@ typedef struct {
   vec4 impulse;
 } solved;
 
-/* Bodies that have turned by less, in radians, or slid by a smaller share of their arms, are as heavy to each other as
- * when the step began. Of a thin rod that is much: its axis has left the arm of its end by a part of its thickness. */
+/* The masses of the start of the step still hold for bodies that have turned by less than this, in radians, and slid by
+ * less than this share of their arms. For a thin rod this is a large motion: its axis has left the arm of its end by a
+ * part of its thickness. */
 #define SAME_PLACE R(0.02)
-/* So much more mobility than that of the stored mass does not make an iteration diverge. */
+/* A mobility higher than that of the stored mass by this factor does not make an iteration diverge. */
 #define SAME_MOBILITY R(1.05)
 
 SHARED mask masses_are_stale(delta_pose moved, arm_shift shift, vec4 center_a, vec4 center_b)
@@ -204,15 +205,16 @@ SHARED mask masses_are_stale(delta_pose moved, arm_shift shift, vec4 center_a, v
   return (turned > limit) | (slid > limit * (length_squared(xyz(center_a)) + length_squared(xyz(center_b))));
 }
 
-/* The bodies of a contact as setup has them, but for the offset, which serves no mass. */
+/* The bodies of a contact in the form that setup uses. The offset is not valid, because no mass depends on it. */
 SHARED body_pair bodies_of(contact c)
 {
   body_pair bodies = {c.a, c.b, c.velocity_a, c.velocity_b, c.inertia_a, c.inertia_b, c.normal};
   return bodies;
 }
 
-/* What has turned, or whose arms have followed it, would be turned faster by an impulse for the stored mass than it
- * slides, each time more: it gets the mass of its slide now. slide: along the tangents. */
+/* The friction mass at the current poses. A body that has turned, or whose arms have followed it, would get more
+ * turning than sliding from an impulse for the stored mass, and more each time; it gets the mass along its slide
+ * instead. slide: along the tangents. */
 SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, vec3 arm_a, vec3 arm_b)
 {
   if (!any_of(stale)) return stored;
@@ -221,8 +223,8 @@ SHARED real friction_mass_now(contact c, mask stale, real stored, vec3 slide, ve
   return choose(diverges, squared / choose(diverges, mobility, (real)R(1.0)), stored);
 }
 
-/* Twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the masses
- * are. */
+/* Solves the twist about the normal and the cone of sliding friction at the centre of the manifold. stale: whether the
+ * stored masses are stale. */
 SHARED solved solve_friction(contact c, mask stale, arm_shift shift, vec4 center_a, vec4 center_b, vec4 impulse,
                              real normal_impulse_sum)
 {
@@ -330,7 +332,7 @@ SHARED contact solve_normals(GLOBAL const Parameters *parameters, contact c, nor
  * moving; these bring all points to rest. */
 #define IMPACT_ROUNDS 15u
 
-/* Impulses that change the rows of a manifold, at once, so that momentum is rounded once. */
+/* Applies changed impulses of a manifold's rows together, so that momentum is rounded once. */
 SHARED contact apply_changes(contact c, const normal_rows *s, vec4 changes)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0)), r_cross_n_a = none, r_cross_n_b = none;

@@ -1,9 +1,9 @@
-/* mass_split.h - contact rows that are solved all at once: bodies split into as many parts as they have constraints.
+/* mass_split.h - contact rows that are solved at the same time, with bodies split into as many parts as they have
+ * constraints.
  *
- * Colours let one constraint after the other change a body. Here every constraint works on parts of its bodies that are
- * its own, of mass m / n and inertia I / n where the body has n constraints; then the n parts are joined again, at
- * their mean velocity (Tonge, Benevolenski and Voroshilov, "Mass Splitting for Jitter-Free Parallel Rigid Body
- * Simulation", 2012):
+ * Colours let one constraint after the other change a body. Here every constraint works on its own parts of its bodies,
+ * with mass m / n and inertia I / n if the body has n constraints. Then the n parts are joined again at their mean
+ * velocity (Tonge, Benevolenski and Voroshilov, "Mass Splitting for Jitter-Free Parallel Rigid Body Simulation", 2012):
  *
  *           n = 3                    P1 acts on m/3:   v1 = v + 3 P1 / m
  *        1  2  3                     P2, P3 alike
@@ -27,11 +27,11 @@
  * colours, so only a scene with overflow constraints has such a body. */
 #define SPLIT_DIRECT 64u
 #define SPLIT_CHUNK 32u
-/* Each body's partial sums have a place of their own: one of 32 entries needs less than two for each 32. */
+/* The partial sums of each body have a place of their own: a list of 32 entries needs less than two for each 32. */
 #define SPLIT_FIRST_SUM(start) ((start) >> 4u)
 
-/* The constraints of a body with static bodies carry all that rests on the body, so together they get as large a part
- * of it as all others together. */
+/* The constraints of a body with bodies that cannot be pushed carry all that rests on the body, so together they get as
+ * large a part of it as all others together. */
 SHARED real parts_of(GLOBAL const uint *body_constraint_start, GLOBAL const uint *split_static_constraints,
                      uint_lanes body, mask supported)
 {
@@ -47,7 +47,7 @@ SHARED symmetric3 scaled_inertia(symmetric3 m, real s)
   return r;
 }
 
-/* Makes the two bodies of a contact their parts. */
+/* Replaces the two bodies of a contact by their parts. */
 SHARED contact split_contact(contact c, real parts_a, real parts_b)
 {
   c.velocity_a.inverse_mass = c.velocity_a.inverse_mass * parts_a;
@@ -57,7 +57,7 @@ SHARED contact split_contact(contact c, real parts_a, real parts_b)
   return c;
 }
 
-/* Once a step: the effective masses between parts, and how many parts there are. */
+/* Runs once a step: computes the effective masses between parts, and the numbers of parts. */
 SHARED void split_masses_item(read_contacts contacts, read_patches patches, GLOBAL const float4 *solver_velocity,
                               GLOBAL const float4 *solver_inertia, GLOBAL const uint *body_constraint_start,
                               GLOBAL const uint *split_static_constraints, GLOBAL const uint *counts,
@@ -121,7 +121,7 @@ SHARED void split_warm_start_item(read_contacts contacts, read_patches patches,
   store_wrench(split_impulse, stride, i, w);
 }
 
-/* The points of a manifold between parts. */
+/* The normal rows of a manifold between parts. */
 SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points, uint stride, contact c,
                                           arm_shift shift, vec4 impulses, vec4 masses, item_index i)
 {
@@ -130,7 +130,7 @@ SHARED normal_rows load_split_normal_rows(GLOBAL const float4 *constraint_points
   return s;
 }
 
-/* What the points get beyond `old`. */
+/* The wrench of the points beyond the impulses `old`. */
 SHARED wrench wrench_of_points(contact c, const normal_rows *s, vec4 old, vec4 impulses)
 {
   real sum = impulses.x - old.x;
@@ -152,7 +152,7 @@ SHARED wrench add_wrench(wrench a, wrench b)
   return w;
 }
 
-/* Nesterov's extrapolation: on past `now` by a share of the last change. */
+/* Nesterov's extrapolation: continues beyond `now` by a share of the last change. */
 SHARED vec4 extrapolated(vec4 now, vec4 before, real share)
 {
   return make_vec4(now.x + share * (now.x - before.x), now.y + share * (now.y - before.y),
@@ -166,7 +166,7 @@ SHARED vec4 extrapolated_normal(vec4 now, vec4 before, real share)
                    maximum(now.w + share * (now.w - before.w), R(0.0)));
 }
 
-/* A contact between parts, as an iteration finds it. momentum: of split_solve_item. */
+/* A contact between parts during an iteration. momentum: as in split_solve_item. */
 typedef struct {
   contact c;
   delta_pose moved;
@@ -193,7 +193,7 @@ SHARED split_row load_split_row(read_contacts contacts, GLOBAL const float4 *spl
 
 SHARED real share_of_momentum(uint momentum) { return (real)momentum / ((real)momentum + R(3.0)); }
 
-/* Solves friction of the rough rows, and gives what it does to the bodies beyond the impulse before. */
+/* Solves the friction of rows with friction, and returns its wrench beyond the impulses before. */
 SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patches, uint stride, real normal_impulse_sum,
                                    GLOBAL float4 *friction_impulse, GLOBAL float4 *rubbed, item_index i)
 {
@@ -211,7 +211,7 @@ SHARED wrench solve_split_friction(split_row *r, mask rough, read_patches patche
                          next.y - old.y, next.z - old.z);
 }
 
-/* Presses the points together, each towards the impulse that it wishes by itself. */
+/* Solves the points of a manifold together, each toward its own target impulse. */
 SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r, normal_rows *s, read_patches patches,
                                uint stride, uint biased, item_index i)
 {
@@ -231,7 +231,7 @@ SHARED void press_split_points(GLOBAL const Parameters *parameters, split_row *r
   r->c = block_solve_normals(r->c, s, target_impulse);
 }
 
-/* The normal impulses that the next iteration starts from. */
+/* Stores the normal impulses from which the next iteration starts. */
 SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 normal_impulses, uint momentum, uint stride,
                                 write_contact_impulses contact_impulses, GLOBAL float4 *pushed, item_index i)
 {
@@ -243,10 +243,10 @@ SHARED vec4 keep_split_impulses(GLOBAL const Parameters *parameters, vec4 normal
   return next;
 }
 
-/* momentum: the number of the iteration, from 0, and 0 again for the last, which shall end within the cones. Iterations
- * before go on in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's Method to
- * Accelerate Multibody Dynamics with Friction and Contact", 2015): splitting bounds the coupling of rows from above,
- * which is what the method asks for. */
+/* momentum: the number of the iteration, from 0, and 0 again for the last one, which must end within the cones. Earlier
+ * iterations are extrapolated in the direction of the last change (Nesterov 1983; Mazhar and others, "Using Nesterov's
+ * Method to Accelerate Multibody Dynamics with Friction and Contact", 2015). The method requires an upper bound of the
+ * coupling of rows, which splitting gives. */
 SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                              GLOBAL const float4 *split_mass, read_solver_bodies solver_bodies,
                              GLOBAL const uint *counts, write_contact_impulses contact_impulses,
@@ -273,7 +273,7 @@ SHARED void split_solve_item(GLOBAL const Parameters *parameters, read_contacts 
   store_wrench(split_impulse, stride, i, choose_wrench(rough, add_wrench(given, rubbed), given));
 }
 
-/* One round of restitution: points that were pressed towards their target velocity. */
+/* Makes one round of restitution: points that carried an impulse approach their target velocity. */
 SHARED void split_restitution_item(read_contacts contacts, read_patches patches,
                                    GLOBAL const float4 *constraint_restitution, GLOBAL const float4 *split_mass,
                                    read_solver_bodies solver_bodies, GLOBAL const uint *counts,
@@ -305,7 +305,7 @@ typedef struct {
   vec3 linear, angular;
 } impulse_sum;
 
-/* What entry `at` of the lists gives its body. */
+/* The impulse that entry `at` of the lists gives to its body. */
 SHARED impulse_sum load_entry(GLOBAL const uint *body_constraint, GLOBAL const float4 *split_impulse, uint stride,
                               mask wanted, uint_lanes at)
 {
@@ -336,7 +336,7 @@ SHARED impulse_sum add_term(impulse_sum sum, impulse_sum term, mask wanted, uint
 
 SHARED mask is_nonzero(vec3 v) { return (v.x != R(0.0)) | (v.y != R(0.0)) | (v.z != R(0.0)); }
 
-/* Joins the parts of a body. trees: whether the sums of bodies with long lists have been made. */
+/* Joins the parts of a body. trees: whether the sums of bodies with long lists have been computed. */
 SHARED void split_apply_item(GLOBAL const uint *body_constraint_start, GLOBAL const uint *body_constraint,
                              GLOBAL const float4 *split_impulse, GLOBAL const float4 *split_partial,
                              GLOBAL const float4 *solver_inertia, GLOBAL const uint *counts,

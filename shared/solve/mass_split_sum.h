@@ -1,20 +1,19 @@
-/* mass_split_sum.h - the impulses on a body of very many constraints, added in a tree that no backend changes.
+/* mass_split_sum.h - adds the impulses on a body of very many constraints in a tree that is the same on all backends.
  *
- * A floor that moves may carry ten thousand boxes, which would keep one item busy for very long. Items therefore add
- * runs of SPLIT_CHUNK entries of its list, other items add runs of such sums, and split_apply adds the few that are
- * left:
+ * A moving floor may carry ten thousand boxes, which would keep one item busy for very long. Items therefore add runs
+ * of SPLIT_CHUNK entries of its list, other items add runs of such sums, and split_apply adds the few that are left:
  *
  *   entries of a body   | 32 | 32 | 32 | .. | 32 |  ..          split_sum:   a sum at the first of each run
  *   sums                  s0   s1   s2  ..   s31  | s32 ..      split_join:  s0 = s0 + .. + s31
  *
- * Runs are counted from the start of the body's own list. Launched only where there are overflow constraints.
+ * Runs are counted from the start of the body's own list. The kernels run only if there are overflow constraints.
  */
 #ifndef TANDEM_SHARED_SOLVE_MASS_SPLIT_SUM_H
 #define TANDEM_SHARED_SOLVE_MASS_SPLIT_SUM_H
 
 #include "shared/solve/mass_split.h"
 
-/* Counts the constraints that each moving body has with what cannot move. */
+/* Counts the constraints that each dynamic body has with bodies that cannot be pushed. */
 SHARED void split_count_static_item(GLOBAL const uint *constraint_a, GLOBAL const uint *constraint_b,
                                     GLOBAL const uint *body_flags, GLOBAL uint *split_static_constraints, uint i)
 {
@@ -24,12 +23,12 @@ SHARED void split_count_static_item(GLOBAL const uint *constraint_a, GLOBAL cons
   if (moving_a != moving_b) ATOMIC_ADD(split_static_constraints + (moving_a ? a : b), 1u);
 }
 
-/* A run of a long list that starts at an entry. */
+/* The run of a long list that starts at an entry. */
 typedef struct {
   uint starts, place, length;
 } list_run;
 
-/* every: entries between the starts of two runs. Lengths are in units of `unit` entries. */
+/* every: the number of entries between the starts of two runs. Lengths are in units of `unit` entries. */
 SHARED list_run run_at(GLOBAL const uint *body_constraint_key, GLOBAL const uint *body_constraint_start,
                        GLOBAL const uint *counts, uint every, uint unit, uint i)
 {

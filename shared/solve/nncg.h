@@ -1,32 +1,32 @@
-/* nncg.h - nonsmooth nonlinear conjugate gradients over the passes of pgs.h.
+/* nncg.h - the nonsmooth nonlinear conjugate gradient method over the passes of pgs.h.
  *
  * Silcowitz, Niebe and Erleben, "A Nonsmooth Nonlinear Conjugate Gradient Method for Interactive Contact Force
  * Problems", The Visual Computer 26, 2010. A pass of projected Gauss-Seidel maps all impulses x to PGS(x), and
  * x - PGS(x) takes the place of the gradient in the method of Fletcher and Reeves:
  *
- *     change = PGS(x) - x                             what the pass did
- *     beta   = |change|^2 / |change before|^2         0 at first, and where it would be above 1: a restart
- *     x      = PGS(x) + beta direction                impulses, and by warm start's arithmetic the velocities
+ *     change = PGS(x) - x                             the change by the pass
+ *     beta   = |change|^2 / |change before|^2         0 at first, and in place of values above 1: a restart
+ *     x      = PGS(x) + beta direction                impulses, and velocities by the arithmetic of warm starting
  *     direction = beta direction + change
  *
- * A pass comes last, so the resulting impulses lie in their cones.
+ * The last operation is a pass, so the resulting impulses lie in their cones.
  *
- * The square of a change is measured in joules, impulse^2 / effective mass of its row: rows of different units
- * (normal and friction N s, twist N m s) can be added so, and it is the product that conjugate gradients preconditioned
- * by the diagonal take. Sums follow the fixed tree of parallel/reduce.h and beta never leaves the device.
+ * The square of a change is measured in joules: impulse^2 / effective mass of its row. Rows of different units (normal
+ * and friction N s, twist N m s) can then be added, and it is the inner product of conjugate gradients with the
+ * diagonal as preconditioner. Sums follow the fixed tree of parallel/reduce.h, and beta never leaves the device.
  */
 #ifndef TANDEM_SHARED_SOLVE_NNCG_H
 #define TANDEM_SHARED_SOLVE_NNCG_H
 
 #include "shared/solve/contact.h"
 
-/* Places in nncg_state. */
+/* Indices in nncg_state. */
 enum { NNCG_SUM_BEFORE, NNCG_BETA };
 
 /* A change smaller than this, in joules, gives no direction. The bound also keeps the quotient a normal number. */
 #define NNCG_LEAST R(1e-30)
 
-/* Before the first pass: nothing has changed yet, no direction. */
+/* Before the first pass there is neither a change nor a direction. */
 SHARED void nncg_begin_item(GLOBAL const float4 *constraint_normal_impulse,
                             GLOBAL const float4 *constraint_friction_impulse, GLOBAL const uint *counts,
                             GLOBAL float4 *nncg_impulse, GLOBAL float4 *nncg_direction, item_index i)
@@ -45,7 +45,7 @@ SHARED real energy_of(real change, real mass)
   return choose(used, change * change / choose(used, mass, (real)R(1.0)), (real)R(0.0));
 }
 
-/* After a pass: the square of what it changed at this manifold. */
+/* Computes, after a pass, the square of its change at this manifold. */
 SHARED void nncg_change_item(GLOBAL const float4 *constraint_points, GLOBAL const float4 *constraint_center,
                              GLOBAL const float4 *constraint_normal_impulse,
                              GLOBAL const float4 *constraint_friction_impulse, GLOBAL const float4 *nncg_impulse,
@@ -63,7 +63,7 @@ SHARED void nncg_change_item(GLOBAL const float4 *constraint_points, GLOBAL cons
   store_real(nncg_square, i, sum);
 }
 
-/* begins: the first pass of a series, which has no change before it. */
+/* begins: whether the pass is the first of a series, which has no change before it. */
 SHARED void nncg_beta_item(GLOBAL const memory_real *nncg_sum, GLOBAL memory_real *nncg_state, uint begins, uint only)
 {
   (void)only;
@@ -81,7 +81,7 @@ SHARED vec4 change_between(vec4 before, vec4 now)
   return make_vec4(now.x - before.x, now.y - before.y, now.z - before.z, now.w - before.w);
 }
 
-/* Goes on along the direction, with impulses and velocities alike. The twist radius, w of friction, never changes. */
+/* Continues along the direction, for impulses and velocities alike. The twist radius, w of friction, never changes. */
 SHARED void nncg_advance_item(read_contacts contacts, read_patches patches, GLOBAL const float4 *solver_inertia,
                               GLOBAL const float4 *solver_delta_pose, GLOBAL const memory_real *nncg_state,
                               GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,

@@ -1,4 +1,4 @@
-/* overflow.h - the constraints past the last colour, in order by one item: for rows that mass_split.h does not have.
+/* overflow.h - solves the constraints past the last colour in order by one item, for rows that mass_split.h lacks.
  *
  * The result is right and has the same bits everywhere, but the time grows with the number of overflow constraints.
  */

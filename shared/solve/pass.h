@@ -1,4 +1,4 @@
-/* pass.h - what a pass over the constraints of a substep does; the kernels and the host's solvers all take these. */
+/* pass.h - the kinds of passes over the constraints of a substep, for the kernels and the host's solvers. */
 #ifndef TANDEM_SHARED_SOLVE_PASS_H
 #define TANDEM_SHARED_SOLVE_PASS_H
 
@@ -6,7 +6,7 @@ enum {
   PASS_BIASED,   /* penetration is pushed out */
   PASS_RELAXING, /* without bias; gathers the warm start of the next substep */
   PASS_LAST,     /* without bias; no substep follows, or it is warm-started otherwise */
-  PASS_BOUNCING  /* with the wished speeds of restitution; host/pipeline/solvers/islands.h alone */
+  PASS_BOUNCING  /* with the target velocities of restitution; host/pipeline/solvers/islands.h alone */
 };
 
 #endif

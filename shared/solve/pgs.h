@@ -1,33 +1,34 @@
 /* pgs.h - projected Gauss-Seidel on velocities, row by row, a batch at a time.
  *
- * The order of rows follows the talks, where a constraint solver is two kernels over all batches, contact and
- * friction ("GPU Rigid Body Simulation", 2013; GS-4150, 2013; solving in batches and warm starting from cached
- * contacts: "OpenCL Game Physics", 2009). One pass is
+ * The order of rows follows the talks, whose constraint solver consists of two kernels over all batches, contact and
+ * friction ("GPU Rigid Body Simulation", 2013; GS-4150, 2013; for solving in batches and warm starting from cached
+ * contacts, "OpenCL Game Physics", 2009). One pass is
  *
  *     for each colour: for each manifold: point 0, point 1, point 2, point 3    pgs_normals
  *     for each colour: for each manifold: twist, then the cone of sliding       pgs_friction
  *
- * so friction always uses the normal impulses of its own pass. Each point is a row of its own and sees what the points
- * before it did to the bodies. Only the cone differs from the talks, which clamp two tangents each by itself.
+ * so friction always uses the normal impulses of its own pass. Each point is a row of its own and starts from the
+ * velocities that the points before it left. Only the cone differs from the talks, which clamp the two tangents one by
+ * one.
  *
  *     normal:    impulse = max(impulse - mass (speed + bias), 0)
- *     ahead      bias = s / h             the gap s may close within the substep, and no more
- *     in overlap bias = share (s + slop) / h, at most the push speed (Baumgarte)
+ *     apart:     bias = s / h             the gap s may close within the substep, and no more
+ *     overlap:   bias = share (s + slop) / h, at most the push speed (Baumgarte)
  *
- * Baumgarte's bias alone would leave bodies with the speed that drove them apart. The bodies therefore move with the
- * bias, and passes without it follow, which take out what it added. The impulses kept for the next step are those of
- * the forces alone.
+ * Baumgarte's bias alone would leave bodies with the speed that separated them. The bodies therefore move with the
+ * bias, and then passes without it remove the speed that it added. The impulses kept for the next step are those of the
+ * passes without bias.
  */
 #ifndef TANDEM_SHARED_SOLVE_PGS_H
 #define TANDEM_SHARED_SOLVE_PGS_H
 
 #include "shared/solve/contact.h"
 
-/* How much of an overlap a substep removes. */
+/* The share of an overlap that a substep removes. */
 #define PGS_BIAS_SHARE R(0.2)
 
-/* The new accumulated impulse of a normal row. Without bias a point still ahead that has carried nothing stays so, for
- * the motion it would limit comes later. */
+/* The new accumulated impulse of a normal row. Without bias, a speculative point that has carried no impulse keeps
+ * none, because the motion that it would limit comes later. */
 SHARED real pgs_impulse(GLOBAL const Parameters *parameters, real slop_or_deep, real separation, real speed, real mass,
                         real old, uint biased)
 {
@@ -91,8 +92,8 @@ SHARED void pgs_friction_item(read_contacts contacts, GLOBAL const float4 *const
   store_contact_velocities(solver_velocity, with_velocities_if(rough, c, sliding.c));
 }
 
-/* Effective masses where the bodies are now. Many passes over masses of another place do not converge: where a long
- * body has turned, a row whose mass is more than twice what it should be doubles its error every pass. */
+/* Recomputes the effective masses at the current poses. Many passes with the masses of another pose do not converge: if
+ * a long body has turned, a row whose mass is more than twice the right one doubles its error in every pass. */
 SHARED void pgs_masses_item(read_contacts contacts, read_solver_bodies solver_bodies, GLOBAL const uint *counts,
                             GLOBAL float4 *constraint_points, GLOBAL float4 *constraint_center, item_index i)
 {

@@ -31,8 +31,8 @@ SHARED void warm_start_rolling_item(read_contacts contacts, GLOBAL const float4 
   store_contact_velocities(solver_velocity, with_velocities_if(wanted, c, apply_turn(c, torque, torque, R(1.0))));
 }
 
-/* 1 / largest eigenvalue of the inverse inertia within the tangent plane, so that a disc can be projected as a circle.
- * From where the bodies are now: they turn within the step. */
+/* 1 / the largest eigenvalue of the inverse inertia within the tangent plane, so that a disc can be projected as a
+ * circle. It is computed at the current poses, because bodies turn within the step. */
 SHARED real rolling_mass(contact c)
 {
   tangents t = tangents_of(c.normal);
@@ -50,7 +50,7 @@ SHARED real spinning_mass(contact c)
       dot3(c.normal, add(symmetric_times(c.inertia_a, c.normal), symmetric_times(c.inertia_b, c.normal))));
 }
 
-/* The longest part of v that is no longer than limit. */
+/* The vector v, shortened to `limit` if it is longer. */
 SHARED vec3 onto_disc(vec3 v, real limit)
 {
   real squared = length_squared(v);

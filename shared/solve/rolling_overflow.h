@@ -1,4 +1,4 @@
-/* rolling_overflow.h - rolling.h for constraints without a colour of their own, in order; see
+/* rolling_overflow.h - the passes of rolling.h over the constraints past the last colour, in order by one item; see
  * shared/solve/overflow.h. */
 #ifndef TANDEM_SHARED_SOLVE_ROLLING_OVERFLOW_H
 #define TANDEM_SHARED_SOLVE_ROLLING_OVERFLOW_H

@@ -1,29 +1,30 @@
 /* xpbd.h - extended position-based dynamics: each substep corrects positions, then velocities.
  *
- * Mueller, Macklin, Chentanez, Jeschke and Kim, "Detailed Rigid Body Simulation with Extended Position Based Dynamics",
- * SCA 2020; Macklin and Mueller, "XPBD", MIG 2016; Macklin and others, "Small Steps in Physics Simulation", 2019.
+ * The method is that of Mueller, Macklin, Chentanez, Jeschke and Kim, "Detailed Rigid Body Simulation with Extended
+ * Position Based Dynamics", SCA 2020; Macklin and Mueller, "XPBD", MIG 2016; Macklin and others, "Small Steps in
+ * Physics Simulation", 2019.
  *
- *   predict        v += h g                    x + h v is where the body would be
+ *   predict        v += h g                    x + h v is the predicted position
  *   positions      C = s + h J v, for each penetrating point dlambda = -C / (w + alpha), friction within its cone
  *   move           x += h v
- *   velocities     no point that was pressed parts, but by bouncing; friction takes what is left of sliding
+ *   velocities     points with an impulse must not part, except by bouncing; friction removes the rest of the sliding
  *
- * The substep's change of position is held as h v and corrected there: the paper's v = (x - x before) / h then holds to
- * the last bit without ever taking a difference of positions, which costs digits far from the origin. A correction
- * lambda of the paper is h times an impulse, and impulses (N s) are what is stored. Contacts are rigid (alpha = 0), and
- * the paper's multipliers start at 0 in each substep: there is no warm start. Where the paper leaves static friction
- * out as soon as it would leave the cone, it is projected on the cone, so that the velocity pass has only the remainder
- * to do. And where the paper undoes the sliding of one substep, what slipped earlier is remembered as long as friction
- * holds, also from step to step, or the little that each iteration leaves adds up: a box creeps, a pyramid spreads.
- * Constraints of one colour share no moving body.
+ * The change of position in the substep is stored as h v and corrected there. The paper's v = (x - x before) / h then
+ * holds to the last bit without a difference of positions, which would lose digits far from the origin. A correction
+ * lambda of the paper is h times an impulse, and the impulses (N s) are stored. Contacts are rigid (alpha = 0), and the
+ * paper's multipliers start at 0 in each substep, so there is no warm start. The paper omits static friction as soon as
+ * it would leave the cone; here it is projected onto the cone, so that the velocity pass only has the remainder to do.
+ * The paper undoes the sliding of one substep; here earlier slip is remembered as long as friction holds, also from
+ * step to step. Otherwise the little that each iteration leaves would add up: a box would creep, a pyramid would
+ * spread. Constraints of one colour share no moving body.
  */
 #ifndef TANDEM_SHARED_SOLVE_XPBD_H
 #define TANDEM_SHARED_SOLVE_XPBD_H
 
 #include "shared/solve/contact.h"
 
-/* What has slipped at the centre since friction last held it: a vector (m) and a twist about the normal (rad), as
- * speeds that would undo it within a substep. */
+/* The slip at the centre since friction last held: a vector (m) and a twist about the normal (rad), as the speeds that
+ * would undo it within a substep. */
 typedef struct {
   vec3 slide;
   real twist;
@@ -37,8 +38,8 @@ SHARED slipped slip_since(vec4 before, contact c, delta_pose moved, vec3 arm_a, 
   return s;
 }
 
-/* Twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the pressure must be
- * known first. spin, slide: what friction would undo. */
+/* Solves twist and cone at the centre of the manifold, after the points: the multipliers start at 0, so the normal
+ * impulses must be known first. spin, slide: the motion that friction undoes. */
 SHARED solved xpbd_twist(contact c, real spin, real mass, real limit, vec4 old)
 {
   real twist_limit = limit * old.w;
@@ -72,7 +73,7 @@ SHARED vec3 slide_between(contact c, vec3 arm_a, vec3 arm_b)
   return subtract(velocity_at(c.velocity_b, arm_b), velocity_at(c.velocity_a, arm_a));
 }
 
-/* Slip that the same pair still had to undo in the last step. */
+/* Loads the slip that the same pair still had to undo in the last step. */
 SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const uint *pair_cached,
                               GLOBAL const uint *cached_color, GLOBAL const float4 *cached_slip,
                               GLOBAL const float4 *constraint_normal, GLOBAL float4 *constraint_slip, item_index i)
@@ -87,7 +88,7 @@ SHARED void xpbd_prepare_item(GLOBAL const uint *constraint_pair, GLOBAL const u
   store_float4(constraint_slip, i, choose4(touched, extend(along, slip.w), none));
 }
 
-/* Presses the points together, each by what its position lacks. */
+/* Solves the points of a manifold together, each by the error of its position. */
 SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal_rows *s, delta_pose moved,
                           GLOBAL const float4 *constraint_points, uint stride, item_index i)
 {
@@ -102,7 +103,7 @@ SHARED contact xpbd_press(GLOBAL const Parameters *parameters, contact c, normal
   return block_solve_normals(c, s, target_impulse);
 }
 
-/* Friction undoes what slides now and what has slipped before. friction: its impulse so far. */
+/* Solves friction against the current sliding and earlier slip. friction: its impulse so far. */
 SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_pose moved, arm_shift shift,
                         read_patches patches, uint stride, vec4 slip_before, real limit, vec4 friction, item_index i)
 {
@@ -114,7 +115,7 @@ SHARED solved xpbd_hold(GLOBAL const Parameters *parameters, contact c, delta_po
   return xpbd_slide(held.c, slide, arm_a, arm_b, center_a.w, limit, held.impulse);
 }
 
-/* first_iteration: 1 in the first iteration of a substep, where multipliers start at 0. */
+/* first_iteration: 1 in the first iteration of a substep, in which multipliers start at 0. */
 SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                 GLOBAL const float4 *constraint_slip, GLOBAL const float4 *solver_inertia,
                                 GLOBAL const float4 *solver_delta_pose, GLOBAL const uint *counts,
@@ -146,8 +147,8 @@ SHARED void xpbd_positions_item(GLOBAL const Parameters *parameters, read_contac
   store_contact_velocities(solver_velocity, c);
 }
 
-/* Takes out the speed with which positions were pushed apart, at most all of the impulse that did it, and what sliding
- * the pressure of the whole substep still holds. */
+/* Removes the speed with which positions were separated, by at most the whole impulse that caused it, and the sliding
+ * that the normal impulses of the whole substep still hold. */
 SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_contacts contacts, read_patches patches,
                                  GLOBAL const float4 *solver_inertia, GLOBAL const float4 *solver_delta_pose,
                                  GLOBAL const uint *counts, GLOBAL float4 *constraint_normal_impulse,
@@ -184,7 +185,7 @@ SHARED void xpbd_velocities_item(GLOBAL const Parameters *parameters, read_conta
   store_contact_velocities(solver_velocity, with_velocities_if(pressing, before, c));
 }
 
-/* Friction at its limit holds nothing, so what slipped then is forgotten. Contacts without a normal impulse hold
+/* Friction at its limit holds nothing, so earlier slip is then forgotten. Contacts without a normal impulse hold
  * nothing either. */
 #define XPBD_HOLDS R(0.999)
 

@@ -1,15 +1,15 @@
-/* cast_shapes.h - the first body that a convex shape touches on each of many straight ways.
+/* cast_shapes.h - the first body that a convex shape touches along each of many straight paths.
  *
- * By conservative advancement (narrowphase/conservative_advancement.h): without turning, its bound is exact along the
- * normal, and a few distance queries a body are enough. The way ends up to the touching distance of that method before
- * the body, never behind.
+ * The kernel uses conservative advancement (narrowphase/conservative_advancement.h). Without rotation its bound is
+ * exact along the normal, and a few distance queries for each body are enough. The path ends up to the touching
+ * distance of that method before the body, never behind it.
  */
 #ifndef TANDEM_SHARED_SWEEPS_CAST_SHAPES_H
 #define TANDEM_SHARED_SWEEPS_CAST_SHAPES_H
 
 #include "shared/queries/body_parts.h"
 
-/* Of the least size: a query is not served by the broad margin of a contact. */
+/* A share of the least size. It is smaller than that of contacts, because a query must be more precise. */
 #define CAST_TOUCHING R(1e-5)
 
 SHARED toi_input cast_input(real length, real horizon, real least, real size)
@@ -19,7 +19,7 @@ SHARED toi_input cast_input(real length, real horizon, real least, real size)
   return input;
 }
 
-/* Where the surface of b is then, that a touches. */
+/* The point of the surface of b that a touches at the impact. */
 SHARED vec3 touched_point(const convex *a, const convex *b, impact met)
 {
   convex_pair pair = pair_of(a, b);
@@ -28,7 +28,7 @@ SHARED vec3 touched_point(const convex *a, const convex *b, impact met)
   return add_scaled(add(pair.origin, rotate(pair.axes, core)), met.normal, -core_radius(b));
 }
 
-/* moving: seen from its start; body: standing, seen from the same place. */
+/* moving: seen from its start. body: at rest, seen from the same point. */
 SHARED first_hit cast_against(const moving_convex *moving, const convex *body, mask is_plane, real reach, uint number)
 {
   vec3 none = make_vec3(R(0.0), R(0.0), R(0.0));
@@ -59,7 +59,7 @@ SHARED first_hit cast_against(const moving_convex *moving, const convex *body, m
   return hit;
 }
 
-/* Query i against all parts of a body. radius: of what is swept. */
+/* Casts query i against all parts of a body. radius: of the shape that is cast. */
 SHARED first_hit cast_against_body(const query_scene *scene, const moving_convex *moving, real radius, uint body,
                                    uint i)
 {
@@ -75,7 +75,7 @@ SHARED first_hit cast_against_body(const query_scene *scene, const moving_convex
   return nearest;
 }
 
-/* vertices: of the swept shape, if it is a hull; its size and bounding radius in shape_queries.shape. */
+/* vertices: their number if the cast shape is a hull. shape_queries.shape holds its size and bounding radius. */
 SHARED void cast_shapes_item(GLOBAL const Parameters *parameters, read_search_structures search_structures,
                              read_shapes shapes, read_surfaces surfaces, read_trees trees, read_bodies bodies,
                              read_shape_queries shape_queries, write_hits hits, uint kind, uint vertices,
@@ -94,7 +94,7 @@ SHARED void cast_shapes_item(GLOBAL const Parameters *parameters, read_search_st
   swept.hull.vertices = vertices;
   moving_convex moving = moving_convex_of(&swept, none, displacement, none, R(0.0));
   first_hit nearest = nothing_hit();
-  real reach = R(1.0), slack = R(1.001) * size.w; /* what touches ahead is hit */
+  real reach = R(1.0), slack = R(1.001) * size.w; /* includes the touching distance */
   body_walk walk;
   start_body_walk(&walk, &scene.bodies, start, displacement, make_vec3(slack, slack, slack));
   for (uint body = next_body_on_path(&walk, &scene.bodies, reach); body != INDEX_NONE;

@@ -1,11 +1,12 @@
 /* banned_operations - finds operations that do not give the same bits on every backend.
  *
  * Exactness rests on the few operations that every device rounds alike (docs/exactness.md). One fused multiply-add or
- * one built-in sine would pass every test on the machine of its author and differ on the next, so the sources are read.
+ * one built-in sine would pass every test on the machine of its author and differ on the next, so this check reads the
+ * sources.
  *
  *   shared/ cl/ minicl/            calls of banned functions, float atomics, fused and approximate intrinsics
  *   host/                          functions of the C library whose last bit differs between machines, where results
- *                                  hang on it, and roundings to float that a compiler may leave out
+ *                                  depend on it, and roundings to float that a compiler may leave out
  *   these, host/, tools/, CMake    compiler and OpenCL options that relax arithmetic, also within strings
  *
  * Usage: banned_operations ROOT              lists file:line: operation; exit status 1 if there is any

@@ -1,11 +1,13 @@
-/* include_directions - holds the sources to the table of CONTRIBUTING.md that says which folder may include which.
+/* include_directions - checks the sources against the table of CONTRIBUTING.md that states which folder may include
+ * which.
  *
- * Includes point one way: a folder may include those that stand above it in the table, and of these the ones that its
- * row names. A table whose rows name only rows above them has no circle, so neither have the folders. What is not
- * listed is refused, too: a new folder needs a row.
+ * Includes point one way: a folder may include those above it in the table, and of these the ones that its row names. A
+ * table whose rows name only rows above them has no cycle, so the folders have none. A folder that is not listed is
+ * refused, too: a new folder needs a row.
  *
- * Usage: include_directions ROOT              lists file:line: include; exit status 1 if there is any that the table
- *        include_directions --self-test DIR   does not allow plants what it must find in a tree under DIR
+ * Usage: include_directions ROOT              lists file:line: include that the table does not allow; exit status 1 if
+ *                                             there is any
+ *        include_directions --self-test DIR   plants what it must find in a tree under DIR
  */
 #include <algorithm>
 #include <filesystem>
@@ -95,7 +97,7 @@ std::optional<Row> row_of(const std::vector<Row> &table, const std::string &file
   return best;
 }
 
-/* Of the project's own files alone: public headers are included as <tandem/...>, all others from the root. */
+/* Only the project's own files are read: public headers are included as <tandem/...>, all others from the root. */
 std::optional<std::string> included_by(const std::string &line)
 {
   static const std::regex include("^\\s*#\\s*include\\s*[<\"]([^>\"]+)[>\"].*");

@@ -1,8 +1,8 @@
-/* probe.cpp - runs a small scene for gdb to stop in, and says what gdb must then see.
+/* probe.cpp - runs a small scene in which gdb stops, and prints the value that gdb must then show.
  *
- * After step 3's first launch of solve_contacts that holds item 17, the first normal impulse of that item is in the
- * buffer: the value that a debugger sees there at the end of that item, read without one. `probe threads` runs a scene
- * of which several threads have a share, for gdb to ask one of them for its step.
+ * The value is the first normal impulse of item 17 after step 3's first launch of solve_contacts that holds this item.
+ * A debugger sees it at the end of that item; the program reads it from the buffer. `probe threads` runs a scene that
+ * several threads share, so that gdb can inspect the step in one of them.
  */
 #include <cinttypes>
 #include <cstdio>

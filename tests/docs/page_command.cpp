@@ -1,5 +1,5 @@
-/* page_command.cpp - the command as far as the how-to pages run it, `plan` and `diff`: the whole of it would take
- * longer to compile than all else that their copy of the tree needs (apply_pages.sh). */
+/* page_command.cpp - the part of the command that the how-to pages run, `plan` and `diff`. The whole command would take
+ * longer to compile than all the rest of their copy of the tree (apply_pages.sh). */
 #include <fmt/format.h>
 
 #include <tandem/error.h>

@@ -1,15 +1,15 @@
-/* golden_hashes.cpp - what every compiler, optimisation level, processor and width must compute: hashes written down.
+/* golden_hashes.cpp - holds all compilers, optimisation levels, processors and widths to one result: hashes written
+ * down.
  *
- * A program of its own, which needs the library alone, so that trees of other compilers and processors build little. A
- * change of the physics or of a scene changes the hashes; then, and only then, write them anew and say why in the
- * commit:
+ * It is a program of its own that needs only the library, so that trees of other compilers and processors build little.
+ * A change of the physics or of a scene changes the hashes. Only then are they written anew, and the commit states why:
  *
  *     build/release/bin/golden_hashes --write
  *
- * Rows of tests/golden/hashes.txt: scene, solver, steps, and three hashes - of the bodies after the last step, of the
- * whole state then (contact cache and counts), and of the contact events of every step. A row of the same scene and
- * solver as the one above it goes on from there. --steps N leaves out what takes more than N steps, for builds that are
- * slow (without optimisation, or emulated).
+ * A row of tests/golden/hashes.txt holds scene, solver, steps, and three hashes: of the bodies after the last step, of
+ * the whole state then (contact cache and counts), and of the contact events of every step. A row with the scene and
+ * solver of the row above continues that run. --steps N leaves out rows of more than N steps, for slow builds (without
+ * optimisation, or emulated).
  */
 #include <fstream>
 #include <iostream>

@@ -1,8 +1,8 @@
-/* allocations.cpp - see allocations.h.
+/* allocations.cpp - the operators new and delete of tandem_heap_tests; see allocations.h.
  *
- * An executable of its own has these operators, since every other test is better off with those of the library or of
- * a sanitizer. They call malloc and free, which the sanitizers still watch: all that is lost to them here is whether
- * new goes with its own delete. */
+ * Only a program of its own has these operators, because all other tests should use those of the library or of a
+ * sanitizer. They call malloc and free, which the sanitizers still watch. The sanitizers only lose the check that each
+ * new has its own kind of delete. */
 #include "tests/heap/allocations.h"
 
 #include <algorithm>

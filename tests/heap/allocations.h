@@ -1,9 +1,9 @@
-/* allocations.h - the heap of tandem_heap_tests: which call of operator new fails, and what was taken and not given
- * back.
+/* allocations.h - the heap of tandem_heap_tests: selects the call of operator new that fails, and counts the blocks
+ * that are not released.
  *
- * All operators new and delete of that program are replaced, so this is what the library, the libraries that it uses
- * and the threads of TBB allocate by C++. Buffers do not come from here (host/runtime/interface/faults.h lets those
- * fail), nor what C code takes from malloc.
+ * All operators new and delete of that program are replaced, so this covers the C++ allocations of the library, of the
+ * libraries that it uses and of TBB's threads. It covers neither buffers, which fail by
+ * host/runtime/interface/faults.h, nor memory that C code takes from malloc.
  */
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace tests::heap {
 
-/* For the length of its life the n-th call fails, counted from 0 over all threads; `once`: that one alone, else all
- * from there on. */
+/* While the object lives, the n-th call fails, counted from 0 over all threads. `once`: only that call fails; else all
+ * later ones fail, too. */
 class Failing {
 public:
   explicit Failing(uint64_t nth, bool once = true);
@@ -21,11 +21,11 @@ public:
   Failing &operator=(const Failing &) = delete;
 };
 
-/* Of the last Failing: */
+/* The results of the last Failing: */
 bool struck();
-bool struck_another_thread(); /* than the one that made it */
-uint64_t asked();             /* calls */
+bool struck_another_thread(); /* other than the one that made the Failing */
+uint64_t asked();             /* number of calls */
 
-int64_t held(); /* blocks taken and not given back, by all threads */
+int64_t held(); /* blocks not released, of all threads */
 
 } // namespace tests::heap

@@ -1,4 +1,4 @@
-/* attempt.h - a call during which one allocation fails, and what must hold of every such call. */
+/* attempt.h - runs a call during which one allocation fails, and checks what must hold after every such call. */
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace tests::heap {
 
 struct Outcome {
   bool struck = false, thrown = false, of_memory = false;
-  int64_t left = 0;                /* blocks that are held after and were not before */
-  std::array<char, 300> message{}; /* no string, whose own block would count */
+  int64_t left = 0;                /* blocks held after the call and not before */
+  std::array<char, 300> message{}; /* not a string, whose own block would count */
 };
 
 template <class Call> Outcome attempt(uint64_t nth, bool once, Call &&call)
@@ -44,7 +44,7 @@ template <class Call> Outcome attempt(uint64_t nth, bool once, Call &&call)
   return outcome;
 }
 
-/* Who has no memory is told that, and nothing else: least of all that his file is wrong. */
+/* A user without memory must read that, and nothing else; in particular not that a file is wrong. */
 inline void check_told(const Outcome &outcome)
 {
   INFO(outcome.message.data());
@@ -61,13 +61,13 @@ inline size_t open_files()
 
 using After = std::function<void(const Outcome &)>;
 
-/* Every allocation of `call` fails in turn, alone and with all that follow it, until the call comes through. Each
- * time it must leave nothing; what stands around it is done with memory enough. */
+/* Lets every allocation of `call` fail in turn, alone and with all that follow it, until the call succeeds. Each failed
+ * call must leave no block behind. The code around it runs with enough memory. */
 template <class Call>
 void fail_everywhere(
     Call &&call, const std::function<void()> &before = [] {}, const After &after = [](const Outcome &) {})
 {
-  call(); /* what is made once and kept */
+  call(); /* makes what is made once and kept */
   const size_t files = open_files();
   uint64_t failures = 0;
   for (const bool once : {true, false})

@@ -1,8 +1,8 @@
-/* command.cpp - every allocation of the command fails in turn, from its first line on: it ends by itself, with one
- * line and exit status 1.
+/* command.cpp - lets every allocation of the command fail in turn, from its first line on. The command must end by
+ * itself, with one line and exit status 1.
  *
- * Each attempt is a child that has done nothing yet, so what is made once is made there. TBB's threads do not come
- * along into a child: these tests stand before all that start some. */
+ * Each attempt runs in a child process that has done nothing yet, so that what is made once is made there. TBB's
+ * threads do not exist in a child, so these tests come before all tests that start some. */
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>

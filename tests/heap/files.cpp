@@ -1,5 +1,5 @@
-/* files.cpp - every allocation fails in turn while scenes are read, built and written: a full memory is not a wrong
- * file, what was there is there still, and nothing half made is. */
+/* files.cpp - lets every allocation fail in turn while scenes are read, built and written. Exhausted memory must not be
+ * reported as a wrong file, existing files must stay, and no partial file may appear. */
 #include <functional>
 #include <string>
 #include <vector>
@@ -68,7 +68,7 @@ size_t names_in(const Scratch &folder)
   return static_cast<size_t>(std::distance(files::directory_iterator(folder.path), {}));
 }
 
-/* What stood there stands there still, or all that was to be written does, and nothing beside it. */
+/* The old contents are unchanged, or all that was to be written is there, and there is no other file. */
 void check_written_whole_or_not(const char *name, const std::function<void(const std::string &)> &write_to)
 {
   const Scratch folder;
@@ -137,8 +137,8 @@ TEST_CASE("heap: a file that memory does not suffice to write is what it was bef
       "picture.png", [&](const std::string &path) { write_png(path, draw(world, camera_for(world, 16, 9)), 16, 9); });
 }
 
-/* As where the folder takes no name beside the file's: it is so long. What was written then is copied over what
- * stood there. */
+/* The name of the file is so long that the folder takes no name beside it. The new contents are then copied over the
+ * old ones. */
 TEST_CASE("heap: a file that is written in its place is what it was before, or whole", "[sanitizer]")
 {
   const Scene scene = load_scene("box-grid:nx=2,ny=1,nz=1");

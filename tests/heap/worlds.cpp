@@ -1,8 +1,9 @@
-/* worlds.cpp - every allocation of a world's life fails in turn: while it is made, in its steps, while it is read
- * and written.
+/* worlds.cpp - lets every allocation in the life of a world fail in turn: while it is made, in its steps, while it is
+ * read and written.
  *
- * After SQLite's out-of-memory tests. A world that cannot be made leaves nothing; a step happens whole or not at
- * all, and the world goes on with the bits of one that nothing ever happened to; whoever only asks changes nothing. */
+ * The method is that of SQLite's out-of-memory tests. A world that cannot be made leaves nothing behind. A step happens
+ * whole or not at all, and the world then continues with the bits of a world without failures. A query changes
+ * nothing. */
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -163,7 +164,7 @@ BodyState spoilt(BodyState state)
 
 using Call = std::function<void(World &)>;
 
-/* What reads a world, or asks it for something, and changes nothing of its state. */
+/* Calls that read a world, or query it, and change nothing of its state. */
 std::vector<std::pair<const char *, Call>> questions(const Settings &settings)
 {
   std::vector<std::pair<const char *, Call>> calls = {

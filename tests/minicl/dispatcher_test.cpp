@@ -120,7 +120,7 @@ TEST_CASE("worlds that step in two threads at the same time have the bits that e
   CHECK(other_hash == hash_after(other_alone, 6));
 }
 
-/* What a debugger's condition reads: while a launch of one world is looked at, another world steps in another
+/* The value that a debugger's condition reads: while a launch of one world is inspected, another world steps in another
  * thread. */
 TEST_CASE("the step that a thread tells a debugger is that of its own world", "[sanitizer]")
 {

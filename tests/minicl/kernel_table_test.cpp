@@ -1,4 +1,4 @@
-/* Widths and ranges of MiniCL on the simplest kernel. */
+/* The widths and ranges of MiniCL, tested with the simplest kernel. */
 #include "minicl/kernel_table.h"
 #include "tests/catch.h"
 

@@ -57,7 +57,7 @@ void require_equal(const ContactProblem &problem, const std::vector<std::string>
 
 } // namespace
 
-/* The same arithmetic from the first contact to the last in one plain loop. */
+/* The same arithmetic in one plain loop from the first contact to the last. */
 TEST_CASE("parity on CPU: levels of a contact problem give the bits of the plain pass")
 {
   const ContactProblem problem = chain(1000);

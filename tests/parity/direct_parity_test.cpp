@@ -1,5 +1,4 @@
-/* The solver direct, whose islands are solved by the host wherever it is placed: the bits are those of the serial
- * backend. */
+/* The solver direct, whose islands the host solves on every backend: the bits are those of the serial backend. */
 #include <tandem/scene.h>
 
 #include "host/runtime/memory.h"

@@ -1,5 +1,5 @@
-/* An application may have set flush-to-zero or another rounding on any thread, before a world is made or while it
- * lives; the bits stay, and the application's setting is as it was. */
+/* An application may set flush-to-zero or another rounding mode on any thread, before a world is made or while it
+ * lives. The bits must not change, and the application's setting must stay. */
 #include "tests/parity/parity.h"
 
 #if defined(__x86_64__)
@@ -27,7 +27,7 @@ private:
   unsigned saved_;
 };
 
-/* As an application does that sets it once on each of its workers. */
+/* Sets the mode on each worker, as an application does once. */
 void set_on_workers(unsigned word)
 {
   tbb::parallel_for(0, 64, [word](int) {

@@ -1,7 +1,7 @@
-/* PoCL, the OpenCL that runs everywhere, gives the serial backend's bits, kernel by kernel.
+/* PoCL, the OpenCL implementation that runs everywhere, gives the serial backend's bits, kernel by kernel.
  *
  * It compiles every kernel again for each set of features and each group size, which takes far longer than the steps.
- * So all scenes share the build of all features here; specialised builds are for specialised_test.cpp.
+ * All scenes therefore share the build with all features here; specialised_test.cpp has the specialised builds.
  */
 #include "tests/host/runtime/opencl/opencl_device.h"
 #include "tests/parity/parity.h"
@@ -26,7 +26,7 @@ TEST_CASE("parity on OpenCL: every scene")
   for (const std::string &scene : small_scenes()) require_parity(scene, {"serial", "cl:pocl"}, 20, all_features());
 }
 
-/* A device is told how many groups to run before it is known how many pairs the step has. */
+/* A device is given the number of groups to run before the number of pairs of the step is known. */
 TEST_CASE("parity on OpenCL: pairs that grow in number")
 {
   require_pocl();

@@ -1,4 +1,4 @@
-/* parity.h - small scenes and the lockstep comparison, as every parity test uses them. */
+/* parity.h - small scenes and the lockstep comparison for all parity tests. */
 #pragma once
 
 #include <string>
@@ -15,10 +15,10 @@
 
 namespace tandem::parity {
 
-/* One body of each convex shape, touching others from the first step. */
+/* One body of each convex shape, touching others from the first step on. */
 inline std::string every_shape() { return TANDEM_SOURCE_DIR "/tests/scenes/every_shape.json"; }
 
-/* Meshes and compounds on and beside each other. */
+/* Meshes and compounds on and beside one another. */
 inline std::string few_trees() { return TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json"; }
 
 /* One of each built-in scene. The grid has more pairs than a tile has items, so that scans and sorts cross tiles; the
@@ -45,7 +45,7 @@ inline const std::vector<std::string> &small_scenes()
   return scenes;
 }
 
-/* Boxes that turn and fly towards one middle: a step has hundreds of pairs more than the one before, and most are
+/* Rotating boxes that fly toward one centre: each step has hundreds of pairs more than the one before, and most are
  * followed. */
 inline Scene imploding_boxes()
 {
@@ -67,7 +67,7 @@ inline Scene imploding_boxes()
   return scene;
 }
 
-/* What this processor can run: an order of items each, then widths and threads. */
+/* The CPU backends that this processor can run: one for each order of items, then widths and threads. */
 inline std::vector<std::string> cpu_backends()
 {
   std::vector<std::string> backends = {"serial", "serial:order=backward", "serial:order=shuffled"};
@@ -86,7 +86,7 @@ inline std::string describe(const Difference &difference)
          ": " + difference.note;
 }
 
-/* Every kernel of every step compared; nothing compared would be no proof. */
+/* Compares every kernel of every step. A run in which nothing was compared fails. */
 inline void require_parity(const Scene &scene, const std::vector<std::string> &backends, uint64_t steps,
                            const Settings &settings = {})
 {
@@ -108,7 +108,7 @@ inline void require_parity(const std::string &scene, const std::vector<std::stri
   require_parity(load_scene(scene), backends, steps, settings);
 }
 
-/* Hash of the bodies and the contact cache after so many steps. */
+/* The hash of the bodies and the contact cache after a number of steps. */
 inline uint64_t state_after(const std::string &scene, const std::string &backend, uint64_t steps,
                             const Settings &settings = {})
 {

@@ -1,4 +1,5 @@
-/* Any kernel runs on any backend in any frame: buffers travel to where they are read, and the bits stay. */
+/* Any kernel runs on any backend in any step: buffers are transferred to the backend that reads them, and the bits
+ * stay. */
 #include "host/base/random.h"
 #include "tests/parity/parity.h"
 

@@ -1,4 +1,4 @@
-/* Rays and shape casts give the same bits on every backend, whatever structure of bodies they walk. */
+/* Rays and shape casts give the same bits on every backend, with every structure of bodies. */
 #include <cstring>
 
 #include "host/base/random.h"

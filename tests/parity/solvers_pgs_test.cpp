@@ -1,4 +1,4 @@
-/* The solvers pgs and nncg, and rolling friction under every solver that knows it, give the serial backend's bits. */
+/* The solvers pgs and nncg, and rolling friction with every solver that has it, give the serial backend's bits. */
 #include "host/pipeline/solvers/solvers.h"
 #include "tests/parity/parity.h"
 

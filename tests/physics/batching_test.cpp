@@ -1,4 +1,4 @@
-/* The promise of batching: constraints of one colour share no body that can move. */
+/* The invariant of batching: constraints of one colour share no body that can move. */
 #include <set>
 
 #include "host/catalog/catalog.h"

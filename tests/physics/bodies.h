@@ -1,5 +1,5 @@
-/* bodies.h - bodies of any convex shape for the tests of physics: placed by their shape, weighed, and seen by their
- * shape's axis. */
+/* bodies.h - bodies of any convex shape for the tests of physics: placed by the pose of their shape, with their mass
+ * computed, and observed by their shape's axis. */
 #pragma once
 
 #include "host/geometry/shape_mass.h"
@@ -18,7 +18,7 @@ inline Body &add_dynamic_body(Scene &scene, const Shape &shape, const Vector &at
   return body;
 }
 
-/* Where the shape of a body now stands. */
+/* The pose of a body's shape. */
 inline ShapePlace place_of_shape(const Body &given, const BodyState &state)
 {
   Body body = given;
@@ -38,7 +38,7 @@ inline Vector axis_of(const Body &body, const BodyState &state)
   return {axis[0], axis[1], axis[2]};
 }
 
-/* A hull of points of an ellipsoid, none of its half axes above `size`. */
+/* A hull of points on an ellipsoid, none of whose half axes exceeds `size`. */
 inline Shape random_hull_shape(Random &random, int points, double size)
 {
   const Vector axes(random.uniform(0.5, 1), random.uniform(0.5, 1), random.uniform(0.5, 1));
@@ -59,7 +59,7 @@ inline std::vector<Vec3> corners_of_box(float x, float y, float z)
 
 inline Shape hull_of_box(float x, float y, float z) { return hull_shape(corners_of_box(x, y, z), "box"); }
 
-/* The surface of a box, closed, of twelve triangles. */
+/* The closed surface of a box, made of twelve triangles. */
 inline Shape mesh_of_box(float x, float y, float z)
 {
   const std::vector<uint32_t> triangles = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
@@ -67,7 +67,7 @@ inline Shape mesh_of_box(float x, float y, float z)
   return mesh_shape(corners_of_box(x, y, z), triangles, "box");
 }
 
-/* Kinetic and of height, J. */
+/* The kinetic and potential energy, J. */
 inline double mechanical_energy(World &world)
 {
   double energy = world.statistics().kinetic_energy;

@@ -1,5 +1,5 @@
-/* Colours of bodies: no constraint joins two moving bodies of one colour, and each body has the lowest colour that
- * those of higher priority beside it leave, as one pass in order of priority finds it. */
+/* Colours of bodies: no constraint joins two moving bodies of one colour, and each body has the lowest colour that its
+ * neighbours of higher priority leave free, as one pass in order of priority finds it. */
 #include <numeric>
 #include <set>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr uint32_t uncolored = 0xffffffffu;
 
-/* By index of the body buffers. */
+/* The colours by index of the body buffers. */
 struct Coloring {
   std::vector<std::set<uint32_t>> neighbors;
   std::vector<bool> takes_part; /* moves and is touched */

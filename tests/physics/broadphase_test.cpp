@@ -1,4 +1,4 @@
-/* Every broadphase finds the pairs that brute force finds, hence the same bits. */
+/* Every broadphase finds the pairs that brute force finds, and therefore the same bits. */
 #include <set>
 
 #include "host/catalog/catalog.h"

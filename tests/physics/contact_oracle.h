@@ -1,8 +1,8 @@
 /* contact_oracle.h - small contact problems solved by brute force in double, from bodies and points alone.
  *
- * Nothing of the library's solvers is used: J and M are written as matrices, W = J M^-1 J^T, and impulses follow the
- * projected fixed point x <- P(x - r (W x + c)) with one small step r for all rows until nothing moves. It takes a
- * hundred thousand rounds and cannot go wrong in the same way as anything clever.
+ * The oracle uses none of the library's solvers. J and M are written as matrices, W = J M^-1 J^T, and impulses follow
+ * the projected fixed-point iteration x <- P(x - r (W x + c)), with one small step r for all rows, until nothing
+ * changes. It takes a hundred thousand rounds, and is too simple to share the errors of a solver.
  *
  * Laws: normal speeds at each point, one friction cone and one twist for each manifold, at the centre of its points.
  */
@@ -150,7 +150,7 @@ private:
   Eigen::Index row_ = 0;
 };
 
-/* Bodies of a scene as they are when the contacts of a step of `h` seconds are solved: gravity applied. */
+/* The bodies of a scene when the contacts of a step of `h` seconds are solved, with gravity applied. */
 inline std::vector<OracleBody> oracle_bodies(const Scene &scene, double h)
 {
   std::vector<OracleBody> bodies;
@@ -170,8 +170,8 @@ inline std::vector<OracleBody> oracle_bodies(const Scene &scene, double h)
   return bodies;
 }
 
-/* The corners of the lower face (along `down` in the body's axes: 1 is y) of a box, as its contact with what is
- * below. */
+/* The corners of the lower face of a box (along `down` in the body's axes: 1 is y), as its contact with the body below
+ * has them. */
 inline OracleManifold box_on_face(const Scene &scene, size_t below, size_t box, double friction)
 {
   const Body &body = scene.bodies[box];

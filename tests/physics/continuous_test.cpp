@@ -1,4 +1,4 @@
-/* Continuous collision: what is fast stops at what is thin, and what misses is left alone. */
+/* Continuous collision: fast bodies stop at thin ones, and the motion of bodies that miss does not change. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"

@@ -1,8 +1,8 @@
-/* event_oracle.h - the events of each step once more, from the buffers the step leaves, by maps and in double.
+/* event_oracle.h - an oracle of the events of each step, from the buffers that the step leaves, by maps and in double.
  *
- * It watches the launches: at the start of each substep and at the end it adds up what the contacts have accumulated,
- * and once the step is known to be whole it sets the pairs that touch beside those of the step before. Nothing of
- * shared/events is used.
+ * It observes the launches. At the start of each substep and at the end it adds the accumulated impulses of the
+ * contacts. Once the step is known to be complete, it compares the pairs that touch with those of the step before. It
+ * uses nothing of shared/events.
  */
 #pragma once
 

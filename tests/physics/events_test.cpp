@@ -1,5 +1,4 @@
-/* Contact events: when they come, what they carry against closed forms and momentum, and all of them against an
- * oracle. */
+/* Contact events: their times, their values against closed forms and momentum, and all of them against an oracle. */
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -60,7 +59,7 @@ Scene ball_above_ground(double height, float restitution)
   return scene;
 }
 
-/* Of the events of one step, as the oracle sees them. */
+/* Compares the events of one step with those of the oracle. */
 void require_oracle(World &world, const EventOracle &oracle)
 {
   std::map<std::pair<uint32_t, uint32_t>, Kind> expected;

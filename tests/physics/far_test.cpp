@@ -1,4 +1,5 @@
-/* Far from the origin a scene moves as at the origin: positions are two numbers, and stages work on differences. */
+/* Far from the origin a scene moves as at the origin, because a position is two floats and stages work on
+ * differences. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
 

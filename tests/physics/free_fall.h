@@ -1,12 +1,12 @@
-/* free_fall.h - whether bodies that meet nothing move as gravity alone makes them. */
+/* free_fall.h - whether bodies without contacts move as gravity alone makes them move. */
 #pragma once
 
 #include "tests/physics/physics.h"
 
 namespace tandem::physics_tests {
 
-/* Of all bodies that move freely: how far a velocity is from what gravity alone makes of it, in parts of the lesser of
- * the velocities before and expected, of 0.1 m/s at least. */
+/* The largest error of the velocity of a freely moving body against gravity alone, relative to the lesser of the
+ * velocities before and expected, and at least 0.1 m/s. */
 inline double farthest_from_free_fall(const Scene &scene, Settings settings, double step, int steps)
 {
   settings.step = float(step);

@@ -1,4 +1,4 @@
-/* Bodies that touch nothing: parabolas, damping, and the free spin of a rigid body, against closed forms. */
+/* Bodies without contacts: parabolas, damping, and the free spin of a rigid body, against closed forms. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
 #include "tools/stability/flip.h"

@@ -25,7 +25,7 @@ constexpr int to_each_side = 12;
 
 } // namespace
 
-/* Inclines from atan mu - 3 to + 3 degrees side by side; the first whose box slides tells the angle. */
+/* Inclines from atan mu - 3 to + 3 degrees side by side; the first one whose box slides gives the angle. */
 TEST_CASE("a box on an incline slips at atan mu", "[physics]")
 {
   Scene scene = empty_scene();
@@ -128,7 +128,7 @@ TEST_CASE("a sliding ball ends up rolling at 5/7 of its speed", "[physics]")
   CHECK(-ball.angular_velocity[2] * radius == Approx(ball.linear_velocity[0]).epsilon(0.001));
 }
 
-/* Sliding boxes on platforms of another material: the deceleration tells the coefficient in effect. */
+/* Sliding boxes on platforms of another material: the deceleration gives the coefficient in effect. */
 TEST_CASE("materials combine by the rule that stands first, and geometric mean yields", "[physics]")
 {
   const std::vector<Combine> rules{Combine::average, Combine::minimum, Combine::maximum, Combine::multiply,

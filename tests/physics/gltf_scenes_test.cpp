@@ -1,7 +1,7 @@
-/* The scenes that come with the glTF physics extensions do what their tables say: one row a scene, closed forms where
- * there are any.
+/* The scenes that come with the glTF physics extensions behave as their tables state: one row for each scene, closed
+ * forms where there are any.
  *
- * They lie beside the source, not in it (tests/host/io/gltf/gltf_scenes.h); without them the tests are skipped. */
+ * The scenes are not part of the source (tests/host/io/gltf/gltf_scenes.h); without them the tests are skipped. */
 #include <map>
 
 #include <fmt/format.h>
@@ -82,7 +82,7 @@ void left_rests_right_sinks_to_its_upper_cube(Course &course)
 
 /* --- Materials --- */
 
-/* From the height 4 of the lowest point: bounces to e^2 of it. */
+/* A ball whose lowest point starts at height 4 bounces to e^2 of it. */
 double height_of_bounce(Course &course, size_t body)
 {
   double highest = 0;

@@ -1,5 +1,5 @@
-/* What hits is noticed in the step in which it hits, however fast it comes and wherever it starts: no solver can stop
- * what no contact was made for.
+/* A hit is detected in the step in which it happens, at any speed and from any start, because no solver can stop a body
+ * for which no contact was made.
  */
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"

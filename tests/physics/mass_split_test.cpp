@@ -1,5 +1,6 @@
-/* Constraints solved all at once on bodies split by mass: momentum stays whatever the iteration has reached, a plate
- * under many spheres parts from them as theory says, and the overflow constraints of a laden body carries its load. */
+/* Mass splitting, which solves constraints at the same time: momentum is kept after any number of iterations, a plate
+ * under many spheres separates from them as theory predicts, and the overflow constraints of a laden body carry its
+ * load. */
 #include "host/runtime/interface/kernel_list.h"
 #include "tests/catch.h"
 #include "tests/physics/laden.h"

@@ -1,5 +1,4 @@
-/* Triangle meshes as ground and as bodies: their inner edges are felt by nobody, their valleys and ridges by
- * everybody. */
+/* Triangle meshes as ground and as bodies: internal edges cause no contact, valleys and ridges do. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"

@@ -1,10 +1,10 @@
-/* What misses goes on while gravity bends its way: bodies thrown past each other in any direction, at any moment of a
- * step.
+/* Bodies that miss each other keep their motion while gravity bends their path: they are thrown past each other in any
+ * direction, at any moment of a step.
  *
- *        \   gravity |           The way is a parabola, whose least distance from what stands is found here by going
- *         \          v           along it in double; it is laid so that this is the clearance. A body whose contact
- *          `.    .--.            only looks ahead must fall on that parabola, too: half of what gravity makes it fall
- *            `-.( b  )           within a substep is 1.4 mm in a sixtieth of a second, in each step.
+ *        \   gravity |           The path is a parabola. Its least distance from the body at rest is found here by
+ *         \          v           sampling it in double, and the path is placed so that this is the clearance. A body
+ *          `.    .--.            with a speculative contact must follow that parabola, too: half of what gravity makes
+ *            `-.( b  )           it fall within a substep is 1.4 mm in a sixtieth of a second, in each step.
  *       clearance`--'
  */
 #include "tests/catch.h"
@@ -50,7 +50,7 @@ struct Flight {
   Vector place(double time) const { return at + time * velocity + 0.5 * time * time * gravity; }
 };
 
-/* From the start on; no step of it is longer than a third of a millimetre unless the gap is. */
+/* The search begins at the start; no step of it is longer than a third of a millimetre unless the gap is. */
 double least_gap(const Form &a, const Form &b, const Flight &flight, double start, double end)
 {
   const double fastest = flight.velocity.norm() + std::max(-start, end) * flight.gravity.norm();

@@ -1,7 +1,8 @@
-/* What misses goes on: bodies that fly by something without touching it keep their kinetic energy, in every solver.
+/* Bodies that miss keep their motion: bodies that fly by others without touching them keep their kinetic energy, with
+ * every solver.
  *
- * Whatever stands below lies under the plane y = 0 and reaches up to it; whatever flies stays above y = clearance, for
- * it only turns about the vertical. So none touches, however fast it is and wherever it stands when a step starts.
+ * The lower bodies lie under the plane y = 0 and reach up to it. The flying bodies stay above y = clearance, because
+ * they only turn about the vertical. None touches, however fast it is and wherever it is when a step starts.
  */
 #include <tuple>
 

@@ -1,5 +1,5 @@
-/* Closed systems: whatever collides, linear and angular momentum stay, and kinetic energy grows at most by what is
- * stated. */
+/* Closed systems: any collision keeps linear and angular momentum, and kinetic energy grows by at most a stated
+ * amount. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
 

@@ -1,4 +1,4 @@
-/* Kinematic bodies carry and push; filters let bodies pass each other. */
+/* Kinematic bodies carry and push other bodies; filters let bodies pass each other. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
 

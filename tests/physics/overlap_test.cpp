@@ -1,4 +1,4 @@
-/* Starts that should not be: bodies in one place. They part, and neither fly away nor climb. */
+/* Invalid starts with coincident bodies: the bodies part, and neither fly away nor climb. */
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
 

@@ -1,4 +1,4 @@
-/* Room for pairs has a limit: a step that needs more fails whole, says so, and the world goes on. */
+/* The pair capacity has a limit: a step that needs more fails as a whole with a message, and the world continues. */
 #include <fmt/format.h>
 
 #include <tandem/world.h>

@@ -1,4 +1,4 @@
-/* physics.h - small scenes for the tests of physics, and what is conserved in them.
+/* physics.h - small scenes for the tests of physics, and their conserved quantities.
  *
  * A test builds a Scene by hand, runs it through World as a user would, and computes its reference in
  * double precision from what World::bodies() reports.
@@ -42,7 +42,7 @@ inline Quat turn_about(const Vector &axis, double angle)
   return {float(q.x()), float(q.y()), float(q.z()), float(q.w())};
 }
 
-/* Unit, all alike. */
+/* A random unit vector, uniform over the sphere. */
 inline Vector direction(Random &random)
 {
   for (;;) {
@@ -52,7 +52,7 @@ inline Vector direction(Random &random)
 }
 inline Quat any_turn(Random &random) { return turn_about(direction(random), random.uniform(0, 2 * pi)); }
 
-/* Between low and high, each doubling alike. */
+/* A random number between low and high, whose logarithm is uniform. */
 inline double logarithmic(Random &random, double low, double high)
 {
   return std::exp(random.uniform(std::log(low), std::log(high)));
@@ -66,7 +66,7 @@ inline Scene empty_scene(const Vec3 &gravity = {0, -10, 0})
   return scene;
 }
 
-/* A body with a shape of its own; what else it needs is set on the reference, before the next is added. */
+/* A body with a shape of its own. The caller sets other members by the reference, before it adds the next body. */
 inline Body &add_body(Scene &scene, BodyType motion, const Shape &shape, const Point &position)
 {
   scene.shapes.push_back(shape);
@@ -78,7 +78,7 @@ inline Body &add_body(Scene &scene, BodyType motion, const Shape &shape, const P
   return scene.bodies.back();
 }
 
-/* All points with y <= 0. */
+/* The half-space of all points with y <= 0. */
 inline Body &add_ground(Scene &scene) { return add_body(scene, BodyType::fixed, half_space_shape(), {0, 0, 0}); }
 
 inline uint32_t add_material(Scene &scene, float friction, float restitution = 0)
@@ -103,7 +103,7 @@ inline Settings settings_with(double step, uint32_t substeps = 4)
   return settings;
 }
 
-/* Principal moments, 0 where infinite. */
+/* The principal moments of inertia; 0 where infinite. */
 inline Vector moments_of(const Scene &scene, const Body &body)
 {
   const Vec3 inverse = inverse_inertia_of(scene, body);

@@ -1,5 +1,5 @@
-/* The reference solves contact problems as an independent solver does: a column of balls of unlike masses and random
- * speeds, whose impulses an enumeration of all sets of active contacts finds by dense solves (Eigen).
+/* The reference solves contact problems as an independent solver does: a column of balls of different masses and random
+ * speeds, whose impulses are found by dense solves (Eigen) for all sets of active contacts.
  *
  *   o  m3, v3      u = A p + J (v + h g),  A = J M^-1 J^T,  p >= 0, u >= 0, p u = 0
  *   o  m2, v2      one contact below each ball; of 2^n sets exactly one satisfies the signs, for A is positive definite

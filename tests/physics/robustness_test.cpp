@@ -1,4 +1,4 @@
-/* Nothing lost, nothing silent: a body that is not finite is named and taken out; buffers that overflow grow. */
+/* Nothing is lost or silent: a body that is not finite is named and taken out, and buffers that overflow grow. */
 #include <limits>
 
 #include "host/catalog/catalog.h"

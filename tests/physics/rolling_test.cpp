@@ -2,7 +2,7 @@
  *
  * A ball of radius R that rolls without slipping, with sliding force F and resisting torque c m g:
  *     m v' = -F,  (2/5) m R^2 w' = F R - c m g,  v' = R w'    so    v' = -(5/7) c g / R.
- * One that spins on a point about the normal: (2/5) m R^2 w' = -c m g. */
+ * For a ball that spins on a point about the normal: (2/5) m R^2 w' = -c m g. */
 #include "host/runtime/memory.h"
 #include "tests/catch.h"
 #include "tests/physics/physics.h"

@@ -1,4 +1,4 @@
-/* Seams and ledges: boxes rest in one another by the slop, and shall slide over what is no higher than that. */
+/* Seams and ledges: boxes rest in one another by the slop, and must slide over ledges that are no higher. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"
 

@@ -1,4 +1,4 @@
-/* Solids that meet: what is conserved, what is lost, and that piles of every shape are carried. */
+/* Collisions of all shapes: conserved quantities, losses, and piles of every shape that must be carried. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"
@@ -111,7 +111,7 @@ TEST_CASE("collisions of every shape conserve linear and angular momentum", "[ph
   }
 }
 
-/* What stands in the ground is lifted out of it, by no more than its depth. */
+/* A body that starts inside the ground is lifted out of it, by no more than its depth. */
 TEST_CASE("a hull that is dropped comes to rest and never gains energy", "[physics]")
 {
   const int points = GENERATE(6, 12, 32);

@@ -1,5 +1,5 @@
-/* Round and flat solids on the ground against closed forms: they roll, stand, tip over, slide and rock as theory
- * says. */
+/* Round and flat shapes on the ground against closed forms: they roll, stand, tip over, slide and rock as theory
+ * predicts. */
 #include <fmt/format.h>
 
 #include "host/catalog/catalog.h"

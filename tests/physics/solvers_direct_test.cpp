@@ -1,4 +1,4 @@
-/* The solver direct: against a brute-force oracle, where the soft step gives way, and in the closed forms of every
+/* The solver direct: against a brute-force oracle, where the soft step is too soft, and in the closed forms of every
  * solver. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"

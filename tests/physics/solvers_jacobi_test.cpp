@@ -1,4 +1,4 @@
-/* The solver jacobi: what any solver must do, and that more iterations come nearer to the solution. */
+/* The solver jacobi: the tests of every solver, and convergence to the solution with more iterations. */
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "tests/catch.h"

@@ -1,4 +1,4 @@
-/* The solvers pgs and nncg: what any solver must do, and that conjugate gradients halve the passes. */
+/* The solvers pgs and nncg: the tests of every solver, and half the passes by conjugate gradients. */
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/platform.h"

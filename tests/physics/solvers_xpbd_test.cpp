@@ -1,4 +1,4 @@
-/* The solvers that work on positions, xpbd and avbd, each held to the same table of physics. */
+/* The position-based solvers xpbd and avbd, both with one table of physical tests. */
 #include "host/catalog/catalog.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "tests/catch.h"
@@ -220,7 +220,7 @@ TEST_CASE("avbd holds a thousand times the mass on top of a stack", "[physics]")
   CHECK(standing.sideways < 0.01);
 }
 
-/* The same stack with more work. */
+/* The same stack with more substeps or iterations. */
 TEST_CASE("position solvers: more substeps or iterations, less penetration", "[physics]")
 {
   const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);
@@ -260,7 +260,7 @@ TEST_CASE("position solvers: a body of many neighbours", "[physics]")
   CHECK(serial.state_hash() == threads.state_hash());
 }
 
-/* The same kernels in double: rounding moves a stack by less than a micrometre. */
+/* The same kernels in double, with which a stack moves by less than a micrometre. */
 TEST_CASE("position solvers on the reference backend", "[physics]")
 {
   const Solver solver = GENERATE(Solver::xpbd, Solver::avbd);

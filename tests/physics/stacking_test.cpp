@@ -1,4 +1,4 @@
-/* Resting contact: stacks stand, piles do not sink, and that far from the origin as well. */
+/* Resting contact: stacks stand and piles do not sink, also far from the origin. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"

@@ -1,4 +1,4 @@
-/* Bodies that do not turn, about some axes or any, or hardly: their four points share one effective mass, and let go
+/* Bodies with infinite or very large moments of inertia: their four points share one effective mass, and separate
  * together. */
 #include "tests/catch.h"
 #include "tests/physics/physics.h"

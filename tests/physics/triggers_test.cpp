@@ -1,4 +1,4 @@
-/* Triggers: who is reported, from when to when against closed forms, and that nothing is pushed. */
+/* Triggers: the bodies that are reported, from when to when against closed forms, and that no body is pushed. */
 #include "tests/catch.h"
 #include "tests/physics/bodies.h"
 
@@ -57,7 +57,7 @@ TEST_CASE("a ball through a trigger: begin and end in their steps, on the same p
   CHECK(statistics.max_penetration == 0);
 }
 
-/* Also where one lies wholly within the other, which must not look like having left. */
+/* A body that is wholly inside another one must not look as if it had left. */
 TEST_CASE("a body of any shape through a trigger of any shape is in it once, without a gap", "[physics][trigger]")
 {
   const Shape shapes[] = {sphere_shape(1),         box_shape(1, 0.9f, 1.1f), capsule_shape(0.7f, 0.5f),

@@ -1,8 +1,8 @@
-/* planted.cpp - faults that the sanitizers must see, each beside its like without the fault: CTest runs both
- * (tests/sanitizers/tests.cmake), and a fault that passes in silence fails a test.
+/* planted.cpp - faults that the sanitizers must report, each beside a twin without the fault. CTest runs both
+ * (tests/sanitizers/tests.cmake), and a fault that is not reported fails a test.
  *
- *   planted overrun BUFFER BACKEND   a step of a world of which one buffer is one element too short; `exact` for
- *                                    `overrun`: not so
+ *   planted overrun BUFFER BACKEND   a step of a world in which one buffer is one element too short; `exact` instead of
+ *                                    `overrun`: with the right size
  *   planted race | no-race           launches of two backends in two threads, on one buffer or on two
  */
 #include <atomic>

@@ -1,4 +1,4 @@
-/* Conversions that saturate, and the order of floats as integers. */
+/* Saturating conversions, and the order of floats as integers. */
 #include <algorithm>
 #include <cmath>
 #include <limits>

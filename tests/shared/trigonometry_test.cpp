@@ -1,4 +1,4 @@
-/* Our own sine, cosine and arc tangent against double precision, over dense sweeps. */
+/* Sine, cosine and arc tangent of shared/ against double precision, over dense sweeps. */
 #include <cmath>
 #include <limits>
 

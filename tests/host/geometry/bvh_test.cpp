@@ -1,5 +1,5 @@
-/* bvh_test.cpp - nothing that overlaps is missed, boxes of 16 bits contain what they stand for, skips and subtrees fit
- * the tree. */
+/* bvh_test.cpp - no overlap is missed, the boxes of 16 bits contain the boxes that they stand for, and the sizes of
+ * subtrees fit the tree. */
 #include <limits>
 
 #include "host/geometry/bvh.h"

@@ -1,5 +1,4 @@
-/* face_merger_test.cpp - joined faces are flat and convex within the tolerance; surfaces that are not closed are
- * recognised. */
+/* face_merger_test.cpp - merged faces are flat and convex within the tolerance, and open surfaces are recognised. */
 #include "host/geometry/face_merger.h"
 #include "tests/catch.h"
 #include "tests/host/geometry/shapes.h"

@@ -36,7 +36,7 @@ MassProperties solid(double mass, double center_y, double across, double along)
   return {mass, {0, center_y, 0}, {across, along, across, 0, 0, 0}};
 }
 
-/* By the rule of middles over discs of the given radius: its error falls with the square of the number of discs. */
+/* Integrates by the midpoint rule over discs of the given radius; its error falls with the square of their number. */
 MassProperties summed_discs(const std::function<double(double)> &radius, double bottom, double top, int discs)
 {
   const double thickness = (top - bottom) / discs;

@@ -1,5 +1,5 @@
-/* quickhull_test.cpp - hulls decided in whole numbers: closed, exactly convex, and of the points given whatever their
- * order. */
+/* quickhull_test.cpp - hulls computed in integers are closed and exactly convex, and do not depend on the order of the
+ * points. */
 #include <algorithm>
 #include <set>
 

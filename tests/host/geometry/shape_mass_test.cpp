@@ -1,5 +1,5 @@
-/* shape_mass_test.cpp - bodies stand in their shape's centre of mass and principal axes, by sums over volume elements
- * in the world. */
+/* shape_mass_test.cpp - a body's frame has its shape's centre of mass and principal axes, checked by sums over volume
+ * elements in the world. */
 #include <cstring>
 #include <functional>
 

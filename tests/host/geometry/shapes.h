@@ -22,7 +22,7 @@ inline std::vector<Vec3> box_corners(float x, float y, float z)
   return points;
 }
 
-/* Of box_corners, counter-clockwise seen from outside. */
+/* The triangles of box_corners, counter-clockwise seen from outside. */
 inline std::vector<Triangle> box_triangles()
 {
   return {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
@@ -48,7 +48,7 @@ struct Soup {
   std::vector<Triangle> triangles;
 };
 
-/* The icosahedron's triangles cut into four, `level` times, on the unit sphere. */
+/* The icosahedron on the unit sphere, whose triangles are cut into four `level` times. */
 inline Soup icosphere(int level)
 {
   Soup soup{icosahedron_points(), icosahedron_triangles()};
@@ -84,7 +84,7 @@ inline std::vector<Vec3> sphere_points(size_t count, uint64_t seed)
   return points;
 }
 
-/* Radius 1, height 2, along Y. */
+/* A cylinder of radius 1 and height 2 along Y. */
 inline std::vector<Vec3> prism_points(int sides)
 {
   std::vector<Vec3> points;

@@ -1,4 +1,4 @@
-/* triangle_mesh_test.cpp - welding, adjacency, kinds of edges, and what is said of bad meshes. */
+/* triangle_mesh_test.cpp - welding, adjacency, kinds of edges, and the messages about bad meshes. */
 #include <limits>
 
 #include "host/geometry/triangle_mesh.h"

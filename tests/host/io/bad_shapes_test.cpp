@@ -1,6 +1,5 @@
-/* Meshes, hulls and scales that are none, in both kinds of scene files: each is refused in one line that names the node
- * or the place in the file and says what is wrong, or is simulated as it is (with a warning where its mass is a
- * guess). */
+/* Invalid meshes, hulls and scales in both kinds of scene files: each is refused in one line that names the node or the
+ * place in the file and states the error, or is simulated as it is (with a warning if its mass is a guess). */
 #include <limits>
 
 #include "host/io/json/scene.h"
@@ -101,7 +100,7 @@ std::vector<Row> rows()
   };
 }
 
-/* What a reader says: its complaint, or the warnings about the scene. */
+/* The message of a reader: its error, or the warnings about the scene. */
 struct Verdict {
   std::string complaint;
   std::vector<std::string> warnings;

@@ -1,4 +1,4 @@
-/* The choices of settings: names, their way back, and what is refused. */
+/* Enumerated settings: their names, the way back from a name, and the names that are refused. */
 #include <algorithm>
 
 #include <tandem/scene.h>

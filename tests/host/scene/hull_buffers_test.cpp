@@ -1,5 +1,5 @@
-/* The tables of hulls that kernels read: each hull whole, closed and outward, one behind the other, and shared where
- * shapes share it. */
+/* The tables of hulls that kernels read: each hull is complete, closed and outward, and shapes share the hull that they
+ * share. */
 #include <set>
 
 #include "host/geometry/convex_hull.h"
@@ -27,7 +27,7 @@ Scene hulls()
   return scene;
 }
 
-/* What a World holds of them. */
+/* The contents of the buffers in a World. */
 struct Tables {
   explicit Tables(World &world)
   {

@@ -1,4 +1,5 @@
-/* scene_test.cpp - what cannot be simulated is named; moments of inertia agree with summed volume elements. */
+/* scene_test.cpp - scenes that cannot be simulated are refused by name; moments of inertia agree with sums over volume
+ * elements. */
 #include <functional>
 #include <limits>
 

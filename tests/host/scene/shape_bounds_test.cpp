@@ -1,5 +1,5 @@
-/* Boxes and balls around shapes, however they stand in their bodies: nothing of a shape is outside, and no more is
- * taken than it needs. */
+/* Boxes and spheres around shapes at any pose in their bodies: they contain the whole shape and are no larger than
+ * needed. */
 #include "host/scene/shape_bounds.h"
 #include "tests/catch.h"
 #include "tests/host/scene/shape_points.h"

@@ -1,10 +1,10 @@
-/* shape_points.h - shapes and poses at random, and points of their surfaces: brute force against which bounds are held.
+/* shape_points.h - random shapes and poses, and points of their surfaces, against which bounds are tested.
  *
  *   sphere, ends of a capsule   toward the body's axes and away from its centre, and anywhere
  *   cylinder                    both rims, a point every tenth of a degree
  *   box, hull                   vertices
  *
- * Every shape is the convex hull of these, so what holds them holds the shape.
+ * Every shape is the convex hull of these points, so bounds that contain them contain the shape.
  */
 #pragma once
 
@@ -36,7 +36,8 @@ inline Shape any_shape(Random &random)
   }
 }
 
-/* A body whose shape stands anywhere in it: a third at its centre, a third of these without a turn of its own. */
+/* A body with a shape at any pose in it: a third of the shapes are at its centre, a third of these without a
+ * rotation. */
 inline Body &add_any(Scene &scene, Random &random, const Point &at)
 {
   Body &body = physics_tests::add_body(scene, BodyType::dynamic, any_shape(random), at);
@@ -47,7 +48,7 @@ inline Body &add_any(Scene &scene, Random &random, const Point &at)
   return body;
 }
 
-/* In the body's frame. */
+/* The points are in the body's frame. */
 inline std::vector<Vector> points_of(const Scene &scene, const Body &body, Random &random)
 {
   const Shape &shape = scene.shapes[body.shape];

@@ -1,4 +1,4 @@
-/* compare_test.cpp - the comparison proves itself: errors of one ulp are planted and must be found. */
+/* compare_test.cpp - the comparison of backends must find planted errors of one ulp. */
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +28,7 @@ ComparisonRequest request_of(std::vector<std::string> backends, uint64_t steps)
 
 Scene small_scene() { return load_scene("box-grid:nx=3,ny=3,nz=3"); }
 
-/* Where a number lies: row `item` of the buffer, or row `plane` of the item, component within it. */
+/* The position of a number: row `item` of the buffer, or row `plane` of the item, and the component in it. */
 size_t scalar_of_record(size_t item, size_t rows, size_t row, size_t component)
 {
   return (item * rows + row) * 4 + component;
@@ -147,7 +147,7 @@ TEST_CASE("compare: one ulp in a velocity, and the constraint that wrote it", "[
   const uint64_t step = 2;
   World world(small_scene(), Settings{}, Placement{"serial", {}, false});
   for (uint64_t k = 0; k <= step; ++k) world.step();
-  /* Of the first constraint, which is of the first colour, whose launch is the first. */
+  /* The body is that of the first constraint, which has the first colour, whose launch is the first. */
   const uint32_t body = world.memory().read<uint32_t>(Buffer::constraint_b, 1, 0).at(0);
   const Difference found =
       find_injected(Kernel::solve_contacts, Buffer::solver_velocity, scalar_of_record(body, 2, 1, 0), step);

@@ -1,5 +1,5 @@
-/* metrics_test.cpp - what is measured is what docs/metrics.md says: numbers worked out by hand, and a residual that
- * grows by what is done to a velocity. */
+/* metrics_test.cpp - the metrics are those that docs/metrics.md defines: values computed by hand, and a residual that
+ * grows with a planted change of a velocity. */
 #include <cmath>
 #include <memory>
 

@@ -1,5 +1,5 @@
-/* rounding_test.cpp - copies are exact, bounds are off by a few ulps, and far from the origin positions by what a float
- * is coarse there. */
+/* rounding_test.cpp - copies are exact, bounds differ by a few ulps, and positions far from the origin by the
+ * resolution of a float there. */
 #include <cmath>
 #include <string>
 

@@ -1,5 +1,5 @@
-/* What one step hands to the next: each number of it changes the hash of the state, and what changes the next step's
- * bits is in that hash. */
+/* The data that one step passes to the next: each number of it changes the hash of the state, and everything that
+ * changes the bits of the next step is in that hash. */
 #include <algorithm>
 #include <limits>
 #include <memory>

@@ -1,4 +1,4 @@
-/* Rays through everything, rays that are merely blocked, and boxes: against one world a body, and boxes in double
+/* Rays that report all hits, rays that report any, and boxes: against a world for each body, and boxes in double
  * precision. */
 #include <limits>
 
@@ -38,7 +38,7 @@ std::vector<Ray> rays_across(int n, double size, Random &random)
   return rays;
 }
 
-/* A world of one body alone knows nothing of an order; numbers in the scene stay. */
+/* A world of one body alone has no order of bodies; the indices in the scene stay. */
 std::vector<RayHit> hits_of_body_alone(const Scene &scene, uint32_t body, const std::vector<Ray> &rays)
 {
   Scene alone = scene;

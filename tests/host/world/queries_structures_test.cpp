@@ -1,5 +1,4 @@
-/* Queries give the same bits whatever structure they walk: the hierarchy, the uniform grid, or every body one by
- * one. */
+/* Queries give the same bits with every structure: the hierarchy, the uniform grid, or every body one by one. */
 #include <cstring>
 #include <limits>
 
@@ -86,8 +85,8 @@ Point anywhere(Random &random, const Point &middle, double size)
           middle[2] + random.uniform(-size, size)};
 }
 
-/* From near and far, from inside of a body, at a body or past all of them; along axes and diagonals; of no length where
- * that is allowed. */
+/* Segments from near and far, from inside a body, toward a body or past all of them, along axes and diagonals, and of
+ * length 0 where that is allowed. */
 struct Segment {
   Point from;
   Vec3 displacement;

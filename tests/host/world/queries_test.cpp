@@ -1,5 +1,5 @@
 /* Rays and shape casts: closed forms for each shape from outside, inside, grazing and parallel; random rays against an
- * oracle in double that shares nothing with the kernels; ties, filters, what is refused. */
+ * independent oracle in double; ties, filters, and refused arguments. */
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,5 @@
-/* Rays and shape casts against meshes and compounds: every triangle and child one by one in double precision is the
- * oracle. */
+/* Rays and shape casts against meshes and compounds. The oracle tests every triangle and child one by one in double
+ * precision. */
 #include "host/geometry/triangle_mesh.h"
 #include "host/world/queries.h"
 #include "tests/catch.h"
@@ -55,7 +55,7 @@ double hit_triangle(const Vector &o, const Vector &u, const Vector &a, const Vec
                       normal.dot((a - c).cross(p - c)) >= 0;
   return rise != 0 && s >= 0 && inside ? s : never;
 }
-/* Of a ray from outside. */
+/* The hits of a ray from outside. */
 double hit_sphere(const Vector &o, const Vector &u, double radius)
 {
   const double along = o.dot(u), square = along * along - o.squaredNorm() + radius * radius;

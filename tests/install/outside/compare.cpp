@@ -1,4 +1,4 @@
-/* A project of someone else compares two backends on a built-in scene, and finds an error that it plants. */
+/* An external project compares two backends on a built-in scene, and finds an error that it plants. */
 #include <cstdio>
 
 #include <tandem/compare.h>

@@ -1,4 +1,4 @@
-/* A project of someone else: a ball falls for a second, with nothing but find_package(Tandem). */
+/* An external project in which a ball falls for a second, with nothing but find_package(Tandem). */
 #include <cmath>
 #include <iostream>
 

@@ -1,5 +1,5 @@
-/* Bounds of bodies with shapes of every kind, anywhere in their bodies: all that a body is at the start of a step lies
- * inside by the margin, and all that it is at the end lies inside. */
+/* Bounds of bodies with shapes of every kind at any pose in their bodies: they contain the body at the start of a step
+ * with the margin, and the body at its end. */
 #include "host/runtime/memory.h"
 #include "shared/platform.h"
 #include "tests/catch.h"

@@ -1,6 +1,6 @@
-/* Broadphases that keep something from step to step find the oracle's pairs in every one of 200: boxes that drift,
- * race, jump across the world, stand and start again, grow and shrink, leave the numbers; also where a step is run
- * again, and where queries between two steps took the hierarchy for themselves. */
+/* Broadphases that keep data from step to step find the oracle's pairs in every one of 200 steps: boxes drift, race,
+ * jump across the world, stop and start again, grow and shrink, and become NaN. Some steps are run again, and queries
+ * between steps rebuild the hierarchy for their own use. */
 #include <algorithm>
 #include <cmath>
 #include <limits>

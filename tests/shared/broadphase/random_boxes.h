@@ -1,5 +1,4 @@
-/* random_boxes.h - boxes without bodies, and the broadphases run on them alone: no shapes, no solver, any
- * coordinates. */
+/* random_boxes.h - runs broadphases on boxes alone, without bodies, shapes or solver, at any coordinates. */
 #pragma once
 
 #include <cstdint>
@@ -19,7 +18,7 @@
 
 namespace tandem {
 
-/* As the body buffers hold them: half-spaces first, then those called large. */
+/* The boxes in the order of the body buffers: half-spaces first, then those called large. */
 struct RandomBoxes {
   std::vector<float4> bounds; /* 2 a body */
   std::vector<uint32_t> flags, filters;
@@ -45,7 +44,7 @@ struct RandomBoxes {
 
 using BodyPairs = std::vector<std::pair<uint32_t, uint32_t>>; /* (a, b), a > b, sorted */
 
-/* The oracle: sorted along x and swept on the host, with the rules written out once more. */
+/* The oracle: a sweep along x on the host, with the rules for pairs written out once more. */
 inline BodyPairs expected_pairs(const RandomBoxes &boxes)
 {
   const auto low = [&](uint32_t i) -> const float4 & { return boxes.bounds[2 * i]; };
@@ -67,7 +66,7 @@ inline BodyPairs expected_pairs(const RandomBoxes &boxes)
   return pairs;
 }
 
-/* One backend with the buffers of a broadphase. Room for pairs grows as World's does: by what was needed. */
+/* One backend with the buffers of a broadphase. The pair capacity grows as World's does, by the number needed. */
 class BroadphaseRunner {
 public:
   explicit BroadphaseRunner(std::unique_ptr<Backend> backend)
@@ -103,8 +102,8 @@ public:
     memory_.upload(Buffer::body_filter, boxes.filters.data(), boxes.filters.size() * sizeof(uint32_t));
   }
 
-  /* The same bodies elsewhere, a step later: what a broadphase keeps stays. velocities: 2 rows a body, m a step; none:
-   * at rest. */
+  /* Moves the same bodies a step later; the data that a broadphase keeps stay. velocities: 2 rows for each body, m in a
+   * step; none: all are at rest. */
   void move_to(const RandomBoxes &boxes, const std::vector<float4> &velocities = {})
   {
     memory_.upload(Buffer::bounds, boxes.bounds.data(), boxes.bounds.size() * sizeof(float4));
@@ -112,10 +111,10 @@ public:
       memory_.upload(Buffer::body_velocity, velocities.data(), velocities.size() * sizeof(float4));
   }
 
-  /* As a query between two steps does. */
+  /* Does what a query between two steps does. */
   void make_query_hierarchy() { build_hierarchy(step_, false); }
 
-  /* One after another they share what is kept, which a world's only broadphase has to itself. */
+  /* Finds the pairs. All broadphases share the buffers of kept data, so these are dropped when another one runs. */
   BodyPairs find(const BroadphaseRow &broadphase)
   {
     if (last_ != broadphase.name) forget_kept(memory_);
@@ -155,7 +154,7 @@ private:
     plan_.known[COUNT_CELLS_PLUS_ONE] = plan_.capacity_cells + 1;
   }
 
-  /* The list is full, unless it was another list of a broadphase that keeps some which found no room. */
+  /* The pair list is full. A broadphase that keeps lists may have overflowed one of those instead. */
   void check_clamped(uint32_t pairs, const BroadphaseRow &broadphase)
   {
     const bool keeps_lists = broadphase.launch == find_pairs_incrementally || broadphase.launch == find_pairs_in_trees;

@@ -1,6 +1,6 @@
 /* Every broadphase finds the pairs of an oracle on the host, in its order: random boxes of one size and of sizes over
- * six decades, in one place, in a row, in a plane, far away, without thickness; crowds that outgrow the room for
- * pairs. */
+ * six decades, coincident, in a row, in a plane, far away, without thickness, and dense clusters that exceed the pair
+ * capacity. */
 #include <cmath>
 
 #include "host/runtime/make_backend.h"
@@ -46,7 +46,7 @@ double any_size(Random &random)
   return kind < 0.999 ? std::pow(30, within) : 30 * std::pow(1000.0 / 30, within);
 }
 
-/* Of a quarter the largest come first, some of them as `large`; the others stand in any order. */
+/* The largest quarter comes first, some of them as `large`; the others are in any order. */
 RandomBoxes of_all_sizes(uint32_t n, Random &random)
 {
   RandomBoxes boxes;
@@ -91,8 +91,8 @@ RandomBoxes without_thickness(uint32_t n, Random &random)
   return boxes;
 }
 
-/* A thousand kilometres away, and a few at home; along a diagonal, so that no axis tells them apart as well as it
- * does. */
+/* Boxes a thousand kilometres away, and a few near the origin, along a diagonal, so that no axis separates them as well
+ * as the diagonal does. */
 RandomBoxes far_away(uint32_t n, Random &random)
 {
   RandomBoxes boxes;

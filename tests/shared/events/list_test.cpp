@@ -1,5 +1,5 @@
-/* Lists of pairs with runs of one (a, b), as bodies of several parts make them: each run is one contact. Against a
- * map. */
+/* Lists of pairs with runs of one (a, b), as bodies of several parts make them: each run is one contact. The oracle is
+ * a map. */
 #include <map>
 #include <vector>
 

@@ -1,6 +1,5 @@
-/* The list of leaf pairs, by each way of walking the trees, against a look at every leaf of every tree: the same
- * entries in the same order. Two trees of one pair, which descend in tandem either way, are compared between the two
- * ways alone. */
+/* The list of leaf pairs by each traversal of the trees, against a test of every leaf of every tree: the same entries
+ * in the same order. Pairs of two trees, which both traversals descend together, are only compared between the two. */
 #include "host/runtime/memory.h"
 #include "shared/midphase/subtree_pairs.h"
 #include "tests/catch.h"

@@ -116,7 +116,7 @@ double span_of(const TestBody &a, const TestBody &b)
 
 double rounding(const TestBody &a, const TestBody &b) { return 2e-6 * span_of(a, b); }
 
-/* By how much a later axis must be better, as box_axes.h says. */
+/* The lead that a later axis needs, as in box_axes.h. */
 double lead_of(const PairScene &scene, const TestBody &a, const TestBody &b)
 {
   return std::min(0.1 * scene.parameters.slop, 0.01 * std::min(a.extent().minCoeff(), b.extent().minCoeff())) +
@@ -363,7 +363,7 @@ TEST_CASE("two boxes the other way round have the opposite normal and the same d
     const TestBody &a = scene.a(pair), &b = scene.b(pair);
     const Contact forth = scene.contact(outputs, pair), back = scene.contact(outputs, pair + 1);
     if (forth.points.empty() || back.points.empty() || !axis_is_clear(scene, a, b)) continue;
-    /* Opposite normals of two boxes with one centre cannot be told apart. */
+    /* Opposite normals of two boxes with one centre are equivalent. */
     if (std::abs(forth.normal.dot(b.center() - a.center())) < rounding(a, b)) continue;
     ++compared;
     const auto deepest = [](const Contact &contact) {

@@ -1,5 +1,5 @@
-/* box_reference.h - contacts of boxes the textbook way, in double precision: distances by support points,
- * every axis tried, polygons clipped side by side. Shares nothing with the kernels.
+/* box_reference.h - contacts of boxes by textbook methods, in double precision: distances by support points, every axis
+ * tried, polygons clipped side by side. It shares nothing with the kernels.
  */
 #pragma once
 
@@ -20,7 +20,7 @@ struct ReferenceBox {
   {
     return center.dot(direction) + (axes.transpose() * direction).cwiseAbs().dot(extent);
   }
-  /* Signed distance of a point to the surface: negative inside. */
+  /* The signed distance of a point from the surface; it is negative inside. */
   double distance(const Vector &point) const
   {
     const Vector q = (axes.transpose() * (point - center)).cwiseAbs() - extent;
@@ -28,7 +28,7 @@ struct ReferenceBox {
   }
 };
 
-/* Gap between two boxes along a unit direction from a to b. */
+/* The gap between two boxes along a unit direction from a to b. */
 inline double gap_along(const ReferenceBox &a, const ReferenceBox &b, const Vector &direction)
 {
   return -b.support(-direction) - a.support(direction);
@@ -73,8 +73,8 @@ inline Polygon clipped(const Polygon &polygon, const Vector &normal, double limi
   return result;
 }
 
-/* Face `axis` of the incident box, on the side facing against `outward`, cut to the sides of the reference box
- * next to its face `face`, widened by `slack`. */
+/* Face `axis` of the incident box on the side opposed to `outward`, clipped to the sides of the reference box around
+ * its face `face`, widened by `slack`. */
 inline Polygon contact_polygon(const ReferenceBox &reference, int face, const Vector &outward,
                                const ReferenceBox &incident, int axis, double slack = 0)
 {
@@ -92,7 +92,7 @@ inline Polygon contact_polygon(const ReferenceBox &reference, int face, const Ve
   return polygon;
 }
 
-/* Area of the convex hull of points seen along a direction (Andrew's monotone chain). */
+/* The area of the convex hull of points seen along a direction (Andrew's monotone chain). */
 inline double hull_area(const std::vector<Vector> &points, const Vector &direction)
 {
   const Vector u = direction.unitOrthogonal(), v = direction.cross(u);

@@ -1,5 +1,5 @@
-/* The time of impact against closed forms, and for pairs of every shape what it must mean: apart before, touching
- * then. */
+/* The time of impact against closed forms, and its definition for pairs of every shape: apart before it, touching at
+ * it. */
 #include "shared/narrowphase/conservative_advancement.h"
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"

@@ -1,4 +1,5 @@
-/* Manifolds of convex shapes: where their points lie, how deep they are, how much of the contact they span. */
+/* Manifolds of convex shapes: the positions of their points, their depths, and the part of the contact that they
+ * span. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 

@@ -10,7 +10,7 @@ using namespace tandem::convex_tests;
 
 namespace {
 
-/* By how much, in shares of the size, the depth along the normal found exceeds the least one. */
+/* The excess of the depth along the normal found over the least depth, as a share of the size. */
 struct Excess {
   Errors excess, rounding;
   size_t bad = 0;

@@ -1,5 +1,5 @@
-/* The same headers with `real` = double, as the reference build compiles them: what is left of the errors is the
- * method's own. */
+/* The headers with `real` = double, as the reference build compiles them: the errors that remain are those of the
+ * methods. */
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-/* convex_shapes.h - convex shapes for the tests of the narrowphase, and what is true of them in double precision.
+/* convex_shapes.h - convex shapes for the tests of the narrowphase, and references for them in double precision.
  *
  * The references share nothing with the kernels: supports and distances of a point from closed forms, hulls from all
  * triples of points, depths from all faces and all pairs of edges. Both sides start from the same float numbers.
@@ -155,7 +155,7 @@ inline std::shared_ptr<Hull> make_hull(const std::vector<Vector> &given)
   return hull;
 }
 
-/* Points of an ellipsoid: every one of them is a vertex. */
+/* Points of an ellipsoid, each of which is a vertex of their hull. */
 inline std::shared_ptr<Hull> random_hull(Random &random, uint32_t vertices, const Vector &size)
 {
   std::vector<Vector> points;
@@ -170,7 +170,7 @@ inline std::shared_ptr<Hull> box_hull(const Vector &extent)
   return make_hull(points);
 }
 
-/* A shape as the kernels get it, and its double-precision self. */
+/* A shape as the kernels get it, and the same shape in double precision. */
 struct Shape {
   uint_lanes kind = SHAPE_BOX;
   Eigen::Vector3f size{1, 1, 1};
@@ -210,7 +210,7 @@ struct Shape {
     if (kind == SHAPE_SPHERE || kind == SHAPE_CAPSULE) return kind == SHAPE_SPHERE ? extent().x() : widest;
     return kind == SHAPE_CYLINDER ? std::min(widest, extent().y()) : extent().minCoeff();
   }
-  /* Farthest point of the whole shape, radius and all. */
+  /* The farthest point of the whole shape, including its radius. */
   Vector support(const Vector &direction) const
   {
     const Vector d = axes().transpose() * direction, e = extent();
@@ -250,7 +250,7 @@ private:
   mutable Matrix kept_axes_;
 };
 
-/* A hull all of whose points are vertices, turned at random. */
+/* A hull whose points are all vertices, with a random rotation. */
 inline Shape random_hull_shape(Random &random, uint32_t vertices, const Vector &size)
 {
   Shape shape;
@@ -261,13 +261,14 @@ inline Shape random_hull_shape(Random &random, uint32_t vertices, const Vector &
   return shape;
 }
 
-/* Gap of two shapes along a unit direction from a to b. */
+/* The gap of two shapes along a unit direction from a to b. */
 inline double gap_between(const Shape &a, const Shape &b, const Vector &normal)
 {
   return normal.dot(b.support(-normal)) - normal.dot(a.support(normal));
 }
 
-/* The hull of two balls in the half plane through its axis; size as that of a capsule. Negative inside. */
+/* The signed distance from the hull of two balls, in the half plane through its axis; negative inside. size: as that of
+ * a capsule. */
 inline double distance_to_round_cone(Eigen::Vector2d p, const Vector &size)
 {
   const double length = 2 * size.y(), low = size.x(), high = size.z();
@@ -386,7 +387,7 @@ inline Axis searched_axis(const Shape &a, const Shape &b, Random &random, const 
 inline Vector to_vector(vec3 v) { return {v.x, v.y, v.z}; }
 inline Vector to_vector(vec4 v) { return {v.x, v.y, v.z}; }
 
-/* Shapes at random, and b placed at a gap from a along a direction. */
+/* Random shapes, with b placed at a gap from a along a direction. */
 class ShapeMaker {
 public:
   explicit ShapeMaker(uint64_t seed) : random(seed)
@@ -424,7 +425,7 @@ private:
   std::vector<std::shared_ptr<Hull>> hulls_;
 };
 
-/* What a method finds between two shapes, in the world's axes. */
+/* The result of a method for two shapes, in world axes. */
 struct Found {
   Vector normal;
   double gap, distance; /* of the whole shapes; of the closest points, where the cores are apart */

@@ -1,4 +1,4 @@
-/* Surfaces told as points and as fields over cubes: how wrong the heights are, and what contacts come of them. */
+/* Surfaces as points and as height fields over cubes: the errors of the heights, and the contacts that follow. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 
@@ -90,8 +90,7 @@ TEST_CASE("cube field: a box on a larger one, and on one that it overhangs")
   CHECK(std::abs(over.deepest + 0.001) < 1e-6);
   Vector low = over.points[0], high = low;
   for (const Vector &p : over.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  CHECK((low - Vector(-1, 0.4995, -1.5)).cwiseAbs().maxCoeff() <
-        1.01); /* an edge is told by stretches of a quarter: 1 m */
+  CHECK((low - Vector(-1, 0.4995, -1.5)).cwiseAbs().maxCoeff() < 1.01); /* an edge is sampled at quarters: 1 m */
   CHECK((high - Vector(2, 0.4995, 2)).cwiseAbs().maxCoeff() < 1.01);
   CHECK(high.y() - low.y() < 1e-6);
   CHECK(std::min(high.x() - low.x(), high.z() - low.z()) > 1.9);

@@ -1,6 +1,5 @@
-/* Distances of convex shapes. The gap along the normal found can only be too small, the distance of the closest points
- * only too large: both, in double precision, must agree, which needs no other solver to compare with. Then closed
- * forms. */
+/* Distances of convex shapes. The gap along the normal found can only be too small, and the distance of the closest
+ * points only too large. Both must agree in double precision, which needs no other solver. Closed forms follow. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 

@@ -1,4 +1,4 @@
-/* The axis of least overlap of hulls of many faces, found by looking at few of them: against all faces and all pairs of
+/* The axis of least overlap of hulls with many faces, found by tests of few of them: against all faces and all pairs of
  * edges. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"

@@ -1,5 +1,5 @@
-/* Farthest vertices of hulls: the exact ways name the same vertex, ties and all; the cube map errs by no more than its
- * cells are wide. */
+/* Support maps of hulls: the exact ones find the same vertex, also in ties; the error of the cube map is bounded by the
+ * width of its cells. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/convex_shapes.h"
 

@@ -1,4 +1,4 @@
-/* The overlap of convex shapes against libccd (D. Fiser), where it is installed: an oracle that nobody here wrote. */
+/* The overlap of convex shapes against libccd (D. Fiser), if it is installed, as an independent oracle. */
 #include "tests/catch.h"
 
 #ifdef TANDEM_LIBCCD
@@ -55,8 +55,8 @@ TEST_CASE("convex depth: overlaps and depths as libccd finds them")
     }
     ++depths;
     agreed += std::abs(-found.gap - depth) < 1e-4 * size;
-    /* What libccd claims may be less than there is: its direction is an upper bound, measured by the shapes
-     * themselves. */
+    /* The overlap that libccd reports may be less than that along its direction, which is an upper bound that the
+     * shapes themselves give. */
     const Vector displacement = Vector(direction.v[0], direction.v[1], direction.v[2]).normalized();
     deeper.add((-found.gap + std::max(gap_between(a, b, displacement), gap_between(a, b, -displacement))) / size, pair);
   }

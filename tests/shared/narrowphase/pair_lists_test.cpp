@@ -1,5 +1,5 @@
-/* pair_lists_test.cpp - pairs by kind against a search over all of them, on every backend; and what the rows of
- * pairs.def say in the documents. */
+/* pair_lists_test.cpp - pairs by kind against a search over all pairs, on every backend; and the table of pairs.def in
+ * the documents. */
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -24,7 +24,7 @@ struct Pairs {
   std::vector<uint32_t> a, b, flags;
 };
 
-/* Of bodies with the shapes given; what else traits hold must not matter. */
+/* Flags of bodies with the given shapes; the other bits must not matter. */
 Pairs random_pairs(uint32_t count, const std::vector<uint32_t> &shapes, uint64_t seed)
 {
   Random random(seed);
@@ -43,7 +43,7 @@ struct Lists {
   bool operator==(const Lists &) const = default;
 };
 
-/* From the drawing of pairs.def, not from its rows. */
+/* The kind according to the drawing in pairs.def, not to its rows. */
 uint32_t kind_by_hand(uint32_t a, uint32_t b)
 {
   if (a > b) std::swap(a, b);
@@ -173,7 +173,7 @@ TEST_CASE("pair lists: a scene has them where pairs of several kinds mix")
     CHECK_FALSE(has_lists(load_scene(name)));
 }
 
-/* What a step leaves in the lists, of a scene with all kinds. */
+/* The lists after a step of a scene with all kinds. */
 TEST_CASE("pair lists: those of a step hold the pairs of the step", "[sanitizer]")
 {
   World world(load_scene("shapes:n=40"), Settings{}, Placement{"tbb:threads=3", {}, false});

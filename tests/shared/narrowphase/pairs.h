@@ -23,7 +23,8 @@ using Vector = Eigen::Vector3d;
 
 enum Shape : uint32_t { sphere = 0, box = 1, half_space = 2 };
 
-/* Kept in float, as the kernels read it: both sides of a comparison start from the same numbers. */
+/* Values are kept in float, as the kernels read them, so that both sides of a comparison start from the same
+ * numbers. */
 struct TestBody {
   Shape shape = box;
   Eigen::Vector3f size{1, 1, 1};
@@ -83,14 +84,14 @@ public:
     pair_a_.push_back(add_body(a));
     pair_b_.push_back(add_body(b));
   }
-  /* The same two bodies, the other way round. */
+  /* The same two bodies in the other order. */
   void add_swapped(size_t pair)
   {
     const uint32_t a = pair_b_[pair], b = pair_a_[pair];
     pair_a_.push_back(a);
     pair_b_.push_back(b);
   }
-  /* Up to a multiple of the widest lanes. */
+  /* Rounds up to a multiple of the most lanes. */
   void pad()
   {
     while (pair_a_.size() % 16 != 0) add_swapped(0);
@@ -147,7 +148,7 @@ private:
   static Vector xyz(const float4 &r) { return {r.x, r.y, r.z}; }
   static float4 to_row(const Eigen::Vector3f &v, float w) { return {v.x(), v.y(), v.z(), w}; }
 
-  /* Where the parameters say that there are lists. */
+  /* Makes the lists of pairs, if the parameters say that there are any. */
   void list()
   {
     of_kind_.clear();

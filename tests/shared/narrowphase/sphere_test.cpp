@@ -22,7 +22,7 @@ TestBody random_body(Random &random, Shape shape, double low, double high)
 
 double scale_of(const TestBody &body) { return body.shape == sphere ? body.size.x() : body.size.norm(); }
 
-/* What a contact must be, however it was found. */
+/* The properties of a contact, however it was found. */
 struct Expected {
   Vector normal; /* from a to b */
   double separation;
@@ -268,7 +268,7 @@ TEST_CASE("sphere against box: the nearest point, or the face of least depth")
     TestBody ball = random_body(random, sphere, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
     TestBody brick = random_body(random, box, extreme ? 1e-3 : 0.1, extreme ? 1e3 : 1);
     brick.position = random.in_cube(1).cast<float>();
-    /* From a point of the surface outward. */
+    /* The direction outward from a point of the surface. */
     Vector on_surface = random.in_cube(1);
     const uint32_t kept = random.below(3);
     on_surface[kept] = random.sign();

@@ -1,4 +1,4 @@
-/* All pair types, mixed, at every width and in both directions: the same bits in every word of every output. */
+/* All pair kinds, mixed, at every width and in both orders: the same bits in every word of every output. */
 #include "tests/catch.h"
 #include "tests/shared/narrowphase/pairs.h"
 

@@ -28,7 +28,7 @@ public:
     backend_->prepare(0, kernels);
   }
 
-  /* The length that the device sees. */
+  /* Sets the length that the device reads. */
   void set_length(uint32_t n)
   {
     std::vector<uint32_t> counts(COUNT_TOTAL, 0);
@@ -43,7 +43,7 @@ public:
     memory.upload(buffer, values.data(), values.size() * sizeof(T));
   }
 
-  /* New memory each time, so that sanitizers see the true end. */
+  /* Memory is new each time, so that sanitizers see its true end. */
   void reserve(Buffer buffer, size_t bytes)
   {
     memory.resize(buffer, 0);
@@ -57,11 +57,12 @@ private:
   std::unique_ptr<Backend> backend_;
 
 public:
-  Memory memory; /* goes before the backend whose storage it uses */
+  Memory memory; /* is destroyed before the backend whose storage it uses */
   DirectLauncher launcher;
 };
 
-/* Every order of items, several thread counts, and the OpenCL device of tests; without one the test is not whole. */
+/* Every order of items, several thread counts, and the OpenCL device of tests; without a device the test is not
+ * complete. */
 inline std::vector<std::unique_ptr<Primitives>> all_primitives()
 {
   std::vector<std::unique_ptr<Primitives>> made;
@@ -96,7 +97,7 @@ template <class T> std::vector<T> keys_of(Distribution distribution, size_t n, u
   return keys;
 }
 
-/* Lengths around the sizes at which the primitives change their way. */
+/* Lengths around the sizes at which the primitives change their algorithm. */
 inline std::vector<uint32_t> lengths()
 {
   std::vector<uint32_t> all = {0, 1, 2, 3, 31, 33, 100'003};

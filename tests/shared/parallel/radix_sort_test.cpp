@@ -19,7 +19,7 @@ template <class T> T masked(T key, Bits bits)
   return static_cast<T>(key >> bits.first) & mask;
 }
 
-/* Where each item comes from in a stable sort. */
+/* The index in the input of each item of a stable sort. */
 template <class T> std::vector<uint32_t> expected_order(const std::vector<T> &keys, Bits bits)
 {
   std::vector<uint32_t> order(keys.size());

@@ -1,5 +1,5 @@
-/* broadphase_test.cpp - the inputs hold what they promise, pairs are those that two loops on the host count, and
- * a broadphase that loses one is found out. */
+/* broadphase_test.cpp - the inputs have the properties that they promise, the pairs are those of two loops on the host,
+ * and a broadphase that loses one is detected. */
 #ifdef TANDEM_COMMAND
 #include "host/runtime/make_backend.h"
 #include "tests/catch.h"
@@ -46,7 +46,7 @@ double pairs_each(const char *input, uint32_t bodies)
   return double(frames.pairs()) / bodies;
 }
 
-/* Of the benchmark on 500 bodies of `pile`, with these. */
+/* The output of the benchmark on 500 bodies of `pile`, with these arguments. */
 std::vector<BroadphaseScene> bench_of(const std::vector<BroadphaseRow> &broadphases,
                                       const std::vector<uint32_t> &bodies = {500})
 {

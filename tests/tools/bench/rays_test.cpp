@@ -1,5 +1,5 @@
-/* `tandem bench rays`: blocked rays are those that hit something, and few rays give the hits that the boxes' density
- * foretells. */
+/* `tandem bench rays`: blocked rays are those that hit something, and the number of hits of few rays agrees with the
+ * density of the boxes. */
 #include "tests/catch.h"
 #include "tools/bench/rays.h"
 

@@ -1,4 +1,4 @@
-/* command_line.h - the real program, run as a script would, for the tests of the command. */
+/* command_line.h - runs the real program as a script would, for the tests of the command. */
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace command_line {
 using Json = nlohmann::json;
 namespace files = std::filesystem;
 
-/* A directory of its own, gone when the test ends. */
+/* A directory of its own, which is removed when the test ends. */
 struct Scratch {
   files::path path;
   Scratch()
@@ -53,7 +53,7 @@ inline std::string program()
   return given ? given : TANDEM_COMMAND;
 }
 
-/* What a line does in the shell. */
+/* The result of a command line in the shell. */
 inline Result shell(const std::string &line)
 {
   const Scratch scratch;

@@ -1,5 +1,5 @@
-/* command_test.cpp - the real program, run as a script would: one line and status 2 for anything wrong, the
- * promised keys for anything right. */
+/* command_test.cpp - the real program, run as a script would: one line and status 2 for any error, and the promised
+ * keys otherwise. */
 #ifdef TANDEM_COMMAND
 #include <regex>
 #include <set>

@@ -1,5 +1,5 @@
-/* distinct_files_test.cpp - outputs that would take each other's place or an input's, outputs that a limit cuts off,
- * and what is left when a run is told to end. */
+/* distinct_files_test.cpp - outputs that would overwrite each other or an input, outputs that a limit cuts off, and the
+ * files that a terminated run leaves. */
 #ifdef TANDEM_COMMAND
 #include <csignal>
 #include <set>

@@ -1,5 +1,5 @@
-/* driver_failure_test.cpp - OpenCL drivers that abort, crash, end the process or hang when they are asked for their
- * devices: the command says so in one line, and all that needs no OpenCL goes on. */
+/* driver_failure_test.cpp - OpenCL drivers that abort, crash, exit or hang when their devices are queried: the command
+ * reports it in one line, and everything that needs no OpenCL works. */
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>

@@ -1,5 +1,5 @@
-/* failing_driver.c - an OpenCL driver that does not survive the question for its platforms, as PoCL does not in a
- * container without /sys. FAILING_DRIVER: abort, crash, exit or hang; anything else: it has no platform. */
+/* failing_driver.c - an OpenCL driver that does not survive a query for its platforms, as PoCL does not in a container
+ * without /sys. FAILING_DRIVER: abort, crash, exit or hang; with any other value it has no platform. */
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 
 void *clGetExtensionFunctionAddress(const char *name);
 
-/* Without the name that the loader asks for, as that is also one of the loader's own. */
+/* The function lacks the name that the loader looks up, because that is also one of the loader's own. */
 static int platforms_of(unsigned entries, void **platforms, unsigned *count)
 {
   const char *displacement = getenv("FAILING_DRIVER");

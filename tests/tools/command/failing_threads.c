@@ -1,4 +1,4 @@
-/* failing_threads.c - to be loaded before all else: starts THREADS_THAT_START threads, and fails for each one after
+/* failing_threads.c - a library to preload, which starts THREADS_THAT_START threads and fails for each one after
  * them. */
 #define _GNU_SOURCE
 #include <dlfcn.h>

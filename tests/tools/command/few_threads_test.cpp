@@ -1,5 +1,5 @@
-/* few_threads_test.cpp - where threads cannot be started: a run goes on with those that can, with the same bits, and
- * says so. */
+/* few_threads_test.cpp - if threads cannot be started, a run continues with those that can, gives the same bits, and
+ * reports it. */
 #include <functional>
 
 #include <sys/resource.h>
@@ -101,7 +101,7 @@ TEST_CASE("few threads: cases side by side take as many as start", "[command]")
 }
 
 #ifdef TANDEM_FAILING_THREADS
-/* As where what was there for a thread is taken before TBB starts it. */
+/* The case in which another process takes the memory for a thread before TBB starts the thread. */
 TEST_CASE("few threads: whichever thread fails to start, the command ends by itself, in one line", "[command]")
 {
   const std::string hash = hash_in(command(run_wide).out);

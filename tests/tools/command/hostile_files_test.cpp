@@ -1,5 +1,5 @@
-/* hostile_files_test.cpp - files that would crash, hang, escape or vanish: each gives one line and status 2, and
- * nothing is lost that stood there before. */
+/* hostile_files_test.cpp - files that could crash, hang, escape or vanish: each gives one line and status 2, and no
+ * existing file is lost. */
 #ifdef TANDEM_COMMAND
 #include <csignal>
 #include <set>
@@ -32,7 +32,7 @@ std::string mesh_scene(const std::string &obj)
          R"("}],"bodies":[{"shape":0,"motion":"fixed"}]})";
 }
 
-/* Of a buffer of three vertices that a collider asks for. */
+/* A scene with a collider that needs a buffer of three vertices. */
 std::string gltf_scene(const std::string &uri)
 {
   return R"({"asset":{"version":"2.0"},"nodes":[{"name":"Cup",)"
@@ -48,7 +48,7 @@ const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 0, -1};
 
 std::string run(const std::string &scene) { return "run '" + scene + "' --steps 1 --on serial"; }
 
-/* What stands in a folder, by name. */
+/* The names of the files in a folder. */
 std::set<std::string> names_in(const files::path &folder)
 {
   std::set<std::string> names;

@@ -1,4 +1,4 @@
-/* The real program under a limit of memory: one line that says what was wanted, exit status 1, and never a crash. */
+/* The real program under a memory limit: one line that names the operation, exit status 1, and never a crash. */
 #if defined(TANDEM_COMMAND) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #include <algorithm>
 #include <regex>
@@ -28,7 +28,7 @@ void check_one_line(const Result &result)
 
 } // namespace
 
-/* From what the loader alone does not fit in to what suffices. */
+/* The limits go from one that the loader alone exceeds to one that suffices. */
 TEST_CASE("a run that memory does not suffice for says in one line what was wanted")
 {
   int refused = 0;

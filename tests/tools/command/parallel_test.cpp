@@ -1,5 +1,5 @@
-/* parallel_test.cpp - tasks side by side: each once, no more at a time than asked for, and the first throw comes
- * out. */
+/* parallel_test.cpp - parallel tasks: each runs once, no more at a time than asked for, and the first exception is
+ * rethrown. */
 #ifdef TANDEM_COMMAND
 #include <atomic>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-/* diff_test.cpp - what `tandem diff` must not pass over: an error that was planted nowhere, and bodies that were taken
+/* diff_test.cpp - cases that `tandem diff` must report: an error that was planted nowhere, and bodies that were taken
  * out. */
 #ifdef TANDEM_COMMAND
 #include "tests/tools/command/command_line.h"

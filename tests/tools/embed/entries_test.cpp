@@ -1,5 +1,5 @@
-/* The entries that tools/embed writes, as OpenCL sees them, against the tables of the host: names, order and direction
- * of every argument. */
+/* The entries that tools/embed writes, as OpenCL compiles them, against the tables of the host: names, order and
+ * direction of every argument. */
 #include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/opencl/program.h"
 #include "tests/host/runtime/opencl/opencl_device.h"

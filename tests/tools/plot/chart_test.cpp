@@ -1,4 +1,4 @@
-/* chart_test.cpp - ticks where a reader expects them; what is in the SVG, and what can break it. */
+/* chart_test.cpp - ticks at round numbers, the contents of the SVG, and input that could break it. */
 #ifdef TANDEM_COMMAND
 #include <cmath>
 #include <limits>

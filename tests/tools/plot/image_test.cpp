@@ -1,4 +1,4 @@
-/* Pictures by ray casting: what stands where in the picture, light and shadow, the same bytes on every backend. */
+/* Images by ray casting: the positions of bodies in the image, light and shadow, the same bytes on every backend. */
 #include "host/catalog/catalog.h"
 #include "tests/catch.h"
 #include "tests/physics/physics.h"

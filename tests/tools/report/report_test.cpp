@@ -1,4 +1,4 @@
-/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report looked at in a
+/* report_test.cpp - `tandem report`: the front against brute force, the sentence, and a tiny report opened in a
  * browser. */
 #ifdef TANDEM_COMMAND
 #include <algorithm>
@@ -86,7 +86,7 @@ std::string browser()
   return "";
 }
 
-/* What the page holds once its script has run. */
+/* The contents of the page after its script has run. */
 std::string page_in_browser(const std::string &query)
 {
   const Scratch profile;

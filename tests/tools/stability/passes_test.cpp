@@ -1,9 +1,9 @@
-/* passes_test.cpp - movers of `tandem stability` miss by what they say, or overlap by it: shown without the code that
- * placed them.
+/* passes_test.cpp - the movers of `tandem stability` miss or overlap the obstacle by the stated distance, which is
+ * shown without the code that placed them.
  *
- * The gap between the mover's lowest point and the obstacle's highest bounds the distance from below at every moment,
- * since neither leaves its side of the plane between; the distance of two points of theirs at one moment bounds it from
- * above. Where both are the clearance, it is.
+ * The gap between the mover's lowest point and the obstacle's highest one bounds the distance from below at every
+ * moment, because neither leaves its side of the plane between. The distance of two of their points at one moment
+ * bounds it from above. If both bounds are the clearance, so is the distance.
  */
 #ifdef TANDEM_COMMAND
 #include <tandem/world.h>
@@ -59,7 +59,7 @@ std::vector<Vector> utmost(const std::vector<Vector> &points, double sign)
   return found;
 }
 
-/* From p to the corner, or to the edge between the two. */
+/* The distance from p to the corner, or to the edge between the two. */
 double distance(const Vector &p, const std::vector<Vector> &top)
 {
   if (top.size() == 1) return (p - top[0]).norm();

@@ -1,7 +1,7 @@
 /* stability_test.cpp - the cases of `tandem stability` can pass, and every figure can fail.
  *
- * A check that cannot fail is a defect: each figure is shown a motion that is wrong, planted by hand, and must leave
- * its bound. All cases run with the default solver, and all but five, which take minutes, at full length.
+ * A check that cannot fail is a defect: each figure is given a wrong motion, planted by hand, and must exceed its
+ * bound. All cases run with the default solver, and all but five, which take minutes, run at full length.
  */
 #ifdef TANDEM_COMMAND
 #include <limits>
@@ -140,7 +140,7 @@ void check_group(const std::string &group)
 
 } // namespace
 
-/* One test a group, so that each is an entry of its own, and one that fails is told apart. */
+/* There is one test for each group, so that each is an entry of its own and a failure names its group. */
 TEST_CASE("stability: mass ratios pass within bounds that are not loose", "[stability]") { check_group("mass ratio"); }
 TEST_CASE("stability: stacks pass within bounds that are not loose", "[stability]") { check_group("stacks"); }
 TEST_CASE("stability: settings pass within bounds that are not loose", "[stability]") { check_group("settings"); }
@@ -229,7 +229,7 @@ TEST_CASE("stability: contacts just below the limit differ from those at it", "[
   CHECK(failed(run("below the limit", std::move(trial)), "difference from contacts at the limit"));
 }
 
-/* A trial whose collisions are off: what hits goes on, and must be told. */
+/* A trial without collisions: a body that should hit passes, and this must be reported. */
 TEST_CASE("stability: figures of movers notice one that is let through, slowed or driven", "[stability]")
 {
   const auto unhindered = [](const char *name) {

@@ -1,6 +1,6 @@
-/* round_to_float_test.cpp - roundings that compilers leave out, compared with the bits that must come.
+/* round_to_float_test.cpp - roundings that compilers may leave out, compared with the right bits.
  *
- * The library's own code is asked, which is compiled as users get it; a test that rounds here would test the options of
+ * The library's own code is tested, compiled as users get it; a test that rounds by itself would test the options of
  * the tests.
  */
 #include <bit>

@@ -1,5 +1,4 @@
-/* file_test.cpp - both storages give one problem; a file that is no problem is refused with the line
- * and the reason. */
+/* file_test.cpp - both storage formats give one problem; an invalid file is refused with the line and the reason. */
 #include <cstdio>
 #include <filesystem>
 #include <fstream>

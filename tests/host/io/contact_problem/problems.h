@@ -1,4 +1,4 @@
-/* problems.h - an oracle for frictional contact problems: dense, in double, with nothing of shared/ in it. */
+/* problems.h - an oracle for frictional contact problems: dense, in double, independent of shared/. */
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ struct DenseProblem {
     }
   }
 
-  /* Nearest point of the cone, from its two extreme rays in the plane of v and the axis instead of a formula for
+  /* The nearest point of the cone, from its two extreme rays in the plane of v and the axis instead of one formula for
    * both. */
   static Eigen::Vector3d nearest(const Eigen::Vector3d &v, double mu)
   {
@@ -51,15 +51,15 @@ struct DenseProblem {
     return v;
   }
 
-  /* docs/contact-problems.md, in one line. */
+  /* The residual of docs/contact-problems.md, in one line. */
   double natural_residual(const Eigen::VectorXd &r) const
   {
     const double rho = 10 / (delassus.trace() / static_cast<double>(free_velocity.size()));
     return (r - projected(r - rho * corrected(velocity(r)))).norm() / (rho * corrected(free_velocity).norm());
   }
 
-  /* All impulses at once along the corrected velocity with a step below the operator's: slow, and no relation to
-   * Gauss-Seidel. */
+  /* Moves all impulses at once along the corrected velocity, with a step below the operator's. This is slow and not
+   * related to Gauss-Seidel. */
   Eigen::VectorXd fixed_point(int steps = 20000) const
   {
     const double rho = 0.5 / delassus.norm();

@@ -35,7 +35,7 @@ struct RemoveAtEnd {
   ~RemoveAtEnd() { std::remove(path.c_str()); }
 };
 
-/* A pose that tells its body and frame: the rotation about Y by an angle that passes half a turn. */
+/* A pose that identifies its body and frame: the rotation about Y by an angle that passes half a turn. */
 Vec3 position_of(size_t body, int frame) { return {float(body), 0.1f * float(frame), -float(body) * float(frame)}; }
 Quat orientation_of(size_t body, int frame)
 {

@@ -1,4 +1,4 @@
-/* gltf_scenes.h - where the scenes lie that come with the glTF physics extensions: beside the source, never in it. */
+/* gltf_scenes.h - finds the scenes that come with the glTF physics extensions, which are never part of the source. */
 #pragma once
 
 #include <filesystem>
@@ -10,7 +10,7 @@ namespace tandem {
 
 inline std::filesystem::path gltf_scenes() { return shared_data("gltf_physics/tests"); }
 
-/* "Materials_01" -> the path of RigidBodies_Materials_01.gltf. */
+/* Turns "Materials_01" into the path of RigidBodies_Materials_01.gltf. */
 inline std::string gltf_scene_path(const std::filesystem::path &folder, const std::string &name)
 {
   return (folder / ("RigidBodies_" + name.substr(0, name.rfind('_'))) / ("RigidBodies_" + name + ".gltf")).string();

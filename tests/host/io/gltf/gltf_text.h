@@ -1,4 +1,4 @@
-/* gltf_text.h - small glTF files as text, for the tests of their reader, and what it makes of them. */
+/* gltf_text.h - small glTF files as text, for the tests of their reader, and the scenes that it makes of them. */
 #pragma once
 
 #include <cstdio>
@@ -14,7 +14,7 @@ namespace tandem::gltf_text {
 
 namespace fs = std::filesystem;
 
-/* Tests of one tree run at the same time, each in its own process. */
+/* The name is unique to the process, because tests of one tree run at the same time, each in its own process. */
 inline const std::string temporary_path =
     (fs::temp_directory_path() / ("tandem_scene_" + std::to_string(getpid()) + ".gltf")).string();
 
@@ -59,7 +59,7 @@ inline std::string complaint(const Parts &parts)
   return "";
 }
 
-/* One node, called Cup, with the given motion members and shape. */
+/* The JSON of one node, called Cup, with the given motion members and shape. */
 inline std::string cup(const std::string &motion, int shape = 0, const std::string &node = "")
 {
   return R"({"name":"Cup",)" + node + R"("extensions":{"KHR_physics_rigid_bodies":{"motion":{)" + motion +
@@ -97,7 +97,7 @@ template <class T> std::string bytes_of(const std::vector<T> &values)
   return {reinterpret_cast<const char *>(values.data()), values.size() * sizeof(T)};
 }
 
-/* Members of a file with one mesh. Its buffer: positions, then indices of 16 bits. */
+/* The members of a file with one mesh. Its buffer holds positions, then indices of 16 bits. */
 inline std::string with_mesh(const std::vector<Vec3> &points, const std::vector<uint16_t> &indices,
                              const std::string &primitive = "")
 {
@@ -116,7 +116,7 @@ inline std::string with_mesh(const std::vector<Vec3> &points, const std::vector<
 inline const std::vector<Vec3> tip_points{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}};
 inline const std::vector<uint16_t> tip_triangles{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
 
-/* A body called Cup, of the given geometry, that is `node`. */
+/* The JSON of a node called Cup, which is a body of the given geometry. node: further members. */
 inline std::string cup_of(const std::string &geometry, const std::string &node = "",
                           const std::string &motion = R"("motion":{},)")
 {

@@ -1,5 +1,5 @@
-/* scene_test.cpp - glTF physics: node transforms against Eigen, filters against the extension's sentence,
- * and for everything the pipeline does not know, a refusal with the node's name. */
+/* scene_test.cpp - glTF physics: node transforms against Eigen, filters against the wording of the extension, and for
+ * every feature that the pipeline lacks a refusal with the node's name. */
 #include <algorithm>
 #include <set>
 

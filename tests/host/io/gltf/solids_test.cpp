@@ -1,5 +1,5 @@
-/* Solids of glTF bodies: compounds of several colliders, meshes with dents and holes, planes with an end, round shapes
- * scaled unevenly, mirrored nodes. Masses and places against closed forms. */
+/* Shapes of glTF bodies: compounds of several colliders, meshes with dents and holes, finite planes, round shapes with
+ * uneven scale, mirrored nodes. Masses and poses are checked against closed forms. */
 #include "host/geometry/convex_hull.h"
 #include "host/geometry/shape_mass.h"
 #include "host/geometry/triangle_mesh.h"
@@ -17,7 +17,7 @@ using Vector3 = Eigen::Vector3d;
 Vector3 vector3(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 Vector3 vector3(const Point &p) { return {p[0], p[1], p[2]}; }
 
-/* Where a child's frame stands in the world. */
+/* The pose of a child's frame in the world. */
 Vector3 place_in_world(const Body &body, const Child &child)
 {
   const Double3 in_body = place_of_child(body, child).position;

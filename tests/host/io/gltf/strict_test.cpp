@@ -1,5 +1,5 @@
-/* strict_test.cpp - values of wrong types, lengths and ranges in all that physics reads of a glTF file: each
- * is refused in one line that names its place. What only renders may be anything. */
+/* strict_test.cpp - values of wrong types, lengths and ranges in everything that physics reads from a glTF file: each
+ * is refused in one line that names its place. Members that only concern rendering may have any value. */
 #include "host/geometry/convex_hull.h"
 #include "tests/catch.h"
 #include "tests/host/io/gltf/gltf_text.h"
@@ -29,7 +29,7 @@ const std::vector<std::string> no_numbers{R"("3")", R"("0x1p+1")", "true", "null
 const std::vector<std::string> no_indices{R"("0")",     "-1",         "-5",   "0.5",  "1e20", "99",
                                           "4294967295", "4294967296", "true", "null", "[0]",  "{}"};
 
-/* Of n numbers, of which one or the whole is wrong. */
+/* Lists of n numbers, of which one or all are wrong. */
 std::vector<std::string> no_vectors(size_t n)
 {
   std::vector<std::string> wrong{R"("0 3 0")", "3", "true", "null", "{}", "[]"};
@@ -128,7 +128,7 @@ TEST_CASE("glTF, strictly: accessors, views and buffers of meshes that a collide
   const std::string mesh = with_mesh(tip_points, tip_triangles);
   const auto spoiled = [&](const std::string &part, const std::string &by) {
     check_refused({.nodes = cup_of(R"("mesh":0)"), .more = replaced(mesh, part, by)}, "node 'Cup': collider.geometry");
-    /* The same damage in a mesh that only renders is nobody's concern. */
+    /* The same damage in a mesh that only renders does not matter. */
     CHECK(complaint({.nodes = cup("", 0, R"("mesh":0,)"), .more = replaced(mesh, part, by)}).empty());
   };
   for (const std::string &wrong : no_indices) {

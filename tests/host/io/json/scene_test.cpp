@@ -1,4 +1,4 @@
-/* scene_test.cpp - a written scene reads back to the same bits; every mistake in a file is named with its
+/* scene_test.cpp - a written scene reads back to the same bits, and every error in a file is reported with its
  * place. */
 #include <bit>
 #include <cmath>

@@ -1,4 +1,4 @@
-/* mesh_test.cpp - vertices and faces of OBJ files, and what is said of files that are none. */
+/* mesh_test.cpp - vertices and faces of OBJ files, and the messages about invalid files. */
 #include <cmath>
 
 #include "host/geometry/mass_properties.h"

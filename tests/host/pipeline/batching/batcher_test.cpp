@@ -1,4 +1,4 @@
-/* Every batcher against oracles of its own kind, on hard lists of contacts; and the check, against planted faults. */
+/* Every batcher against an oracle of its kind, on hard lists of contacts, and the check against planted faults. */
 #include <algorithm>
 #include <numeric>
 

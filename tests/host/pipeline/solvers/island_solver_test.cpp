@@ -1,4 +1,4 @@
-/* Contact problems of random points: the laws hold at what the solver calls converged, and nothing else is ever
+/* Contact problems of random points: converged solutions satisfy the contact laws, and no other result is ever
  * returned. */
 #include <cmath>
 

@@ -1,5 +1,5 @@
-/* fault_scenes.h - the worlds in which one place after the other is made to fail: faults_test.cpp by its hooks in
- * buffers, builds, launches and moves of bytes, tests/heap/ by operator new. */
+/* fault_scenes.h - the worlds for tests in which one operation after the other fails: by the hooks in buffers, builds,
+ * launches and transfers of faults_test.cpp, and by operator new in tests/heap/. */
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ inline Settings with(Solver solver, Broadphase broadphase, bool events)
   return settings;
 }
 
-/* Every way of keeping something from step to step. */
+/* Every method that keeps data from step to step. */
 inline std::vector<Case> cases()
 {
   return {{"box-grid:nx=2,ny=2,nz=2", with(Solver::soft_step, Broadphase::grid, true), "boxes, events"},
@@ -39,7 +39,7 @@ inline std::vector<Case> cases()
            "rolling friction"}};
 }
 
-/* Room for few pairs at first makes a scene of 52 spheres in one place grow. */
+/* A small initial pair capacity makes a scene of 52 coincident spheres grow it. */
 inline Scene dense_cluster(uint32_t spheres)
 {
   Scene scene;

@@ -1,8 +1,7 @@
-/* What may fail is made to fail, one place after the other, until a run gets through: a step happens whole or not at
- * all.
+/* Every operation that may fail fails in turn, until a run succeeds: a step happens whole or not at all.
  *
- * After SQLite's out-of-memory tests. A failed call must say what was wanted, leave the state as it was, and leave a
- * world that goes on with the bits of one that nothing ever happened to. */
+ * The method is that of SQLite's out-of-memory tests. A failed call must name the operation, leave the state unchanged,
+ * and leave a world that continues with the bits of a world without failures. */
 #include <array>
 #include <atomic>
 #include <cstdlib>
@@ -23,7 +22,7 @@ using namespace tandem::fault_scenes;
 
 namespace {
 
-/* Of the places that are struck elsewhere every `share`-th is struck here: a sanitizer takes thirty times as long, and
+/* Every `share`-th of the operations that fail elsewhere fails here, because a sanitizer takes thirty times as long and
  * sees the same code at each (tests/sanitizers/tests.cmake). */
 uint64_t share_of_faults()
 {
@@ -32,8 +31,8 @@ uint64_t share_of_faults()
 }
 const uint64_t share = share_of_faults();
 
-/* Which of the places fails that are asked, counted from 0; `once`: that one alone, else all from there on. only:
- * places of one kind. */
+/* The operation that fails, counted from 0. `once`: only that one fails; else all later ones fail, too. only:
+ * operations of one kind. */
 struct Plan {
   uint64_t nth = 0, seen = 0;
   bool once = true;
@@ -124,7 +123,7 @@ void fail_everywhere_in_step(const Scene &scene, const Settings &settings, const
   CHECK(failures > 0);
 }
 
-/* What reads or changes a world between steps, with the hash of the state that it leaves. */
+/* Lets calls that read or change a world between steps fail, and checks the hash of the state that they leave. */
 void fail_everywhere_between_steps(const Scene &scene, const Settings &settings, const Placement &placement,
                                    const Placement &other, uint64_t stride)
 {

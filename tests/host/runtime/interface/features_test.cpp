@@ -1,4 +1,5 @@
-/* Features beyond the 32nd: kernels that are compiled ahead, the copy in double, and OpenCL test their bits too. */
+/* Features beyond the 32nd: kernels compiled ahead of time, the reference in double, and OpenCL test their bits,
+ * too. */
 #include <cstddef>
 #include <cstring>
 

@@ -1,4 +1,4 @@
-/* Without any OpenCL platform: the ICD loader is pointed at an empty folder in a process of its own. */
+/* The absence of any OpenCL platform: the ICD loader searches an empty folder, in a process of its own. */
 #ifdef TANDEM_COMMAND
 #include "tests/tools/command/command_line.h"
 

@@ -1,4 +1,4 @@
-/* Launches and moves on an OpenCL device: fill, at every awkward length and place of the buffer. */
+/* Launches and transfers on an OpenCL device: fill, at every awkward length and offset of the buffer. */
 #include <numeric>
 
 #include <tandem/scene.h>

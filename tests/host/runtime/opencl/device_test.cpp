@@ -1,4 +1,4 @@
-/* Which device a text means, and what is said when it means none. */
+/* The device that a text selects, and the message if it selects none. */
 #include <fmt/format.h>
 
 #include <tandem/scene.h>

@@ -28,7 +28,7 @@ inline const opencl::Candidate &test_device()
   return *device;
 }
 
-/* An environment variable for the length of a test. */
+/* Sets an environment variable while the object lives. */
 class Environment {
 public:
   Environment(const char *name, const std::string &value) : name_(name)

@@ -1,4 +1,4 @@
-/* pocl.h - PoCL, the OpenCL device of the parity tests: every test that compares with it asks here first. */
+/* pocl.h - PoCL, the OpenCL device of the parity tests; every test that compares with it requires it by this header. */
 #pragma once
 
 #include "host/runtime/opencl/device.h"

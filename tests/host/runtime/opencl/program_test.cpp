@@ -1,4 +1,4 @@
-/* Building: compiler's logs, the cache of binaries and what can be wrong with it. */
+/* Builds of programs: compiler logs, the cache of binaries, and faults in the cache. */
 #include <cstring>
 #include <filesystem>
 #include <fstream>
