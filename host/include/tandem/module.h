@@ -43,8 +43,8 @@ enum class StepPoint : uint8_t {
   constraints, /* constraints stand in the order of their colours */
   forces,      /* in each substep, before gravity: what is added to solver_velocity takes part in the solve */
   solved,      /* solver_velocity and solver_delta_pose are the step's result, not checked yet */
-  commit       /* STATE and CACHE buffers of the module are written here, all items, from their previous_ sides; one that
-                  no kernel writes in a step keeps its contents */
+  commit       /* STATE and CACHE buffers of the module are written here, all items, from their previous_ sides; a
+                  buffer that no kernel writes in a step keeps its contents */
 };
 
 /* The interface through which an extension launches kernels at a point of the step. */

@@ -48,9 +48,8 @@ struct Compound;
  *               may be 0: a cone
  *   hull        `hull`; size is ignored
  *   mesh        the surface `mesh`; its triangles are counter-clockwise seen from outside, and contacts push outward.
- *               Size is ignored. A dynamic mesh should be closed (warnings_of), because its mass is computed as that
- * of a
- *               closed solid
+ *               Size is ignored. A dynamic mesh should be closed (warnings_of), because its mass is computed as
+ *               that of a closed solid
  *   compound    `compound`; size is ignored */
 struct Shape {
   ShapeType type = ShapeType::box;
