@@ -30,7 +30,7 @@ using namespace scene_builders;
 
 namespace {
 
-/* Of shape 0. */
+/* Adds a box of shape 0. */
 void add_box(Scene &scene, double x, double y, double z)
 {
   add_body(scene, 0, {round_to_float(x), round_to_float(y), round_to_float(z)});
@@ -38,7 +38,7 @@ void add_box(Scene &scene, double x, double y, double z)
 
 uint64_t value_of(const SceneValues &values, const char *name) { return uint64_t(values.find(name)->second); }
 
-/* Whole flanks among n cubes, and what is left over. */
+/* The number of complete flanks among n cubes; the rest are in the next flank. */
 uint64_t whole_flanks(uint64_t n)
 {
   uint64_t flanks = 0;

@@ -1,7 +1,7 @@
-/* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
+/* contact_solver.h - solves a frictional contact problem by itself, on any backend, and records its residual.
  *
- * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and
- * shared/problem/pass.h for the methods.
+ * It launches the kernels of shared/problem/ in order. docs/contact-problems.md describes the measurements, and
+ * shared/problem/pass.h the methods.
  */
 #pragma once
 
@@ -15,19 +15,18 @@
 
 namespace tandem {
 
-/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision: on the backend `reference` wherever asked
- * for. */
+/* "pgs", "nncg", "jacobi", and "nsgs", which is pgs in double precision and always runs on the backend `reference`. */
 const std::vector<std::string> &contact_solver_names();
 
 struct ContactSolverSettings {
-  std::string solver = "pgs"; /* InputError for any other than contact_solver_names() */
-  double tolerance = 1e-3;    /* relative natural-map residual at which to stop, >= 0 */
+  std::string solver = "pgs"; /* InputError unless it is one of contact_solver_names() */
+  double tolerance = 1e-3;    /* relative natural-map residual at which the solver stops, >= 0 */
   uint32_t iterations = 1000; /* passes at most */
 };
 
 struct ContactResiduals {
   double natural_map = 0, fischer_burmeister = 0; /* relative */
-  double cone_violation = 0;                      /* the largest of a contact, N s */
+  double cone_violation = 0;                      /* the largest of all contacts, N s */
 };
 
 struct ContactSolution {
@@ -36,14 +35,14 @@ struct ContactSolution {
   std::vector<double> history; /* relative natural-map residual after each pass */
   ContactResiduals residuals;  /* after the last */
   std::vector<std::array<double, 3>> impulse;
-  double milliseconds = 0; /* passes and residuals; without building kernels and the first moves */
+  double milliseconds = 0; /* passes and residuals, without building kernels and the first transfers */
 };
 
 ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,
                                       Backend &backend);
 
-/* Contacts in an order of levels in which a parallel pass equals the pass from 0 to the last: order, and where levels
- * start. */
+/* An order of contacts in levels for which a parallel pass equals the sequential pass over all contacts: the order, and
+ * the start of each level. */
 struct ContactLevels {
   std::vector<uint32_t> order, start;
 };

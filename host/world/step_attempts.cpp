@@ -213,8 +213,7 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   const uint32_t body = special.order[index];
   quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
   ++statistics.nonfinite;
-  taken_out.emplace_back(index, read_body(memory, index)); /* first, because even a body that stays unchanged can be
-                                                              restored */
+  taken_out.emplace_back(index, read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
 }
 

@@ -20,7 +20,7 @@ using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 /* Four points of a face can carry one load in many ways, and each float is rounded a little differently, so that none
  * of these ways fits exactly. A compliance, relative to each row's own response, selects the solution nearest to the
- * guess; at rest, where the guess is the solution, it gives way to no speed. With a much smaller compliance, rounding
+ * guess; at rest, where the guess is the solution, it has no effect. With a much smaller compliance, rounding
  * alone would decide which points carry the load. */
 constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
