@@ -1,7 +1,7 @@
 /* broadphase_inputs.cpp - the scenes of broadphase_inputs.h.
  *
- * Bodies are spread evenly over a cube. Its edge is a multiple of the smallest integer whose cube is at least the number
- * of bodies, so that positions do not depend on a library's cube root. Two cubes of sides s and t overlap in
+ * Bodies are spread evenly over a cube. Its edge is a multiple of the smallest integer whose cube is at least the
+ * number of bodies, so that positions do not depend on a library's cube root. Two cubes of sides s and t overlap in
  * n^2 / 2 (s + t)^3 / volume pairs, from which the density follows.
  */
 #include "tools/bench/broadphase_inputs.h"

@@ -29,7 +29,7 @@ struct MetricName {
 };
 std::span<const MetricName> metric_names();
 const MetricName &name_of(Metric metric);
-Metric metric_named(const std::string &name); /* InputError lists the valid names */
+Metric metric_named(const std::string &name); /* InputError lists the names */
 
 enum class Grid { quick, coarse, full }; /* how many settings of a solver are tried */
 
