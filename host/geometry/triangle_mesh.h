@@ -53,8 +53,7 @@ struct MeshFindings {
   uint32_t welded_vertices = 0, unused_vertices = 0; /* left out */
   uint32_t degenerate_triangles = 0,
            duplicate_triangles = 0; /* left out; the first of equal ones stays. Opposite faces are no duplicates */
-  uint32_t boundary_edges = 0;     /* of one triangle; a degenerate triangle closes a gap here, because it has edges
-                                      though no area */
+  uint32_t boundary_edges = 0;     /* of one triangle; a degenerate triangle has edges too and closes gaps */
   uint32_t non_manifold_edges = 0; /* of more than two */
   uint32_t misoriented_edges = 0;  /* of two triangles that both run along it in the same direction */
 };

@@ -35,8 +35,7 @@ struct Truth {
   bool resolved = true;
   size_t comparable_frames = 0; /* frames up to the horizon, and resolved */
   bool closed_form = false;
-  bool known() const { return !frames.empty(); } /* false if a scene has no reference solution and is judged by
-                                                    penetration, for example */
+  bool known() const { return !frames.empty(); } /* false if the scene has no reference solution */
 
   /* RMS distance over the comparable frames, at r / 4, r / 2 and r steps for each 1/60 s, from the closed form if there
    * is one, else from the finest run (the last distance is then 0). */

@@ -16,8 +16,7 @@ namespace tandem {
 inline float round_to_float(double x)
 {
   float rounded = static_cast<float>(x);
-  asm("" : "+m"(rounded)); /* the operand is in memory, because every processor has memory and no wider register can
-                              keep the value there */
+  asm("" : "+m"(rounded)); /* in memory, which every processor has, and where no wider register can keep it */
   return rounded;
 }
 
