@@ -54,8 +54,8 @@ inline int64_t cube_side(int64_t n)
   return side;
 }
 
-/* Places `count` items in layers of side × side cells, centred over the origin, with the centres of the lowest cells at
- * y = bottom. Items whose radius plus jitter is below cell / 2 cannot touch. */
+/* Places `count` items in layers of side × side cells, centred over the origin, with the centres of the lowest cells
+ * at y = bottom. Items whose radius plus jitter is below cell / 2 cannot touch. */
 struct CellGrid {
   int64_t side;
   double cell, bottom;

@@ -1,4 +1,5 @@
-/* embed_kernels - makes the OpenCL programs that the library contains: cl/NAME.cl with its includes, and its entries.
+/* embed_kernels.cpp - makes the OpenCL programs that the library contains: cl/NAME.cl with its includes, and its
+ * entries.
  *
  * A line ENTRIES(STAGE) at the end of a file requests the entry of each kernel of that stage; the entries are written
  * from shared/kernels.def (entries.h). An installed program needs no source tree, because the library contains the
