@@ -6,8 +6,8 @@
 # WHAT: parity, shapes, broadphase, narrowphase, times, widths, solvers, batchers, report, stability or all.
 #
 # TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). The script writes one JSON file
-# for each run, and commands.txt, which lists their commands. docs/results keeps a page and the small files of them; files
-# beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
+# for each run, and commands.txt, which lists their commands. docs/results keeps a page and the small files of them;
+# files beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
 set -u
 tandem=$1 out=$2 gpu=$3 what=${4:-all}
 mkdir -p "$out"
