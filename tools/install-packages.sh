@@ -2,7 +2,7 @@
 # install-packages.sh - the one list of Debian and Ubuntu packages that Tandem needs, and their installation.
 #
 # tools/run-demo.sh and tools/run-tests.sh call it, so that a bare Debian 12 or Ubuntu 24.04 is enough to start from.
-# A package of level `need` must be there; one of level `want` makes more possible, and its absence is said aloud.
+# A package of level `need` must be installed; one of level `want` enables more, and its absence is reported.
 set -eu
 
 usage() {
@@ -108,8 +108,8 @@ install_names() {
   apt install --no-install-recommends $1
 }
 
-# Debian holds all architectures in one archive. Where the lists of another cannot be had (Ubuntu keeps them elsewhere),
-# it is forgotten.
+# Debian has all architectures in one archive. If the lists of another architecture are not available (Ubuntu keeps them
+# elsewhere), the architecture is removed again.
 add_architecture() {
   ! dpkg --print-foreign-architectures | grep -qx "$1" || return 0
   as_root dpkg --add-architecture "$1"

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Records what this machine's backends compute and how fast: parity first, then times.
+# record-results.sh - records the results and the times of this machine's backends: parity first, then times.
 #
 #   tools/record-results.sh TANDEM OUTPUT-FOLDER GPU [WHAT]
 #
 # WHAT: parity, shapes, broadphase, narrowphase, times, widths, solvers, batchers, report, stability or all.
 #
-# TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). Writes one JSON file a
-# run and commands.txt, which says how each was made. Of these docs/results keeps a page and the small files; those
-# beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
+# TANDEM is the built command, GPU the --on text of the device to record (cl:nvidia). The script writes one JSON file
+# for each run, and commands.txt, which lists their commands. docs/results keeps a page and the small files of them;
+# files beyond 100 KB are named in not-kept.txt and not committed. docs/results.md says which part makes which table.
 set -u
 tandem=$1 out=$2 gpu=$3 what=${4:-all}
 mkdir -p "$out"
 : > "$out/commands.txt"
 
-record() { # NAME ARGUMENTS...: runs tandem with --json, keeps the file and says how it went
+record() { # NAME ARGUMENTS...: runs tandem with --json, keeps the file and reports the exit status
   local name=$1; shift
   local start=$SECONDS
   echo "tandem $* --json $name.json" >> "$out/commands.txt"
@@ -55,7 +55,7 @@ if [ "$what" = shapes ] || [ "$what" = all ]; then
     record "convex-hulls-20000-${backend%%:*}" run convex-hulls:n=20000 --on "$backend" --steps 120
   done
 fi
-# An input at a time: a million bodies of each take a processor of few cores minutes.
+# Inputs run one at a time, because a million bodies of each take minutes on a processor of few cores.
 if [ "$what" = broadphase ] || [ "$what" = all ]; then
   for backend in "$gpu" tbb; do
     for scene in spheres pile one-large sizes static; do
@@ -64,7 +64,7 @@ if [ "$what" = broadphase ] || [ "$what" = all ]; then
     done
   done
 fi
-# Every method of each kind of pair is a build of its own, which takes a driver minutes.
+# Every method of each kind of pair is a separate build, which takes a driver minutes.
 if [ "$what" = narrowphase ] || [ "$what" = all ]; then
   LIMIT=600 record narrowphase-gpu bench narrowphase --on "$gpu" --n 262144
   record narrowphase-million-boxes-gpu bench narrowphase --on "$gpu" --n 1048576 --pairs box-box
@@ -91,7 +91,7 @@ if [ "$what" = widths ] || [ "$what" = all ]; then
     record "widths-${scene%%:*}" diff "$scene" --between "$backends,tbb:lanes=16,cl:pocl,$gpu" --steps 120
   done
 fi
-# Every solver and every batcher gives the same bits on every backend; what each costs.
+# Every solver and every batcher gives the same bits on every backend; these runs record what each costs.
 solvers="soft-step pgs nncg jacobi xpbd avbd direct"
 if [ "$what" = solvers ] || [ "$what" = all ]; then
   for solver in $solvers; do
@@ -109,7 +109,7 @@ if [ "$what" = batchers ] || [ "$what" = all ]; then
   done
   for backend in "$gpu" tbb; do record "bench-batching-${backend%%:*}" bench batching --on "$backend"; done
 fi
-# Error against time, and stiff cases: in pieces of a few minutes, each with a page of its own.
+# Error against time, and stiff cases, are recorded in parts of a few minutes, each with a page of its own.
 LIMIT=${LIMIT:-600}
 if [ "$what" = report ] || [ "$what" = all ]; then
   record report-small report --on "tbb,$gpu" --scenes free-flight,incline,bounce,pyramid,mass-ratio,mixed --out \
@@ -118,7 +118,7 @@ if [ "$what" = report ] || [ "$what" = all ]; then
   record report-box-grid-large report --on "tbb,$gpu" --parts scenes --scenes box-grid-large --out \
       "$out/report-box-grid-large"
 fi
-# The long pyramids on the device, except for direct, which works on the CPU: the bits are the same.
+# The long pyramids run on the device, except for direct, which works on the CPU; the bits are the same.
 if [ "$what" = stability ] || [ "$what" = all ]; then
   pyramids=pyramid-80,pyramid-100
   record stability-small stability --except $pyramids --out "$out/stability-small"
@@ -128,6 +128,6 @@ if [ "$what" = stability ] || [ "$what" = all ]; then
       "$out/stability-pyramids-nncg"
   record stability-pyramids-direct stability --only $pyramids --solvers direct --out "$out/stability-pyramids-direct"
 fi
-# To be looked at now: the commands make them anew.
+# Large files are not committed, because the commands can make them again.
 (cd "$out" && find . -type f -size +100k | sed 's|^./||' | sort) > "$out/not-kept.txt"
 [ ! -s "$out/not-kept.txt" ] || { printf 'beyond 100 KB, not to be committed:\n'; cat "$out/not-kept.txt"; }

@@ -35,7 +35,7 @@ tandem() {
 # A machine with an OpenCL driver of its own needs no PoCL.
 have_driver() { [ -n "$(find "${OCL_ICD_VENDORS:-/etc/OpenCL/vendors}" -name '*.icd' 2>/dev/null | head -n 1)" ]; }
 
-# Prints the OpenCL backend to compare, or to standard error why there is none.
+# Prints the OpenCL backend to compare, or on standard error why there is none.
 opencl_backend() {
   if [ "$opencl" = no ]; then echo "OpenCL is left out, as asked." >&2; return; fi
   for candidate in cl:pocl cl; do

@@ -3,7 +3,7 @@
 #
 # The sanitizer trees take the objects of tools and of most tests from the release tree, and instrument the library;
 # their tests, and those of the trees of other compilers, are entries of the one CTest run in the release tree at the
-# end. With CI=true a missing OpenCL device fails, and so does a missing tree that was not left out; else they are
+# end. With CI=true a missing OpenCL device fails, and so does a missing tree that was not left out; otherwise they are
 # skipped.
 set -eu
 
@@ -45,7 +45,7 @@ jobs=$(nproc)
 # shellcheck disable=SC2086 # an empty option must vanish
 tools/install-packages.sh $install_option build tests ${compilers:+aarch64}
 
-# What these trees need is wanted, not needed: a compiler, and for another processor its libraries.
+# These trees need a compiler, and for another processor its libraries; both are optional packages.
 is_possible() {
   case $1 in
     golden-clang) command -v clang++ >/dev/null ;;
@@ -58,7 +58,7 @@ is_possible() {
 }
 
 for preset in $all_compilers; do
-  [ "$quick" ] || rm -rf "build/$preset/bin" # what is not built now is skipped, not passed
+  [ "$quick" ] || rm -rf "build/$preset/bin" # a tree that is not built now is skipped, not passed
 done
 for preset in $compilers; do
   printf '\n== %s\n' "$preset"
@@ -81,7 +81,7 @@ for preset in $sanitizers; do
   cmake --build --preset "$preset" -j "$jobs" --target tandem_tests # and the programs that it runs
 done
 
-if [ "$quick" ]; then # caches of kernels stay: what is compiled for a device once more is what takes long
+if [ "$quick" ]; then # caches of kernels stay, because compiling them again takes long
   exec ctest --preset release -j "$jobs" --no-tests=error -L '^(unit|check)$' -LE '^slow$' "$@"
 fi
 

@@ -1,4 +1,5 @@
-/* finite_vector.h - checks of vectors that users give, and how messages print them. */
+/* finite_vector.h - checks that the vectors a user gives are finite, and prints them in messages. Loaders, World and
+ * the queries share it, so that all of them refuse the same vectors in the same words. */
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace tandem {
 
-/* Every component, as the float that the kernels see. */
+/* True if every component is finite as a float, which is what the kernels read. */
 template <class Vector> bool is_finite_vector(const Vector &v)
 {
   return std::all_of(v.begin(), v.end(), [](auto x) { return std::isfinite(round_to_float(double{x})); });

@@ -1,5 +1,5 @@
-/* format.cpp - the part of fmt that is no header, compiled into the library: who links Tandem::tandem needs TBB and
- * OpenCL alone. */
+/* format.cpp - compiles the part of fmt that is not in headers into the library, so that a program that links
+ * Tandem::tandem needs only TBB and OpenCL. */
 #include <fmt/format-inl.h>
 
 FMT_BEGIN_NAMESPACE

@@ -1,5 +1,5 @@
-/* hash.h - a fast 64-bit fingerprint of bytes, for comparing states: not for adversaries.
- * Four independent lanes of multiply and rotate, so that it runs at memory speed. */
+/* hash.h - a fast 64-bit fingerprint of bytes, for comparing states. It does not resist deliberate collisions. Four
+ * independent lanes of multiply and rotate let it run at the speed of memory. */
 #pragma once
 
 #include <algorithm>

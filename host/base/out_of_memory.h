@@ -1,4 +1,4 @@
-/* out_of_memory.h - a bare std::bad_alloc becomes an OutOfMemory that says what was wanted. */
+/* out_of_memory.h - turns a bare std::bad_alloc into an OutOfMemory that names what was requested. */
 #pragma once
 
 #include <new>
@@ -7,7 +7,7 @@
 
 namespace tandem {
 
-/* work(), where running out of memory is told in the words that describe() finds. */
+/* Returns work(). If memory runs out, the OutOfMemory carries the text that describe() returns. */
 template <class Describe, class Work> auto naming_what_failed(Describe describe, Work work) -> decltype(work())
 {
   try {

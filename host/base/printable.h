@@ -1,5 +1,5 @@
-/* printable.h - a text of a file as part of one line: names of bodies may hold ends of lines, zeros, or what moves a
- * terminal's cursor. */
+/* printable.h - makes text from a file fit into one line of a message: names of bodies may hold line ends, zeros or
+ * sequences that move a terminal's cursor. */
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace tandem {
 
-/* Control characters (Unicode's below a blank, delete, those from 80 to 9f, and the ends of lines and paragraphs)
- * become \n, \x00, \u2028. */
+/* Escapes control characters as \
+ * , \\x00 or \\u2028: Unicode's below the blank, delete, those from 80 to 9f, and the separators of lines and
+ * paragraphs. */
 inline std::string printable(const std::string &text)
 {
   std::string result;

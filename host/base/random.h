@@ -1,8 +1,8 @@
 /* random.h - the same random numbers on every machine.
  *
- * The distributions of <random> differ between standard libraries, and a scene must not. SplitMix64
- * (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014), integers only up to the last step;
- * of floating point only + - * / and sqrt, which IEEE 754 rounds exactly.
+ * The distributions of <random> differ between standard libraries, and a scene must not. The generator is SplitMix64
+ * (Steele, Lea, Flood: Fast splittable pseudorandom number generators, OOPSLA 2014). It computes in integers up to the
+ * last step, and of floating point it uses only + - * / and sqrt, which IEEE 754 rounds exactly.
  */
 #pragma once
 
@@ -26,15 +26,15 @@ public:
     return z ^ (z >> 31);
   }
 
-  /* In [0, 1), a multiple of 2^-53. */
+  /* A multiple of 2^-53 in [0, 1). */
   double uniform() { return double(next() >> 11) * 0x1p-53; }
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-  /* In 0 .. count-1; the bias is below count / 2^32. */
+  /* A number in 0 .. count-1; the bias is below count / 2^32. */
   uint32_t below(uint32_t count) { return uint32_t(((next() >> 32) * count) >> 32); }
 
-  /* Evenly distributed rotation x y z w: a point of the unit ball in four dimensions, normalised; rejection needs no
-   * sine. */
+  /* An evenly distributed rotation x y z w: a point of the unit ball in four dimensions, normalised. Rejection sampling
+   * avoids a sine. */
   std::array<float, 4> orientation()
   {
     for (;;) {

@@ -1,4 +1,4 @@
-/* trigonometry.cpp - see trigonometry.h. */
+/* trigonometry.cpp - reduces an angle to a quarter turn and sums Taylor's series; see trigonometry.h. */
 #include "host/base/trigonometry.h"
 
 #include <cmath>
@@ -6,11 +6,11 @@
 namespace tandem {
 namespace {
 
-/* Half of pi in three parts, the first two of 33 bits: their products with a number of quarter turns are exact (Cody
- * and Waite). */
+/* Half of pi in three parts (Cody and Waite). The first two have 33 bits, so that their products with a number of
+ * quarter turns are exact. */
 constexpr double quarter_high = 0x1.921fb544p+0, quarter_middle = 0x1.0b4611a6p-34, quarter_low = 0x1.3198a2e037073p-69;
 
-/* Taylor's series, the innermost term first; what is left out is below 1e-19 up to pi / 4. */
+/* Taylor's series, summed from the innermost term. The terms left out are below 1e-19 for angles up to pi / 4. */
 double series(double square, int last)
 {
   double sum = 1;

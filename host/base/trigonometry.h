@@ -1,7 +1,7 @@
-/* trigonometry.h - sine and cosine in double with the same bits everywhere, for what builds scenes.
+/* trigonometry.h - sine and cosine in double with the same bits everywhere, for the code that builds scenes.
  *
- * Those of the C library differ in the last bit between versions, processors and even between the processors that one
- * build chooses for when it starts. Kernels have their own in float: shared/trigonometry.h.
+ * The functions of the C library differ in the last bit between versions and between processors; one binary may even
+ * select another variant at start-up. Kernels have their own functions in float: shared/trigonometry.h.
  */
 #pragma once
 
@@ -13,7 +13,7 @@ struct SineCosine {
   double sine, cosine;
 };
 
-/* Angles in radians, of at most 10^6 in size; each wrong by less than 2.3e-16. */
+/* The angle is in radians and at most 10^6 in size; the error of each result is below 2.3e-16. */
 TANDEM_API SineCosine sine_cosine(double angle);
 
 } // namespace tandem

@@ -1,4 +1,5 @@
-/* version.cpp - the version that the library was built as, for programs that meet it at run time. */
+/* version.cpp - the version that the library was built as, for programs that load a shared library of another version
+ * at run time. */
 #include <tandem/version.h>
 
 #define TEXT_OF(number) #number

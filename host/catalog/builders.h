@@ -1,5 +1,5 @@
-/* builders.h - what the builders of catalog.h share: typed parameters, and bodies put into a scene one by
- * one. */
+/* builders.h - what the builders of the catalogue (catalog.h) share: typed parameters, and functions that add bodies to
+ * a scene. */
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ inline constexpr auto real = SceneParameter::Type::real;
 inline int64_t whole(const SceneValues &values, const char *name) { return int64_t(values.find(name)->second); }
 inline double number(const SceneValues &values, const char *name) { return values.find(name)->second; }
 
-/* Of scenes that are a ground and `n` bodies. */
+/* The number of bodies of scenes that consist of a ground and `n` bodies. */
 inline uint64_t ground_and_n(const SceneValues &values) { return 1 + uint64_t(whole(values, "n")); }
 
 inline uint32_t add_shape(Scene &scene, const Shape &shape)
@@ -26,7 +26,7 @@ inline uint32_t add_shape(Scene &scene, const Shape &shape)
   return uint32_t(scene.shapes.size() - 1);
 }
 
-/* What else the body needs is set on the reference, before the next is added. */
+/* Other fields of the body are set on the reference, before the next body is added. */
 inline Body &add_body(Scene &scene, uint32_t shape, const Point &position = {0, 0, 0}, float mass = 1)
 {
   Body body;
@@ -37,7 +37,7 @@ inline Body &add_body(Scene &scene, uint32_t shape, const Point &position = {0, 
   return scene.bodies.back();
 }
 
-/* All points with y <= 0. */
+/* The ground is a half-space: all points with y <= 0. */
 inline Body &add_ground(Scene &scene)
 {
   Body &ground = add_body(scene, add_shape(scene, half_space_shape()));
@@ -54,8 +54,8 @@ inline int64_t cube_side(int64_t n)
   return side;
 }
 
-/* Places `count` items in layers of side × side cells, centred over the origin, the lowest cell
- * centres at y = bottom: no two items whose radius plus jitter is below cell / 2 can touch. */
+/* Places `count` items in layers of side × side cells, centred over the origin, with the centres of the lowest cells
+ * at y = bottom. Items whose radius plus jitter is below cell / 2 cannot touch. */
 struct CellGrid {
   int64_t side;
   double cell, bottom;
@@ -71,7 +71,7 @@ struct CellGrid {
   }
 };
 
-/* Four static boxes around |x|, |z| <= inner, as high as a third of the yard's width. */
+/* Four static boxes around |x|, |z| <= inner, with a height of a third of the yard's width. */
 inline void add_walls(Scene &scene, double inner)
 {
   float half_height = round_to_float(inner / 3), thick = 0.5f, far = round_to_float(inner) + thick;
@@ -86,7 +86,7 @@ inline void add_walls(Scene &scene, double inner)
   }
 }
 
-/* A point of the unit sphere. */
+/* A random point of the unit sphere. */
 inline Vec3 direction(Random &random)
 {
   for (;;) {
@@ -97,7 +97,7 @@ inline Vec3 direction(Random &random)
   }
 }
 
-/* A stone: points of an ellipsoid of half a metre and less. */
+/* A stone: the convex hull of random points of an ellipsoid with half axes of 0.25 to 0.5 m. */
 inline Shape stone(int64_t points, Random &random)
 {
   const Vec3 size{round_to_float(random.uniform(0.25, 0.5)), round_to_float(random.uniform(0.25, 0.5)),

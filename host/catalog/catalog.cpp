@@ -1,4 +1,4 @@
-/* catalog.cpp - the rows of the catalogue, and the parser of `name:key=value,…`. */
+/* catalog.cpp - the rows of the catalogue, and the parser of `name:key=value,…`; see catalog.h. */
 #include "host/catalog/catalog.h"
 
 #include <charconv>
@@ -65,7 +65,7 @@ Scene falling_boxes(const SceneValues &v)
   Scene scene;
   scene.shapes = {box_shape(round_to_float(half), round_to_float(half), round_to_float(half))};
   add_ground(scene);
-  /* Twice as high as wide, so that the boxes fall on each other and pile up. */
+  /* The stack is twice as high as wide, so that the boxes fall on each other and pile up. */
   int64_t side = 1;
   while (2 * side * side * side < n) ++side;
   CellGrid grid{side, 2 * (radius + jitter) * 1.001, number(v, "height") + radius + jitter};
@@ -196,7 +196,7 @@ const double most = double(most_bodies - 5);
 
 std::vector<BuiltInScene> simple_scenes()
 {
-  /* 360 columns are as many as the ground of half extent 400 holds. */
+  /* 360 columns are the most that the ground of half extent 400 holds. */
   return {
       {"box-grid",
        "nx * ny * nz boxes of half extent 1 in shifted layers on a static box; the scene of the published comparisons",

@@ -1,9 +1,8 @@
-/* catalog.h - the scenes that need no file: `box-grid:nx=20,ny=20,nz=20`.
+/* catalog.h - the scenes that need no file, such as `box-grid:nx=20,ny=20,nz=20`.
  *
- * One row per scene: name, description, typed parameters with default and range, and the function
- * that builds it. The command's listing, the parser's error messages and the tests read the same rows.
- * All scenes stand on a ground with its top at y = 0, are deterministic (seeds, host/base/random.h), and
- * start without deep overlaps.
+ * There is one row for each scene: name, description, typed parameters with default and range, and the function that
+ * builds it. The command's listing, the parser's error messages and the tests read the same rows. Most scenes have a
+ * ground with its top at y = 0. All are deterministic (seeds, host/base/random.h) and start without deep overlaps.
  */
 #pragma once
 
@@ -23,7 +22,7 @@ struct SceneParameter {
   const char *description;
 };
 
-/* Values of all parameters of a scene, by name; those not given have their defaults. */
+/* The values of all parameters of a scene, by name; those not given have their defaults. */
 using SceneValues = std::map<std::string, double, std::less<>>;
 
 struct BuiltInScene {
@@ -34,7 +33,7 @@ struct BuiltInScene {
   Scene (*build)(const SceneValues &);
 };
 
-/* More bodies than this are refused before any memory is taken. */
+/* A scene with more bodies than this is refused before any memory is allocated. */
 inline constexpr uint64_t most_bodies = 4'000'000;
 
 std::span<const BuiltInScene> built_in_scenes();
@@ -45,11 +44,11 @@ struct SceneSpec {
   SceneValues values;
 };
 
-/* Parses `name` or `name:key=value,key=value`. Throws InputError that lists what exists: unknown
- * scene, unknown or repeated parameter, value malformed or out of range, too many bodies. */
+/* Parses `name` or `name:key=value,key=value`. Throws InputError that lists the valid names for an unknown scene, an
+ * unknown or repeated parameter, a value that is malformed or out of range, or too many bodies. */
 SceneSpec parse_scene_spec(const std::string &text);
 
-/* Builds and validates; Scene::name is the full specification, with all parameters. */
+/* Builds and validates a scene; Scene::name is the full specification, with all parameters. */
 Scene build_scene(const SceneSpec &spec);
 
 } // namespace tandem

@@ -1,9 +1,9 @@
-/* closed_forms.cpp - see closed_forms.h.
+/* closed_forms.cpp - the scenes of closed_forms.h and their exact motion.
  *
  *   free-flight   boxes thrown apart, spinning about no principal axis: parabolas
  *   incline       a box on a slope, tan(slope) above its friction: x = (g/2) (sin - mu cos) t^2
- *   bounce        balls dropped: after each impact e times the speed of it, e^2 of the height
- *   mass-ratio    a column whose boxes get heavier upwards: what Gauss-Seidel is worst at
+ *   bounce        balls dropped: each impact leaves e times the speed, and so e^2 of the height
+ *   mass-ratio    a column whose boxes get heavier upwards, for which Gauss-Seidel converges worst
  */
 #include "host/catalog/closed_forms.h"
 
@@ -51,7 +51,7 @@ Vec3 uphill_normal(double slope)
   return {round_to_float(slope / length), round_to_float(1 / length), 0}; /* down the slope is +x */
 }
 
-/* About -z by the angle of the slope; half angles from the tangent. */
+/* The rotation about -z by the angle of the slope, with half angles computed from the tangent. */
 Quat slope_turn(double slope)
 {
   const double cosine = 1 / std::sqrt(1 + slope * slope);
@@ -85,7 +85,7 @@ Scene bounce(const SceneValues &v)
   add_ground(scene);
   const uint32_t ball = add_shape(scene, sphere_shape(round_to_float(radius)));
   for (int64_t i = 0; i < n; ++i) {
-    /* Not all alike: impacts fall everywhere within a time step. */
+    /* The heights differ, so that impacts fall at all times within a step. */
     const double own = height * (1 + 0.5 * double(i) / double(n));
     add_body(scene, ball,
              {round_to_float(4 * radius * double(i % 1000)), round_to_float(radius + own),
@@ -132,7 +132,8 @@ void accelerate(PreciseBodyState &state, const Vector &acceleration, double time
 
 Vector gravity_of(const Scene &scene) { return {scene.gravity[0], scene.gravity[1], scene.gravity[2]}; }
 
-/* From rest, straight down the slope: the normal from the ground's own turn, which is what the simulation sees. */
+/* Motion from rest straight down the slope. The normal is computed from the ground's own orientation, because the
+ * simulation uses that. */
 void slide(PreciseBodyState &state, const Scene &scene, double time)
 {
   const Quat &q = scene.bodies[0].orientation;
@@ -149,7 +150,7 @@ void fall_and_bounce(PreciseBodyState &state, double radius, double restitution,
   if (time < at) return accelerate(state, {0, -gravity, 0}, time);
   for (speed *= restitution; time >= at + 2 * speed / gravity; speed *= restitution) {
     at += 2 * speed / gravity;
-    if (speed < 1e-9) { /* the impacts come to an end in finite time */
+    if (speed < 1e-9) { /* the impacts end in finite time */
       state.position[1] = radius, state.linear_velocity[1] = 0;
       return;
     }

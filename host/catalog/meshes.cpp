@@ -1,4 +1,5 @@
-/* meshes.cpp - see meshes.h. */
+/* meshes.cpp - the scenes of meshes.h: hulls in a hilly bowl, compounds in a yard, and bodies that slide over a
+ * mesh. */
 #include "host/catalog/meshes.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ using namespace scene_builders;
 
 namespace {
 
-/* Mass from the volume, kg / m^3. */
+/* Sets the mass from the volume and a density in kg / m^3. */
 void finish_body(Scene &scene, Body &body, double density)
 {
   take_mass_properties(scene, body);
@@ -25,7 +26,7 @@ void finish_body(Scene &scene, Body &body, double density)
 
 /* --- hulls-on-mesh: stones in a hilly bowl ----------------------------------------------------------------- */
 
-/* Heights on a square of that half side: waves, and a rim over the last eighth. */
+/* A height field on a square with this half side: waves, and a rim over the outer eighth. */
 Shape bowl(double half_side, uint32_t columns)
 {
   std::vector<float> heights;
@@ -51,7 +52,7 @@ Scene hulls_on_mesh(const SceneValues &v)
   ground.type = BodyType::fixed;
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     const uint32_t shape =
-        random.below(16); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+        random.below(16); /* drawn first, because the order of evaluation of arguments is unspecified */
     Body &body = add_body(scene, shape, grid.place(i, 0.05, random));
     body.orientation = random.orientation();
     finish_body(scene, body, 1000);
@@ -126,7 +127,7 @@ Scene compounds(const SceneValues &v)
 
 /* --- mesh-slide: over the seams of a flat mesh --- */
 
-/* A floor in y = 0 of unequal triangles: the inner corners of a grid, each moved in the plane at random. */
+/* A floor in y = 0 of unequal triangles: the inner vertices of a grid are displaced at random in the plane. */
 Shape flat_mesh(double length, double width, double spacing, Random &random)
 {
   const auto columns = uint32_t(length / spacing) + 2, rows = uint32_t(width / spacing) + 2;
@@ -135,7 +136,7 @@ Shape flat_mesh(double length, double width, double spacing, Random &random)
   for (uint32_t i = 0; i < columns * rows; ++i) {
     const uint32_t column = i % columns, row = i / columns;
     const bool inside = column > 0 && row > 0 && column + 1 < columns && row + 1 < rows;
-    const double jitter = inside ? 0.2 * spacing : 0; /* no triangle turns over */
+    const double jitter = inside ? 0.2 * spacing : 0; /* too small to invert a triangle */
     vertices.push_back({round_to_float(column * spacing + random.uniform(-jitter, jitter)), 0,
                         round_to_float((row - 0.5 * (rows - 1)) * spacing + random.uniform(-jitter, jitter))});
     if (column + 1 < columns && row + 1 < rows)

@@ -1,4 +1,4 @@
-/* meshes.h - built-in scenes of meshes and compounds. */
+/* meshes.h - built-in scenes of meshes and compounds, part of the catalogue (catalog.h). */
 #pragma once
 
 #include <vector>

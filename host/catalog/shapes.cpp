@@ -1,4 +1,5 @@
-/* shapes.cpp - see shapes.h. */
+/* shapes.cpp - the scenes of shapes.h: convex hulls, all shapes in a pile, rolling, and continuous collision
+ * detection. */
 #include "host/catalog/shapes.h"
 
 #include <cmath>
@@ -16,7 +17,8 @@ using namespace scene_builders;
 
 namespace {
 
-/* Mass from 1,000 kg / m^3 of a ball of that radius, centre and axes from the shape. */
+/* Sets the mass to that of a ball of this radius at 1,000 kg / m^3, and the centre of mass and axes to those of the
+ * shape. */
 void finish_stone(Scene &scene, Body &body, double radius)
 {
   body.mass = round_to_float(1000 * 4.0 / 3.0 * 3.14159265358979 * radius * radius * radius);
@@ -38,7 +40,7 @@ Scene convex_hulls(const SceneValues &v)
   add_walls(scene, 0.5 * grid.cell * double(grid.side) + 0.5);
   for (int64_t i = 0; i < whole(v, "n"); ++i) {
     const uint32_t shape =
-        random.below(kinds_of_stone); /* drawn first: arguments are evaluated in whatever order the compiler likes */
+        random.below(kinds_of_stone); /* drawn first, because the order of evaluation of arguments is unspecified */
     Body &body = add_body(scene, shape, grid.place(i, jitter, random));
     body.orientation = random.orientation();
     finish_stone(scene, body, 0.35);

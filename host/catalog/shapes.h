@@ -1,5 +1,5 @@
-/* shapes.h - built-in scenes of shapes beyond sphere and box: hulls, all of them in one pile, what
- * rolls. */
+/* shapes.h - built-in scenes of shapes other than spheres and boxes: hulls, all shapes in one pile, rolling bodies,
+ * fast bodies against thin walls. They are part of the catalogue (catalog.h). */
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-/* structures.cpp - see structures.h. */
+/* structures.cpp - the scenes of structures.h, with the geometry of each at its builder. */
 #include "host/catalog/structures.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ using namespace scene_builders;
 
 namespace {
 
-/* Shape 0 and body 0 are the ground. */
+/* A scene whose shape 0 and body 0 are the ground. */
 Scene on_ground(double friction)
 {
   Scene scene;
@@ -28,7 +28,7 @@ Body &add(Scene &scene, uint32_t shape, double x, double y, double z, double mas
   return add_body(scene, shape, {round_to_float(x), round_to_float(y), round_to_float(z)}, round_to_float(mass));
 }
 
-/* Sine and cosine of the angle with the given tangent, and of its half. */
+/* Sine and cosine of the angle with the given tangent, and of half the angle. */
 struct Slope {
   double sine, cosine, half_sine, half_cosine;
   explicit Slope(double tangent)
@@ -78,8 +78,8 @@ Scene card_house(const SceneValues &v)
   return scene;
 }
 
-/* --- arch: corbelled, since boxes have no slanted faces: every course reaches further in, a lintel closes it -----
- * Stands while the centre of all that rests on a course, half the lintel included, lies over that course. */
+/* --- arch: corbelled, because boxes have no slanted faces: every course projects further inwards, a lintel closes it
+ * It stands while the centre of mass of everything on a course, half the lintel included, lies over that course. */
 
 uint64_t arch_bodies(const SceneValues &v) { return 2 + 2 * uint64_t(whole(v, "courses")); }
 
@@ -127,7 +127,7 @@ Scene dominoes(const SceneValues &v)
   const uint32_t domino =
       add_shape(scene, box_shape(round_to_float(half_thickness), round_to_float(half_height), 0.25f));
   for (int64_t i = 0; i < whole(v, "n"); ++i) add(scene, domino, pitch * double(i), half_height, 0);
-  /* Turning about its far lower edge. */
+  /* The domino rotates about its far lower edge. */
   scene.bodies[1].angular_velocity = {0, 0, round_to_float(-push)};
   scene.bodies[1].linear_velocity = {round_to_float(push * half_height), round_to_float(push * half_thickness), 0};
   return scene;
@@ -163,7 +163,7 @@ Scene wall(const SceneValues &v)
 }
 
 /* --- tops: cubes spinning on a corner ------------------------------------------------------------------------------
- * A cube's moments are equal, so its diagonal is an axis of symmetry like any other, and its corner a tip. */
+ * A cube's moments are equal, so its diagonal is an axis of symmetry like any other, and its corner is the tip. */
 
 Scene tops(const SceneValues &v)
 {
@@ -172,7 +172,7 @@ Scene tops(const SceneValues &v)
   const Slope lean(number(v, "lean"));
   Scene scene = on_ground(1);
   const uint32_t cube = add_shape(scene, box_shape(round_to_float(half), round_to_float(half), round_to_float(half)));
-  /* A turn about (-1, 0, 1) takes the diagonal (1, 1, 1) to y, one about -z then leans it towards x. */
+  /* A rotation about (-1, 0, 1) turns the diagonal (1, 1, 1) onto y; a rotation about -z then leans it towards x. */
   const Slope upright(std::sqrt(2.0));
   const double s = upright.half_sine / std::sqrt(2.0), c = upright.half_cosine;
   const double ls = -lean.half_sine, lc = lean.half_cosine;

@@ -1,19 +1,19 @@
 /* talks.cpp - the scenes behind the batch tables of the 2009 talk; see talks.h.
  *
- * The talk prints the sizes of batches, not the scenes. What can be told from it:
+ * The talk prints the sizes of batches, but not the scenes. The following can be inferred:
  *
- * 2D: 31,602 constraints in 12 batches, the first of 4,931, so more than 9,862 bodies; 31,602 contacts of 10,600 bodies
- * are six neighbours each, the most that equal squares in rows can have. A pyramid whose cubes touch in the row and
- * rest on two below has just that, and it grows flank by flank:
+ * 2D: There are 31,602 constraints in 12 batches, the first of 4,931, and therefore at least 9,862 bodies. 31,602
+ * contacts of 10,600 bodies are six neighbours each, the most that equal squares in rows can have. A pyramid whose
+ * cubes touch within a row and rest on two cubes has this number, and it can be extended flank by flank:
  *
  *               6                flank 1: cube 1     flank 2: 2, 3     flank 3: 4, 5, 6 ..
  *             3   5
  *           1   2   4            145 flanks are 10,585 cubes with 31,465 contacts, and 46 cubes of the next,
  *                                of 2 + 45 * 3 contacts, make 31,602: n = 10,631
  *
- * 3D: "# objects = 3008, # pairs = 8086", and batches that sum to 4,040 (on the CPU). Bullet's public Gpu3dDemo drops
- * 8 * 47 * 8 = 3,008 boxes of half extent 0.7 from a lattice of pitch 2 on a floor. Pairs are those of the broadphase;
- * the constraints, of the pairs that touch. The table is of some moment while the columns topple.
+ * 3D: The talk prints "# objects = 3008, # pairs = 8086", and batches that sum to 4,040 (on the CPU). Bullet's public
+ * Gpu3dDemo drops 8 * 47 * 8 = 3,008 boxes of half extent 0.7 from a lattice of pitch 2 on a floor. The pairs are those
+ * of the broadphase, the constraints those of the touching pairs. The table shows a moment while the columns topple.
  */
 #include "host/catalog/talks.h"
 
@@ -30,7 +30,7 @@ using namespace scene_builders;
 
 namespace {
 
-/* Of shape 0. */
+/* Adds a box of shape 0. */
 void add_box(Scene &scene, double x, double y, double z)
 {
   add_body(scene, 0, {round_to_float(x), round_to_float(y), round_to_float(z)});
@@ -38,7 +38,7 @@ void add_box(Scene &scene, double x, double y, double z)
 
 uint64_t value_of(const SceneValues &values, const char *name) { return uint64_t(values.find(name)->second); }
 
-/* Whole flanks among n cubes, and what is left over. */
+/* The number of complete flanks among n cubes; the rest are in the next flank. */
 uint64_t whole_flanks(uint64_t n)
 {
   uint64_t flanks = 0;

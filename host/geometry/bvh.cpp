@@ -1,5 +1,5 @@
-/* bvh.cpp - see bvh.h. One pass over a stack of ranges: a range of n primitives has 2 n - 1 nodes whatever their shape,
- * so that the skip of a node is known before its children are. */
+/* bvh.cpp - builds the hierarchy in one pass over a stack of ranges; see bvh.h. A range of n primitives has 2 n - 1
+ * nodes whatever their shape, so the skip of a node is known before its children are built. */
 #include "host/geometry/bvh.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ double half_area(const AxisAlignedBox &box)
 
 double doubled_center(const AxisAlignedBox &box, size_t axis) { return double(box.lower[axis]) + box.upper[axis]; }
 
-/* The least q in 0 .. most_q + 1 for which `reached`, which stays true from there on. */
+/* The least q in 0 .. most_q + 1 for which `reached` holds; it must hold for all larger q. */
 template <class Reached> uint32_t first_q(const Reached &reached)
 {
   uint32_t low = 0, high = most_q + 1;
@@ -130,7 +130,7 @@ private:
     double cost() const { return count == 0 ? 0 : half_area(box) * double(count); }
   };
 
-  /* How centres fall into bins along one axis. */
+  /* The bins of the centres along one axis. */
   struct Binning {
     size_t axis;
     double lower, scale;
@@ -148,7 +148,7 @@ private:
     return result;
   }
 
-  /* Along the axis on which the centres spread most. */
+  /* Bins along the axis on which the centres spread most. */
   Binning binning(const Range &range) const
   {
     Binning best{0, 0, 0};
@@ -167,8 +167,8 @@ private:
     return best;
   }
 
-  /* The first bin of the right side for which the sum of areas times counts is least; 0: none is, since all are in one
-   * bin or have no area. */
+  /* The first bin of the right side for which the sum of areas times counts is least; 0 if there is none, because all
+   * centres are in one bin or have no area. */
   size_t best_bin(const Range &range, const Binning &binning) const
   {
     std::array<Bin, bins> content;
@@ -205,7 +205,7 @@ private:
       const double a = doubled_center(boxes_[i], along.axis), b = doubled_center(boxes_[j], along.axis);
       return a < b || (a == b && i < j);
     });
-    std::sort(begin, middle); /* nth_element leaves an order that differs between libraries */
+    std::sort(begin, middle); /* the order that nth_element leaves differs between libraries */
     std::sort(middle, end);
     return size_t(middle - order_.begin());
   }

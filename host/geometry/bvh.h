@@ -1,9 +1,9 @@
-/* bvh.h - a hierarchy of boxes in 16 bytes a node: over the triangles of a mesh, the children of a compound, the cells
- * of a field.
+/* bvh.h - a bounding volume hierarchy with 16 bytes a node, over the triangles of a mesh or the children of a
+ * compound.
  *
- * After Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2004, ch. 6): coordinates are 16 bits
- * within the bounds of the whole, nodes stand in depth-first order, and an inner node tells how many nodes to skip
- * where its box is missed. So a walk needs no stack and reads memory forwards:
+ * It follows Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2004, ch. 6): coordinates have 16 bits
+ * within the bounds of the whole, nodes are in depth-first order, and an inner node stores how many nodes to skip if
+ * its box is missed. A traversal therefore needs no stack and reads memory forwards:
  *
  *         0             node:   0   1   2   3   4   5   6        for (i = 0; i < count;)
  *       /   \           skip:   7   3   .   .   3   .   .            if box i overlaps: leaf ? report : nothing; ++i
@@ -11,8 +11,8 @@
  *     / \   / \
  *    2   3 5   6        Subtrees of at most 128 nodes fill 2 KiB of local memory each: shared/midphase/subtree_pairs.h.
  *
- * Built top down by the surface area heuristic over bins (Wald: On fast construction of SAH-based bounding volume
- * hierarchies, 2007); by halves where that does not pay, or would grow too deep.
+ * It is built top down by the surface area heuristic over bins (Wald: On fast construction of SAH-based bounding volume
+ * hierarchies, 2007), and by halving where the heuristic does not pay or the tree would grow too deep.
  */
 #pragma once
 
@@ -20,8 +20,8 @@
 
 namespace tandem {
 
-/* x = origin + q * step, in float, product and sum each rounded: what kernels compute, to the bit. It does not decrease
- * with q, and the bounds lie within q = 0 .. 65535. */
+/* A quantised coordinate: x = origin + q * step in float, product and sum each rounded, which is what kernels compute,
+ * to the bit. It does not decrease with q, and the bounds lie within q = 0 .. 65535. */
 struct Quantisation {
   Vec3 origin{}, step{1, 1, 1}; /* step > 0 */
 
@@ -39,8 +39,8 @@ struct QuantisedBounds {
 
 struct BvhNode {
   QuantisedBounds bounds;
-  int32_t value; /* leaf: number of the primitive, >= 0. Inner node: minus the number of nodes of its subtree, itself
-                    included */
+  int32_t value; /* leaf: number of the primitive, >= 0. Inner node: minus the number of nodes of its subtree, the node
+                    itself included */
   bool operator==(const BvhNode &) const = default;
 };
 static_assert(sizeof(BvhNode) == 16);
@@ -53,7 +53,7 @@ inline uint32_t nodes_below(const BvhNode &node)
 
 constexpr uint32_t most_subtree_nodes = 128; /* 2 KiB */
 
-/* A largest subtree that fits: the subtrees hold each leaf once, in the order of the nodes. */
+/* A largest subtree that fits. Together the subtrees hold each leaf once, in the order of the nodes. */
 struct BvhSubtree {
   QuantisedBounds bounds;
   uint32_t root, size;
@@ -66,14 +66,14 @@ struct Bvh {
   uint32_t depth = 0; /* inner nodes from the root to the deepest leaf; at most depth_bound(n) */
 };
 
-/* 2 ceil(log2 n) + 8: the heuristic may use the first half of it, the rest is halved. */
+/* 2 ceil(log2 n) + 8. The surface area heuristic may use the first half of this depth; below it, ranges are halved. */
 uint32_t depth_bound(size_t primitives);
 
-/* Throws InputError for no boxes, boxes whose lower bound is not at most the upper (NaN), infinite ones, and 2^30 boxes
- * or more. */
+/* Throws InputError for no boxes, for boxes whose lower bound is not at most the upper (NaN), for infinite ones, and
+ * for 2^30 boxes or more. */
 Bvh build_bvh(std::span<const AxisAlignedBox> boxes, const std::string &where);
 
-/* The least box of 16 bits that contains `box` when computed back; `box` lies within the quantised bounds. */
+/* The smallest quantised box that contains `box` after dequantisation; `box` must lie within the quantised bounds. */
 QuantisedBounds quantised(const Quantisation &quantisation, const AxisAlignedBox &box);
 AxisAlignedBox dequantised(const Quantisation &quantisation, const QuantisedBounds &bounds);
 
@@ -85,7 +85,8 @@ inline bool overlap(const AxisAlignedBox &a, const AxisAlignedBox &b)
   return result;
 }
 
-/* Calls visit(primitive) for each whose quantised box overlaps `box` (touching counts), as a kernel walks: no stack. */
+/* Calls visit(primitive) for each primitive whose quantised box overlaps `box` (touching counts). It traverses as the
+ * kernels do, without a stack. */
 template <class Visit> void for_each_overlap(const Bvh &bvh, const AxisAlignedBox &box, const Visit &visit)
 {
   for (size_t i = 0; i < bvh.nodes.size();) {

@@ -1,4 +1,5 @@
-/* convex_hull.cpp - see convex_hull.h. */
+/* convex_hull.cpp - normalises points, finds their exact hull, merges its faces and computes planes and edges; see
+ * convex_hull.h. */
 #include "host/geometry/convex_hull.h"
 
 #include <algorithm>
@@ -24,8 +25,8 @@ double longest_side(const AxisAlignedBox &bounds)
   return longest;
 }
 
-/* About the centre of their bounds, of a size from 1/2 to 1, and on the grid on which hulls are decided. A power of two
- * scales without rounding. */
+/* The points relative to the centre of their bounds, scaled to a size from 1/2 to 1 and rounded to the grid of
+ * quickhull. The scale is a power of two, so scaling does not round. */
 struct Normalised {
   std::vector<Vector> points;
   double scale;
@@ -50,7 +51,7 @@ template <class Measure> size_t farthest(const std::vector<Vector> &points, cons
   return best;
 }
 
-/* "in one place", "in a line", "in a plane", or "" where they span a volume. */
+/* "in one place", "in a line", "in a plane", or "" if the points span a volume. */
 std::string flatness(const std::vector<Vector> &points, double tolerance)
 {
   const Vector a = points[0];
@@ -70,7 +71,7 @@ std::string flatness(const std::vector<Vector> &points, double tolerance)
   throw InputError(fmt::format("{}: all {} points lie {}; a hull needs four that do not", where, count, how));
 }
 
-/* The input's numbers of the points named by faces, ascending. */
+/* The indices of the points that the faces name, ascending. */
 std::vector<uint32_t> named_by(const std::vector<Polygon> &faces)
 {
   std::vector<uint32_t> names;
@@ -80,7 +81,7 @@ std::vector<uint32_t> named_by(const std::vector<Polygon> &faces)
   return names;
 }
 
-/* Those that are corners of three faces or more. The others lie inside a face or an edge, within the tolerance. */
+/* The points that are corners of three faces or more. The others lie inside a face or an edge, within the tolerance. */
 std::vector<uint32_t> true_corners(const std::vector<Polygon> &faces)
 {
   std::unordered_map<uint32_t, int> count;
@@ -91,7 +92,7 @@ std::vector<uint32_t> true_corners(const std::vector<Polygon> &faces)
   return corners;
 }
 
-/* Faces of the hull of the points in `kept`, whose indices they bear. */
+/* The faces of the hull of the points in `kept`, with the indices of all points. */
 std::vector<Polygon> faces_of(const std::vector<Vector> &points, const std::vector<uint32_t> &kept, double within)
 {
   std::vector<Vector> chosen;
@@ -118,8 +119,8 @@ std::vector<HullEdge> edges_of(const std::vector<std::vector<uint32_t>> &faces)
   return edges;
 }
 
-/* The greatest normal . x of a surface that is convex within `slack`, from a vertex near the top: all that lie higher
- * than the slack below the top hang together. */
+/* Finds the greatest normal . x over a surface that is convex within `slack`, from a vertex near the maximum: all
+ * vertices that lie less than the slack below the maximum are connected. */
 class Top {
 public:
   Top(const std::vector<Vector> &points, const std::vector<HullEdge> &edges)
@@ -153,13 +154,13 @@ public:
 private:
   const std::vector<Vector> &points_;
   std::vector<std::vector<uint32_t>> neighbours_;
-  std::vector<size_t> seen_; /* the number of the visit that came last */
+  std::vector<size_t> seen_; /* the number of the last visit */
   size_t visit_ = 0;
 };
 
-/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull passes over points that roundings put
- * a little outside of flat regions; then the exact hull of the rest is merged, until no point is left out. Empty where
- * too little remains: the hull is hardly thicker than the tolerance. */
+/* Few faces within `tolerance` of the hull of the points in `kept`. A first hull omits points that rounding put
+ * slightly outside of flat regions; the exact hull of the rest is then merged until no point is left out. The result is
+ * empty if too few points remain, because the hull is hardly thicker than the tolerance. */
 std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<uint32_t> kept, double tolerance)
 {
   kept = named_by(faces_of(points, kept, tolerance));
@@ -174,7 +175,7 @@ std::vector<Polygon> simplified(const std::vector<Vector> &points, std::vector<u
   return {};
 }
 
-/* How far points of the exact hull lie outside the planes of these faces at most. */
+/* The largest distance of a point of the exact hull outside the planes of these faces. */
 double farthest_outside(const std::vector<Vector> &points, const std::vector<Polygon> &exact,
                         const std::vector<Polygon> &faces)
 {
@@ -189,7 +190,7 @@ double farthest_outside(const std::vector<Vector> &points, const std::vector<Pol
   return farthest;
 }
 
-/* Where points are lost that matter, as may happen in flat hulls, a smaller tolerance keeps them. */
+/* Flat hulls may lose points that matter; the tolerance is reduced until they are kept. */
 std::vector<Polygon> find_faces(const std::vector<Vector> &points, double tolerance, const std::string &where)
 {
   std::vector<uint32_t> all(points.size());
@@ -216,7 +217,7 @@ void fit_planes(ConvexHull &hull)
   }
 }
 
-/* From indices of points to those of the hull's own vertices. */
+/* Replaces the indices of points by those of the hull's own vertices. */
 void renumber(std::vector<Polygon> &faces, const std::vector<uint32_t> &kept)
 {
   for (Polygon &face : faces) {

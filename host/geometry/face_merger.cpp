@@ -1,4 +1,4 @@
-/* face_merger.cpp - see face_merger.h. */
+/* face_merger.cpp - visits the edges from the flattest on and joins the faces beside them; see face_merger.h. */
 #include "host/geometry/face_merger.h"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ bool is_convex(const std::vector<Vector> &points, const Polygon &polygon, const 
   return true;
 }
 
-/* The corners of `face` from `start` round to the one before it. */
+/* The same cycle of corners, beginning at `start`. */
 Polygon started_at(const Polygon &face, uint32_t start)
 {
   Polygon result = face;
@@ -91,7 +91,7 @@ private:
     return candidates;
   }
 
-  /* True when the edge is gone. */
+  /* True if the edge was removed. */
   bool join(uint32_t v0, uint32_t v1)
   {
     const uint32_t left = face_left_of_.at(directed(v0, v1)), right = face_left_of_.at(directed(v1, v0));
@@ -115,7 +115,8 @@ private:
 
   const std::vector<Vector> &points_;
   std::vector<Polygon> faces_;
-  std::unordered_map<uint64_t, uint32_t> face_left_of_; /* never walked through: its order is the library's */
+  std::unordered_map<uint64_t, uint32_t> face_left_of_; /* never iterated over, because its order differs between
+                                                           libraries */
   double tolerance_;
 };
 

@@ -1,13 +1,14 @@
-/* face_merger.h - joins neighbouring faces of a closed convex surface that lie in one plane within a tolerance.
+/* face_merger.h - joins neighbouring faces of a closed convex surface that lie in one plane within a tolerance. It is
+ * the second step of convex_hull.h.
  *
- *      a---b---c        Over each edge, flattest first, the two faces become one if the polygon
- *      |  /|  /|        - has all corners within the tolerance of one plane (not of the neighbour's: nothing drifts
- *      | / | / |          around a curve),
+ *      a---b---c        Over each edge, the flattest first, the two faces become one if the polygon
+ *      |  /|  /|        - has all corners within the tolerance of one plane (its own and not the neighbour's, so that
+ *      | / | / |          errors do not accumulate around a curve),
  *      |/  |/  |        - stays convex: no corner lies deeper than the tolerance behind its neighbours,
- *      d---e---f        - still goes round once.
+ *      d---e---f        - is still one simple cycle.
  *
- * So each polygon is right after every step, in whatever order edges come; only how few faces remain depends on the
- * order.
+ * Each polygon is therefore valid after every step, whatever the order of the edges; the order only decides how few
+ * faces remain.
  */
 #pragma once
 
@@ -15,13 +16,14 @@
 
 namespace tandem {
 
-/* Newell's normal: the sum of the areas of its triangles; its length is twice the polygon's area. */
+/* Newell's normal: the sum of the area vectors of the polygon's triangles. Its length is twice the polygon's area. */
 Vector newell_normal(const std::vector<Vector> &points, const Polygon &polygon);
 
-/* The same cycle from its smallest index. */
+/* Rotates the cycle so that it begins at its smallest index. */
 void start_at_smallest(Polygon &polygon);
 
-/* False where an edge has not exactly one face on each side, a face fewer than three corners, or V - E + F is not 2. */
+/* False if an edge does not have exactly one face on each side, a face has fewer than three corners, or V - E + F is
+ * not 2. */
 bool is_closed_surface(const std::vector<Polygon> &faces);
 
 std::vector<Polygon> merged_faces(const std::vector<Vector> &points, std::vector<Polygon> faces, double tolerance);

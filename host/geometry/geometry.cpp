@@ -1,4 +1,4 @@
-/* geometry.cpp - see geometry.h. */
+/* geometry.cpp - bounds, scaling, removal of duplicate points and checks of points; see geometry.h. */
 #include "host/geometry/geometry.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/* mass_properties.cpp - see mass_properties.h. */
+/* mass_properties.cpp - volume integrals of solids, and the diagonalisation of inertia tensors; see
+ * mass_properties.h. */
 #include "host/geometry/mass_properties.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ SymmetricMatrix symmetric(const Matrix &m)
   return {m.at[0][0], m.at[1][1], m.at[2][2], m.at[0][1], m.at[0][2], m.at[1][2]};
 }
 
-/* The inertia tensor of a point mass, and of a covariance (the integral of x x^T dm). */
+/* The inertia tensor of a covariance (the integral of x x^T dm). */
 Matrix inertia_of_covariance(const Matrix &covariance)
 {
   const double trace = covariance.trace();
@@ -28,13 +29,13 @@ Matrix inertia_of_covariance(const Matrix &covariance)
 }
 Matrix inertia_of_point(const Vector &at) { return inertia_of_covariance(Matrix::outer(at, at)); }
 
-/* A slice of a solid of revolution: y from `from` to `to` seen from `origin`; squared_radius is a polynomial of second
- * degree. */
+/* The slice of a solid of revolution between the heights `from` and `to`, relative to `origin`; squared_radius is a
+ * polynomial of second degree. */
 template <class SquaredRadius>
 MassProperties slice(double origin, double from, double to, const SquaredRadius &squared_radius)
 {
-  /* Gauss-Legendre's three points are exact up to the fifth degree, the integrands are of the fourth, and none
-   * cancels. */
+  /* Gauss-Legendre quadrature with three points is exact up to the fifth degree. The integrands are of the fourth, and
+   * no terms cancel. */
   const double node = std::sqrt(0.6), middle = (from + to) / 2, half = (to - from) / 2;
   double mass = 0, first = 0, second = 0, across = 0;
   for (const auto &[place, weight] : {std::pair{-node, 5.0 / 9}, {0.0, 8.0 / 9}, {node, 5.0 / 9}}) {
@@ -71,13 +72,13 @@ Vector center_of(std::span<const Vec3> vertices)
   return base + sum / double(vertices.size());
 }
 
-/* Of a symmetric matrix: moments ascending, and the axis of each. */
+/* The eigenvalues of a symmetric matrix, ascending, and the axis of each. */
 struct Eigensystem {
   std::array<double, 3> moments;
   std::array<Vector, 3> axes;
 };
 
-/* Turns x and y so that the matrix has no entry at p, q (Jacobi's rotation). */
+/* Rotates x and y so that the matrix has no entry at p, q (Jacobi's rotation). */
 void rotate_away(Matrix &m, Matrix &axes, int p, int q)
 {
   const double slope = (m.at[q][q] - m.at[p][p]) / (2 * m.at[p][q]);
@@ -92,7 +93,7 @@ void rotate_away(Matrix &m, Matrix &axes, int p, int q)
   axes = axes * turn;
 }
 
-/* Jacobi's method, which finds small moments beside large ones, too; it converges with the square of what is left. */
+/* Jacobi's eigenvalue method, which is accurate for small moments beside large ones; it converges quadratically. */
 Eigensystem eigensystem_of(Matrix m)
 {
   constexpr int most_iterations = 30;
@@ -114,7 +115,8 @@ Eigensystem eigensystem_of(Matrix m)
           {axes.column(low), axes.column(middle), axes.column(high)}};
 }
 
-/* Axes of the principal frame, of unit length. The best of the 24 ways to name them x y z, right-handed. */
+/* The axes of the principal frame, of unit length, in the right-handed one of the 24 orders and signs that is rotated
+ * least from the shape's axes. */
 Matrix named_least_turned(const std::array<Vector, 3> &axes)
 {
   static constexpr size_t orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
@@ -131,7 +133,8 @@ Matrix named_least_turned(const std::array<Vector, 3> &axes)
   return best;
 }
 
-/* Two moments are equal: the third's axis alone is given. The smallest turn that brings an axis of the shape there. */
+/* If two moments are equal, only the axis of the third is determined. The result is the smallest rotation that turns an
+ * axis of the shape onto it. */
 Matrix turned_onto(const Vector &axis)
 {
   const double size[3] = {std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)};
@@ -178,7 +181,8 @@ MassProperties capsule_mass(double radius_bottom, double radius_top, double heig
     const MassProperties larger = sphere_mass(std::max(radius_bottom, radius_top));
     return placed(larger, {0, 0, 0, 1}, {0, radius_bottom > radius_top ? bottom : top, 0});
   }
-  /* Normals of the side rise with this sine, so it touches each sphere that far above its centre, in radii. */
+  /* The normals of the side rise with this sine, so the side touches each sphere that far above its centre, in
+   * radii. */
   const double sine = (radius_bottom - radius_top) / height, cosine = std::sqrt((1 - sine) * (1 + sine));
   const double touch_bottom = radius_bottom * sine, touch_top = radius_top * sine;
   const MassProperties parts[] = {

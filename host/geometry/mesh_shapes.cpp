@@ -1,5 +1,5 @@
-/* mesh_shapes.cpp - shapes made of many parts: meshes, fields of heights as meshes, compounds. Declared in
- * host/include/tandem/scene.h. */
+/* mesh_shapes.cpp - shapes of many parts: meshes, height fields as meshes, compounds. They are declared in
+ * host/include/tandem/shapes.h. */
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,7 +11,7 @@
 namespace tandem {
 namespace {
 
-/* Both triangles of a cell, seen counter-clockwise from above. */
+/* Adds both triangles of a cell, counter-clockwise seen from above. */
 void add_cell(std::vector<uint32_t> &indices, uint32_t corner, uint32_t columns)
 {
   const uint32_t beside = corner + 1, below = corner + columns;

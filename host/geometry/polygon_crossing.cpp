@@ -1,4 +1,4 @@
-/* polygon_crossing.cpp - see polygon_crossing.h. */
+/* polygon_crossing.cpp - projects the polygon along an axis and compares its sides pairwise; see polygon_crossing.h. */
 #include "host/geometry/polygon_crossing.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@ namespace {
 
 using Flat = std::array<double, 2>;
 
-/* Through the corner farthest from the first, and the one farthest from the line of both. */
+/* The normal of the plane through the first corner, the one farthest from it, and the one farthest from the line of
+ * both. */
 Vector normal_of_farthest(std::span<const Vec3> corners)
 {
   Vector along, across;
@@ -21,8 +22,8 @@ Vector normal_of_farthest(std::span<const Vec3> corners)
   return across;
 }
 
-/* Twice the area with its direction (Newell), which also serves corners that are not quite in one plane. The two halves
- * of a polygon that crosses itself may cancel. */
+/* Newell's normal (twice the area vector), which is also right for corners that are not exactly in one plane. The two
+ * halves of a self-crossing polygon may cancel in it; the normal of the farthest corners replaces it then. */
 Vector normal_of(std::span<const Vec3> corners)
 {
   constexpr double cancelled = 1e-3; /* of the triangle of the farthest corners */
@@ -44,7 +45,7 @@ std::vector<Flat> flattened(std::span<const Vec3> corners)
   return flat;
 }
 
-/* On which side of the line from a to b the point lies: -1, 0 or 1. */
+/* The side of the line from a to b on which the point lies: -1, 0 or 1. */
 int side_of(const Flat &a, const Flat &b, const Flat &point)
 {
   const double left = (b[0] - a[0]) * (point[1] - a[1]), right = (b[1] - a[1]) * (point[0] - a[0]);
@@ -58,7 +59,7 @@ bool cross(const Flat &a, const Flat &b, const Flat &c, const Flat &d)
 
 } // namespace
 
-/* Side by side from the left: only those that overlap along the first axis are compared. */
+/* The sides are sorted along the first axis, so that only those that overlap along it are compared. */
 bool crosses_itself(std::span<const Vec3> corners)
 {
   if (corners.size() < 4) return false;

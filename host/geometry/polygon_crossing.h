@@ -1,8 +1,8 @@
-/* polygon_crossing.h - does a polygon in space cross itself? Such a one has no inside, and whatever cuts it into
- * triangles makes a surface of them that nobody meant.
+/* polygon_crossing.h - tests whether a polygon in space crosses itself. Such a polygon has no inside, and its
+ * triangulation would be a surface that its author did not intend; mesh loaders refuse it.
  *
- * It is judged in its own plane, as seen along the axis nearest to the normal: dropping a coordinate rounds nothing.
- * Sides that only touch (a hole that a bridge joins to the outline) do not cross.
+ * The test projects the polygon along the coordinate axis nearest to its normal, because dropping a coordinate rounds
+ * nothing. Sides that only touch (a hole that a bridge joins to the outline) do not cross.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace tandem {
 
-/* The corners in order; the last one is joined to the first. */
+/* True if two sides cross. The last corner is joined to the first. */
 TANDEM_API bool crosses_itself(std::span<const Vec3> corners);
 
 } // namespace tandem

@@ -1,5 +1,5 @@
-/* quickhull.cpp - see quickhull.h. Orders are fixed: of equally far points the one that was given first, faces as they
- * were made. */
+/* quickhull.cpp - see quickhull.h. All orders are fixed: of equally far points the first one given is taken, and faces
+ * are visited in the order of their creation. */
 #include "host/geometry/quickhull.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 __extension__ typedef __int128 Wide;
 
-/* In units of hull_grid, at most 2^40 in size: differences take 41 bits, normals 83 and heights 126. */
+/* A point in units of hull_grid, at most 2^40 in size: differences take 41 bits, normals 83 and heights 126. */
 using Place = std::array<int64_t, 3>;
 
 Place place_of(const Vector &p)
@@ -32,7 +32,7 @@ struct Plane {
     }
   }
 
-  /* Times the normal's length. */
+  /* The signed distance from the plane times the length of the normal. */
   Wide height(const Place &p) const
   {
     return normal[0] * (p[0] - base[0]) + normal[1] * (p[1] - base[1]) + normal[2] * (p[2] - base[2]);
@@ -108,7 +108,7 @@ private:
     return true;
   }
 
-  /* The first three are counter-clockwise seen from outside. */
+  /* The first three vertices must be counter-clockwise seen from outside. */
   void add_tetrahedron(const std::array<uint32_t, 4> &v)
   {
     add_face({v[0], v[1], v[2]}, {1, 2, 3});
@@ -124,13 +124,15 @@ private:
     return static_cast<uint32_t>(faces_.size() - 1);
   }
 
-  /* From the face's plane, in units of the grid: rounded, and positive exactly where the point is above. */
+  /* The distance from the face's plane in units of the grid. It is rounded, but positive exactly if the point is
+   * above. */
   double distance(const Face &face, uint32_t point) const
   {
     return static_cast<double>(face.plane.height(places_[point])) / face.normal_length;
   }
 
-  /* Each goes to the first face since `first` that it is above; what is above none is done with. */
+  /* Assigns each point to the first face from `first` on that it is above. A point that is above no face is
+   * discarded. */
   void share_out(const std::vector<uint32_t> &points, size_t first)
   {
     for (const uint32_t point : points)
@@ -149,7 +151,8 @@ private:
     });
   }
 
-  /* Removes the faces that the point sees, gathers their points, and returns the border of what was seen. */
+  /* Removes the faces that are visible from the point, gathers their points, and returns the border of the visible
+   * region. */
   std::vector<Edge> remove_seen(uint32_t first, uint32_t point, std::vector<uint32_t> &points)
   {
     std::vector<Edge> border;
@@ -162,7 +165,7 @@ private:
       face.above = {};
       for (size_t i = 0; i < 3; ++i) {
         Face &other = faces_[face.neighbours[i]];
-        if (other.removed) continue; /* seen already: what was removed before has no neighbours left */
+        if (other.removed) continue; /* already removed; faces that were removed earlier have no neighbours left */
         if (other.plane.height(places_[point]) > 0) {
           other.removed = true;
           waiting.push_back(face.neighbours[i]);
@@ -178,13 +181,14 @@ private:
       if (faces_[face].corners[i] == from) faces_[face].neighbours[i] = neighbour;
   }
 
-  /* The point becomes a corner, with a cone of faces to the border of what it sees. */
+  /* Makes the point a corner, with a cone of faces to the border of the region that is visible from it. */
   void raise(uint32_t seen, uint32_t point)
   {
     std::vector<uint32_t> points;
     const std::vector<Edge> border = remove_seen(seen, point, points);
     const size_t first = faces_.size();
-    std::unordered_map<uint32_t, uint32_t> starting_at; /* never walked through: its order is the library's */
+    std::unordered_map<uint32_t, uint32_t> starting_at; /* never iterated over, because its order differs between
+                                                           libraries */
     for (const auto &[from, to, hidden] : border) {
       starting_at[from] = add_face({from, to, point}, {hidden, 0, 0});
       set_neighbour(hidden, to, starting_at[from]);

@@ -1,4 +1,4 @@
-/* rotation.cpp - see rotation.h. */
+/* rotation.cpp - the quaternion of a rotation matrix; see rotation.h. */
 #include "host/geometry/rotation.h"
 
 namespace tandem {

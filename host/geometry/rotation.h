@@ -1,4 +1,5 @@
-/* rotation.h - rotations x y z w in double, in an order of rounding that stands here (host/geometry/vector.h). */
+/* rotation.h - rotations as quaternions x y z w in double, with the order of every rounding fixed here, as in
+ * host/geometry/vector.h. */
 #pragma once
 
 #include "host/geometry/vector.h"
@@ -13,7 +14,7 @@ inline Rotation unit(const Rotation &q)
 
 inline Rotation inverse(const Rotation &q) { return {-q[0], -q[1], -q[2], q[3]}; }
 
-/* b first, then a. */
+/* The rotation that applies b first, then a. */
 inline Rotation product_of(const Rotation &a, const Rotation &b)
 {
   const Vector u(a[0], a[1], a[2]), v(b[0], b[1], b[2]), w = u.cross(v) + (a[3] * v + b[3] * u);
@@ -34,8 +35,8 @@ inline Matrix rotation_matrix(const Rotation &q)
            {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
 }
 
-/* Of a rotation matrix, with w >= 0; the largest component is computed first, so that nothing is divided by a small
- * number. */
+/* The quaternion of a rotation matrix, with w >= 0. The largest component is computed first, so that no division is by
+ * a small number. */
 Rotation rotation_of(const Matrix &m);
 
 } // namespace tandem

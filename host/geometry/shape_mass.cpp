@@ -1,4 +1,5 @@
-/* shape_mass.cpp - see shape_mass.h. */
+/* shape_mass.cpp - mass properties of each type of shape, and moves of the body frame to the principal axes; see
+ * shape_mass.h. */
 #include "host/geometry/shape_mass.h"
 
 #include <algorithm>
@@ -12,16 +13,17 @@
 namespace tandem {
 namespace {
 
-/* Of a shape's size: centres nearer to its origin, and turns smaller than principal_tolerance, are roundings of its
- * floats. */
+/* Relative to a shape's size. A centre of mass nearer to the shape's origin, or a rotation smaller than
+ * principal_tolerance, is a rounding error of its floats. */
 constexpr double center_rounding = 0x1p-24;
-/* Of the largest moment: mistakes, not roundings, and quaternions written with four digits. */
+/* Relative to the largest moment. The tolerance admits roundings and quaternions written with four digits, and finds
+ * mistakes. */
 constexpr double axes_tolerance = 1e-3;
 
 Rotation widened(const Quat &q) { return unit(Rotation{q[0], q[1], q[2], q[3]}); }
 Double3 widened(const Vec3 &v) { return {v[0], v[1], v[2]}; }
 
-/* What double left over from numbers that cancel is no number of its own. */
+/* Replaces components that are only rounding residue of cancelled terms by zero. */
 template <size_t n> std::array<float, n> without_residue(const std::array<double, n> &values)
 {
   double largest = 0;
@@ -64,7 +66,8 @@ MassProperties mass_of_children(const Compound &compound)
 Rotation product(const Rotation &a, const Rotation &b) { return product_of(unit(a), unit(b)); }
 Double3 turned(const Rotation &rotation, const Double3 &v) { return array_of(turn(unit(rotation), vector_of(v))); }
 
-/* The hull of its own vertices: they alone say all of it, faces included, and a scene file holds no more. */
+/* Repeats the hull of its own vertices until it no longer changes: the vertices alone then determine it, faces
+ * included, and a scene file stores only them. */
 Shape hull_shape(std::span<const Vec3> points, const std::string &where)
 {
   ConvexHull hull = convex_hull(points, where);
@@ -135,7 +138,8 @@ std::vector<Vec3> placed_points(std::span<const Vec3> points, const Vec3 &positi
   return placed;
 }
 
-/* The pose in the body is rounded to floats first; the position, in double, then makes good for it. */
+/* The pose of the shape in the body is rounded to floats first; the body's position, in double, then compensates for
+ * the rounding. */
 void move_frame(Body &body, const Double3 &position, const Rotation &orientation)
 {
   const ShapePlace place = place_of_shape(body);

@@ -1,4 +1,5 @@
-/* triangle_mesh.cpp - see triangle_mesh.h. */
+/* triangle_mesh.cpp - welds vertices, removes degenerate and duplicate triangles, and classifies edges; see
+ * triangle_mesh.h. */
 #include "host/geometry/triangle_mesh.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@
 namespace tandem {
 namespace {
 
-/* One side of a triangle: the edge low-high, run along upwards or downwards. */
+/* One side of a triangle: the edge low-high, and whether the triangle runs along it upward or downward. */
 struct Side {
   uint32_t low, high;
   bool upward;
@@ -33,7 +34,7 @@ std::vector<Side> sides_of(const std::vector<Triangle> &triangles)
   return sides;
 }
 
-/* Calls visit(sides of one edge) edge by edge. */
+/* Calls visit with the sides of one edge, for every edge. */
 template <class Visit> void for_each_edge(const std::vector<Side> &sides, const Visit &visit)
 {
   for (size_t begin = 0, end; begin < sides.size(); begin = end) {
@@ -43,7 +44,7 @@ template <class Visit> void for_each_edge(const std::vector<Side> &sides, const 
   }
 }
 
-/* Triangles collapsed to an edge run along it both ways, which closes nothing and opens nothing. */
+/* A triangle that has collapsed to an edge runs along it both ways, so it neither closes nor opens a gap. */
 void count_edges(const std::vector<Triangle> &triangles, MeshFindings &findings)
 {
   std::vector<Triangle> whole;
@@ -67,14 +68,14 @@ Vector side_of(const std::vector<Vec3> &vertices, const Triangle &t, size_t corn
   return vector_of(vertices[t[(corner + 1) % 3]]) - vector_of(vertices[t[corner]]);
 }
 
-/* Of the angle at a corner. */
+/* The sine of the angle at a corner. */
 double sine_at(const std::vector<Vec3> &vertices, const Triangle &t, size_t corner)
 {
   const double sides = side_of(vertices, t, corner).norm() * side_of(vertices, t, (corner + 2) % 3).norm();
   return sides > 0 ? doubled_area(vertices, t).norm() / sides : 0;
 }
 
-/* The corner opposite the longest side: of a thin triangle the one at which the two sides say most about its plane. */
+/* The corner opposite the longest side, at which the two sides determine the plane of a thin triangle best. */
 size_t widest_corner(const std::vector<Vec3> &vertices, const Triangle &t)
 {
   size_t longest = 0;
@@ -102,7 +103,7 @@ Triangle smallest_first(Triangle t)
   return t;
 }
 
-/* Without those that name the same corners in the same sense as one before. */
+/* The triangles without those that have the same corners in the same sense as an earlier one. */
 std::vector<Triangle> without_duplicates(const std::vector<Triangle> &triangles)
 {
   std::vector<std::pair<Triangle, uint32_t>> sorted;
@@ -133,7 +134,8 @@ void drop_unused_vertices(TriangleMesh &mesh)
   mesh.vertices = std::move(used);
 }
 
-/* How the right triangle bends away from the left: below its plane is convex. */
+/* How the right triangle bends away from the left one: an edge is convex if the right one lies below the plane of the
+ * left. */
 EdgeKind kind_of(const Vector &left_normal, const Vector &right_normal, const Vector &along)
 {
   const double bend = left_normal.cross(right_normal).dot(along); /* the sine, positive where the surface is convex */
@@ -173,7 +175,7 @@ void find_adjacency(TriangleMesh &mesh)
   });
 }
 
-/* The plane through the vertex farthest from the first, and the one farthest from the line of both. */
+/* Takes the plane through the first vertex, the one farthest from it, and the one farthest from the line of both. */
 bool is_flat_mesh(const std::vector<Vec3> &vertices)
 {
   Vector across, along;

@@ -1,8 +1,7 @@
-/* vector.h - vectors and matrices in double, whose every operation rounds in an order that stands here.
+/* vector.h - vectors and matrices in double, with the order of every rounding fixed here.
  *
- * A library of linear algebra chooses the order of a sum, and whether products are fused with it, by the processor and
- * the options of whoever compiles its headers; hulls and masses must be the same numbers everywhere.
- * (docs/exactness.md)
+ * A linear algebra library chooses the order of a sum, and whether products are fused with it, by the processor and the
+ * compiler options. Hulls and masses must be the same numbers everywhere (docs/exactness.md).
  */
 #pragma once
 

@@ -1,4 +1,4 @@
-/* input_file.cpp - see input_file.h. */
+/* input_file.cpp - reads regular files and records their names; see input_file.h. */
 #include "host/io/input_file.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 
 namespace files = std::filesystem;
 
-constexpr size_t most_bytes = size_t{4} << 30; /* a .glb holds no more */
+constexpr size_t most_bytes = size_t{4} << 30; /* the largest .glb */
 
 thread_local FilesRead *watching = nullptr;
 
@@ -35,7 +35,7 @@ struct OpenFile {
   throw InputError(fmt::format("{}: cannot read: {}", path, why));
 }
 
-/* The size told is a hint: what grows meanwhile, or tells none, is read to its end. */
+/* The reported size is only a hint: a file that grows meanwhile, or reports no size, is read to its end. */
 std::string contents_of(const OpenFile &file, const std::string &path, size_t expected)
 {
   std::string text(expected + 1, '\0');
@@ -58,8 +58,8 @@ bool is_below(const files::path &file, const files::path &folder)
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
 }
 
-/* The same, if it can be told, whatever links lead there. What does not exist stays as it is written: it has a folder
- * first. */
+/* The location of the file after links are resolved, as far as it can be determined. The name of a file that does not
+ * exist is kept, but its folder is resolved. */
 files::path place_of(const files::path &path)
 {
   std::error_code error;
@@ -74,7 +74,7 @@ files::path place_of(const files::path &path)
 FilesRead::FilesRead() { watching = this; }
 FilesRead::~FilesRead() { watching = nullptr; }
 
-/* Without waiting, since a pipe opens only when somebody writes to it. */
+/* The file is opened without blocking, because a pipe opens only when somebody writes to it. */
 std::string read_file(const std::string &path)
 {
   const OpenFile file{::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};

@@ -1,7 +1,7 @@
-/* input_file.h - reading of files that a user names, and of those that a scene names.
+/* input_file.h - reads files that a user names, and files that a scene names.
  *
- * Only regular files are read: a pipe would hang and a device never end. What a scene names lies beside it or below
- * (OutsideFiles).
+ * Only regular files are read, because a pipe could block and a device may have no end. Files that a scene names must
+ * lie in its folder or below it (OutsideFiles).
  */
 #pragma once
 
@@ -12,7 +12,8 @@
 
 namespace tandem {
 
-/* The names of the files that this thread reads while it lives, so that no output takes their place. One at a time. */
+/* Records the names of the files that this thread reads during its lifetime, so that no output replaces them. Only one
+ * may exist per thread. */
 class FilesRead {
 public:
   FilesRead();
@@ -23,11 +24,11 @@ public:
   std::vector<std::string> paths;
 };
 
-/* The whole file. InputError where it cannot be read, is no regular file, or is larger than 4 GiB. */
+/* Reads the whole file. Throws InputError if it cannot be read, is no regular file, or is larger than 4 GiB. */
 std::string read_file(const std::string &path);
 
-/* `name`, relative to the folder of the file `scene`. InputError as above and for a place outside that folder; `asks`
- * begins the message. */
+/* Reads the file `name`, relative to the folder of the file `scene`. Throws InputError as read_file does, and for a
+ * location outside that folder; `asks` begins the message. */
 std::string read_file_beside(const std::string &scene, const std::string &name, OutsideFiles outside,
                              const std::string &asks);
 

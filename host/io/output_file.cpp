@@ -1,4 +1,4 @@
-/* output_file.cpp - see output_file.h. */
+/* output_file.cpp - writes to a temporary file beside the target and renames it; see output_file.h. */
 #include "host/io/output_file.h"
 
 #include <array>
@@ -23,7 +23,7 @@ namespace files = std::filesystem;
 constexpr size_t most_buffered = 1 << 16;
 constexpr int most_links = 40, most_names = 1000;
 
-/* A link keeps pointing where it did: what it points at is replaced. */
+/* A link is kept, and the file that it points to is replaced. */
 std::string behind_links(std::string path)
 {
   std::error_code error;
@@ -32,7 +32,7 @@ std::string behind_links(std::string path)
   return path;
 }
 
-/* A name of its own, which nobody had. -1 and errno where the folder takes none. */
+/* Creates a file with an unused name. Returns -1 and errno if the folder accepts none. */
 int make_beside(const std::string &target, std::string &name)
 {
   static std::atomic<unsigned> counter{0};
@@ -44,7 +44,7 @@ int make_beside(const std::string &target, std::string &name)
   return -1;
 }
 
-/* In places that never move, so that a handler of signals can read them whatever it interrupted. */
+/* The names of unfinished files, at fixed addresses, so that a signal handler can read them whatever it interrupted. */
 struct Unfinished {
   enum State { none, being_named, named };
   std::atomic<int> state{none};
@@ -52,7 +52,7 @@ struct Unfinished {
 };
 std::array<Unfinished, 32> unfinished;
 
-/* Its place, for forget(); -1 if all are taken. */
+/* The index of the remembered name, for forget(); -1 if all are in use. */
 int remember(const std::string &name)
 {
   for (size_t k = 0; k < unfinished.size() && name.size() < PATH_MAX; ++k) {
@@ -78,7 +78,7 @@ int nameless()
 
 } // namespace
 
-/* By way of the other one, after which the destructor takes back what a failure leaves half opened. */
+/* Delegates to the other constructor, so that the destructor cleans up if this one fails. */
 OutputFile::OutputFile(const std::string &path, std::string label) : OutputFile(std::move(label))
 {
   struct stat status {};
@@ -86,7 +86,7 @@ OutputFile::OutputFile(const std::string &path, std::string label) : OutputFile(
   if (!exists && errno != ENOENT) fail(errno);
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
   direct_ = exists && !S_ISREG(status.st_mode);
-  if (direct_) { /* without waiting for a reader; once there is one, with waiting */
+  if (direct_) { /* opened without waiting for a reader, then set to wait */
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (descriptor_ < 0) fail(errno);
     ::fcntl(descriptor_, F_SETFL, O_WRONLY);
@@ -97,7 +97,7 @@ OutputFile::OutputFile(const std::string &path, std::string label) : OutputFile(
   if (exists && !beside_.empty() && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail(errno);
 }
 
-/* A folder that takes no new file may still hold one that can be written. */
+/* A folder that accepts no new file may still contain a file that can be written. */
 void OutputFile::open_beside(const std::string &path)
 {
   target_ = behind_links(path);
@@ -118,7 +118,7 @@ OutputFile::~OutputFile()
   forget(remembered_);
 }
 
-/* It has become the target. */
+/* The temporary file has become the target. */
 void OutputFile::forget_beside()
 {
   forget(std::exchange(remembered_, -1));
@@ -161,8 +161,8 @@ void OutputFile::commit()
   close();
 }
 
-/* The target is a place of its own, such as a file that was mounted. It is emptied when nothing is left that it could
- * be spared. */
+/* Used if the target cannot be replaced, such as a file that is a mount point. It is truncated only when all contents
+ * are ready. */
 void OutputFile::copy_to_target()
 {
   std::string piece(most_buffered, '\0');

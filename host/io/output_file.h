@@ -1,8 +1,8 @@
-/* output_file.h - files written whole or not at all.
+/* output_file.h - files that are written completely or not at all.
  *
- * A run that fails must not cost the results of the one before. What is written stands in a file beside the target and
- * takes its place at the end; a device or a pipe, which nothing can take the place of, gets it at once. Nothing is
- * removed but what was made here.
+ * A run that fails must not destroy the results of an earlier one. Contents are written to a temporary file beside the
+ * target, which replaces it at the end; a device or a pipe cannot be replaced and is written directly. Only files that
+ * were created here are removed.
  */
 #pragma once
 
@@ -16,18 +16,19 @@ namespace tandem {
 
 class OutputFile {
 public:
-  /* `label` begins the messages, as in "--json out.json". InputError where the file cannot be written; the target is
-   * not touched yet. */
+  /* `label` begins the messages, for example "--json out.json". Throws InputError if the file cannot be written; the
+   * target is not changed yet. */
   OutputFile(const std::string &path, std::string label);
-  ~OutputFile(); /* without commit(), the target is as it was */
+  ~OutputFile(); /* without commit(), the target is unchanged */
   OutputFile(const OutputFile &) = delete;
   OutputFile &operator=(const OutputFile &) = delete;
 
-  /* InputError where the disk does not take it. */
+  /* Throws InputError if the data cannot be written to the disk. */
   void write(std::string_view bytes);
   void commit();
 
-  /* InputError as the constructor's; a device or a pipe is not opened, as its reader would take that for the end. */
+  /* Throws InputError as the constructor does; a device or a pipe is not opened, because its reader would take closing
+   * it for the end. */
   static void check(const std::string &path, const std::string &label);
 
 private:
@@ -40,22 +41,22 @@ private:
   void copy_to_target();
   void forget_beside();
 
-  std::string label_, target_, beside_;   /* beside_: the file that was made here, if it has a name */
-  int descriptor_ = -1, remembered_ = -1; /* as what remove_unfinished_files() knows it */
+  std::string label_, target_, beside_;   /* beside_: the temporary file, if it has a name */
+  int descriptor_ = -1, remembered_ = -1; /* the index that remove_unfinished_files() uses */
   bool direct_ = false;
   std::string buffer_;
 };
 
-/* For a process that is about to end without destructors; safe in a handler of signals. Of more than a few dozen at
- * once the later ones stay. */
+/* For a process that is about to end without destructors; safe in a signal handler. If more than a few dozen files are
+ * open at once, the later ones remain. */
 void remove_unfinished_files() noexcept;
 
-/* Whether what is written to one would take the place of the other, or of what is to be written there. Devices such as
- * /dev/null take whatever comes. */
+/* Whether writing one file would replace the other, or a file that is to be written there. Devices such as /dev/null
+ * are never the same file. */
 bool is_same_file(const std::string &one, const std::string &other);
 
-/* For reading and writing, without a name, so that nothing of it stays; on the disk of `path` where that can be. Null,
- * and errno, where there is no room for it. */
+/* A file without a name for reading and writing, of which nothing remains; on the disk of `path` if possible. Returns
+ * null, and errno, if there is no space for it. */
 struct CloseFile {
   void operator()(std::FILE *file) const { std::fclose(file); }
 };

@@ -1,4 +1,5 @@
-/* body_constraints.cpp - see body_constraints.h. */
+/* body_constraints.cpp - the body-to-constraint list: keys, a sort and the starts of the bodies; see
+ * body_constraints.h. */
 #include "host/pipeline/body_constraints.h"
 
 #include <bit>

@@ -1,4 +1,5 @@
-/* body_constraints.h - the launches that list the constraints of each body; see shared/batching/body_constraints.h. */
+/* body_constraints.h - the launches that list the constraints of each body (CSR), which `avbd` and mass splitting need;
+ * see shared/batching/body_constraints.h. */
 #pragma once
 
 #include "host/pipeline/step.h"
@@ -9,7 +10,7 @@ namespace tandem {
  * all, COLOR_OVERFLOW for those without a colour of their own. */
 void list_body_constraints(Launcher &launcher, const StepPlan &plan, uint32_t first_color);
 
-/* The entry of counts that says how many entries there are, those of bodies that do not move among them. */
+/* The entry of counts that holds the number of list entries, including those of bodies that do not move. */
 uint32_t body_constraint_count(uint32_t first_color);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* cpu_kernels.cpp - see cpu_kernels.h. */
+/* cpu_kernels.cpp - the backend that calls the functions of CPU-only kernels; see cpu_kernels.h. */
 #include "host/pipeline/cpu_kernels.h"
 
 #include <array>

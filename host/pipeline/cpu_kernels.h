@@ -1,7 +1,8 @@
-/* cpu_kernels.h - CPU-only kernels, functions of the host: those of execution HOST in shared/kernels.def.
+/* cpu_kernels.h - CPU-only kernels, which are functions of the host: those of execution HOST in shared/kernels.def.
  *
  * They may use what shared source cannot (Eigen, allocation), and run on the CPU wherever they are placed. Their
- * results depend only on the buffers they read, whose bits are equal everywhere, so theirs are too. */
+ * results depend only on the buffers that they read, whose bits are equal on all backends, so their own bits are equal
+ * too. */
 #pragma once
 
 #include <memory>

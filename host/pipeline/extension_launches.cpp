@@ -1,5 +1,5 @@
-/* extension_launches.cpp - what modules of users launch in a step or between steps, checked before it runs: a kernel
- * that reads or writes beyond its buffers would spoil more than itself. */
+/* extension_launches.cpp - launches of users' modules within a step or between steps. They are checked before they run,
+ * because a kernel that reads or writes beyond its buffers would corrupt the whole simulation. */
 #include <algorithm>
 #include <string>
 
@@ -27,7 +27,7 @@ void check_is_of_extension(const KernelRow &row, const Settings &settings)
     refuse(row, "it is of no module in Settings::extensions");
 }
 
-/* No more items than this in a step. The pipeline's other counts have no bound that is known before. */
+/* The largest number of items in a step. The pipeline's other counts have no bound that is known in advance. */
 uint32_t most_items(const KernelRow &row, const StepPlan &plan)
 {
   if (is_told_by_scene(row.items)) return plan.known[row.items];
@@ -52,7 +52,7 @@ bool is_of_commit(uint32_t items)
          items == COUNT_COMMIT_CONSTRAINTS;
 }
 
-/* A step may run again from its begin: what lasts is written once, at the commit. */
+/* A step may run again from its begin, so lasting state may be written only at the commit. */
 void check_may_write(const KernelRow &row, Buffer buffer, std::optional<StepPoint> point)
 {
   const Lifetime lifetime = row_of(buffer).lifetime;

@@ -1,4 +1,4 @@
-/* layout.cpp - sizes of buffers from the capacities that buffers.def names. */
+/* layout.cpp - computes the sizes of buffers from the capacities that buffers.def names; see layout.h. */
 #include "host/pipeline/layout.h"
 
 #include <algorithm>
@@ -16,13 +16,13 @@
 namespace tandem {
 namespace {
 
-/* A capacity without a line here does not compile, whatever the warnings asked for. */
+/* A capacity without a case here must not compile, whatever warnings are enabled. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic error "-Wswitch"
 size_t items_of(Capacity capacity, const Sizes &sizes)
 {
-  /* Bodies, pairs and what scenes hold are below 2^32 each, and rows have a few of them: 64 bits suffice for all
-   * products here. */
+  /* The numbers of bodies, pairs and parts of a scene are below 2^32 each, and buffers have few elements for each of
+   * them, so 64 bits suffice for all products here. */
   const size_t sortable = std::max(2 * size_t{sizes.bodies}, size_t{sizes.pairs}); /* the ends of boxes; pairs */
   const size_t most_sorted =
       std::max(sortable, size_t{CANDIDATES_PER_PAIR} * sizes.pairs); /* entries are sorted in buffers of their own */
@@ -47,7 +47,7 @@ size_t items_of(Capacity capacity, const Sizes &sizes)
   case Capacity::BODIES: return sizes.bodies;
   case Capacity::BODIES_PLUS_ONE: return size_t{sizes.bodies} + 1;
   case Capacity::PAIRS: return sizes.pairs;
-  case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* no more than pairs of this step and of the last */
+  case Capacity::EVENTS: return 2 * size_t{sizes.pairs}; /* at most the pairs of this step and of the last */
   case Capacity::PAIRS_PLUS_ONE: return size_t{sizes.pairs} + 1;
   case Capacity::CELLS: return size_t{sizes.cells} + 1;
   case Capacity::LEAVES: return leaves_for(sizes.bodies);

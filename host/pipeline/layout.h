@@ -1,4 +1,4 @@
-/* layout.h - how many bytes each buffer takes for a given scene and its present capacities. */
+/* layout.h - the size of each buffer in bytes for a given scene and its present capacities. */
 #pragma once
 
 #include <cstddef>
@@ -22,16 +22,17 @@ struct Sizes {
   Features features = 0;
 };
 
-/* 0 for a buffer whose feature the scene lacks. */
+/* The size is 0 for a buffer whose feature the scene lacks. */
 size_t bytes_of(Buffer buffer, const Sizes &sizes);
 
-/* InputError names a buffer whose elements 32 bits cannot number, as kernels do. */
+/* Throws InputError that names a buffer with more elements than kernels can index with 32 bits. */
 void check_size(Buffer buffer, const Sizes &sizes);
 
-/* Leaves of a hierarchy of so many bodies: a power of two. */
+/* The number of leaves of a hierarchy of so many bodies, a power of two. */
 uint32_t leaves_for(uint32_t bodies);
 
-/* Cells of the uniform grid: about two a body, so that the table costs little and cells hold few. */
+/* The number of cells of the uniform grid: about two for each body, so that the table is small and cells hold few
+ * bodies. */
 uint32_t cells_for(uint32_t bodies);
 
 } // namespace tandem

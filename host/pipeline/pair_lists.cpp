@@ -1,4 +1,4 @@
-/* pair_lists.cpp - see pair_lists.h. */
+/* pair_lists.cpp - counts, scans and writes the lists of pairs by kind; see pair_lists.h. */
 #include "host/pipeline/pair_lists.h"
 
 #include "host/pipeline/primitives.h"

@@ -1,4 +1,4 @@
-/* pair_lists.h - the launches that sort pairs by kind: shared/narrowphase/pair_lists.h says what for. */
+/* pair_lists.h - the launches that sort pairs by kind; shared/narrowphase/pair_lists.h gives the reason. */
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace tandem {
 
-/* To pair_of_kind and to the entries of counts from KIND_START on; `capacity`: the most pairs there can be. */
+/* Writes pair_of_kind and the entries of counts from KIND_START on; `capacity` is the largest possible number of
+ * pairs. */
 void list_pairs(Launcher &launcher, uint32_t capacity);
 
 } // namespace tandem

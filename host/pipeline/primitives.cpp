@@ -1,4 +1,4 @@
-/* primitives.cpp - launches of scans and sorts; see primitives.h. */
+/* primitives.cpp - launches of scans, sorts and reductions; see primitives.h. */
 #include "host/pipeline/primitives.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t units(uint64_t n, uint32_t unit) { return static_cast<uint32_t>((n + unit - 1) / unit); }
 
-/* Launches count groups of TILE items; this many items make `groups` groups. */
+/* Launches count groups of TILE items; so many items make `groups` groups. */
 constexpr uint32_t items_for(uint64_t groups)
 {
   return static_cast<uint32_t>(std::min<uint64_t>(groups * TILE, UINT32_MAX));
@@ -25,8 +25,8 @@ struct Extent {
   uint32_t length, unit, per_unit, capacity;
 };
 
-/* The range of the launches is that of the length: it has at least as many groups as there are tiles of words,
- * since a tile of the sort covers more items than a group and makes fewer words of histogram than it has keys. */
+/* The launches use the range of the length. It has at least as many groups as there are tiles of words, because a tile
+ * of the sort covers more items than a group and makes fewer words of histogram than it has keys. */
 static_assert(SCAN_TILE >= TILE && SORT_TILE >= TILE && SORT_DIGITS <= SORT_TILE && SORT_DIGITS <= SCAN_TILE);
 
 void scan_words(Launcher &launcher, Buffer in, Buffer out, Buffer sums, const Extent &extent)
@@ -45,7 +45,7 @@ void scan_words(Launcher &launcher, Buffer in, Buffer out, Buffer sums, const Ex
       {Kernel::scan_tiles, {in, sums, out}, {length, unit, per_unit}, COUNT_ZERO, length, items_for(tiles)});
 }
 
-/* Buffers and kernels of one kind of sort: with or without values, 32- or 64-bit keys. */
+/* The buffers and kernels of one kind of sort: with or without values, 32- or 64-bit keys. */
 struct Sort {
   Kernel histogram_kernel, scatter_kernel, copy_kernel;
   Buffer keys, other_keys;
@@ -71,7 +71,8 @@ void sort_pass(Launcher &launcher, const Sort &sort, uint32_t length, uint32_t c
   launcher.launch(scatter);
 }
 
-/* As few passes as SORT_BITS allow, of about equal widths; a last copy where they are odd in number. */
+/* Sorts in as few passes as SORT_BITS allows, of about equal widths, and copies the result back after an odd number of
+ * passes. */
 void sort_bits(Launcher &launcher, Sort sort, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit)
 {
   if (last_bit <= first_bit || capacity == 0) return;

@@ -1,4 +1,4 @@
-/* scene_counts.cpp - see scene_counts.h. */
+/* scene_counts.cpp - the entries of counts and their values; see scene_counts.h. */
 #include "host/pipeline/scene_counts.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/* scene_counts.h - the entries of counts that follow from the scene alone: the host sets them once, kernels never. */
+/* scene_counts.h - the entries of counts that follow from the scene alone. The host sets them once, and kernels never
+ * change them. */
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ struct SceneCounts {
   uint32_t large = 0;     /* these, and the bodies after them that are too large for a grid */
 };
 
-/* Entries of shared/counts.h with their values. */
+/* The entries of shared/counts.h with their values. */
 std::vector<std::pair<int, uint32_t>> entries_of(const SceneCounts &scene);
 /* Whether an entry is one of those. */
 bool is_told_by_scene(uint32_t entry);

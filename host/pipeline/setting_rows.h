@@ -1,7 +1,7 @@
 /* setting_rows.h - the tables behind the choices of settings: names, help, parsing and messages all follow from them.
  *
- * One row a choice, in the order of its enum; solvers, broadphases and batchers have theirs beside their files. Where a
- * setting reaches kernels its rows say by which code (shared/body_codes.h). */
+ * Each table has one row for each choice, in the order of its enum; those of solvers, broadphases and batchers are
+ * beside their files. If kernels read a setting, its rows contain the code for it (shared/body_codes.h). */
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace tandem {
 
-/* For the tables: a row is found by its place. */
+/* Checks for a table that each row is at the index of its choice. */
 template <class Row, size_t count> consteval bool are_in_order(const Row (&rows)[count])
 {
   for (size_t k = 0; k < count; ++k)
@@ -21,7 +21,7 @@ template <class Row, size_t count> consteval bool are_in_order(const Row (&rows)
   return true;
 }
 
-/* std::logic_error if there is none: settings are validated. */
+/* Throws std::logic_error if there is none, because settings are validated before. */
 template <class Row, class T> const Row &row_in(std::span<const Row> rows, T choice)
 {
   if (static_cast<size_t>(choice) >= rows.size()) throw std::logic_error("a setting is none of the values of its enum");
@@ -50,8 +50,8 @@ struct SupportRow {
   uint32_t code; /* SUPPORT_ */
 };
 
-/* CONVEX_ in the low byte, SUPPORT_ in the next: what the kernels of convex shapes take. */
+/* The method code of the kernels of convex shapes: CONVEX_ in the low byte, SUPPORT_ in the next. */
 TANDEM_API uint32_t narrowphase_method(const Settings &settings);
-uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 where no cube map is used */
+uint32_t cube_map_cells(const Settings &settings); /* support_cells; 0 if no cube map is used */
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* settings.cpp - which settings make sense; see settings.h. */
+/* settings.cpp - validates settings, and converts choices to and from their names; see settings.h. */
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -21,7 +21,7 @@
 namespace tandem {
 namespace {
 
-constexpr float longest_step = 10.0f; /* s; nothing physical is left of a longer one */
+constexpr float longest_step = 10.0f; /* s; a longer step is physically meaningless */
 constexpr uint32_t most_passes = 1000;
 constexpr uint32_t most_cells = 256;
 
@@ -42,7 +42,7 @@ constexpr SupportRow support_rows[] = {{Support::brute_force, "brute-force", SUP
 static_assert(are_in_order(bounds_rows) && are_in_order(midphase_rows) && are_in_order(narrowphase_rows) &&
               are_in_order(support_rows));
 
-/* Of each enum: what messages call it, and its rows. */
+/* The name of each enum in messages, and its rows. */
 template <class T> struct Setting;
 template <> struct Setting<Solver> {
   static constexpr const char *what = "solver";

@@ -2,8 +2,8 @@
  *
  *   bounds -> pairs -> pairs of leaves -> manifolds -> colours -> constraints -> solver -> commit
  *
- * Nothing here waits for a device: ranges are read from counts on the device, and the plan only says how
- * large the launches should be. Broadphases, batchers and solvers stand in folders of their own.
+ * Nothing here waits for a device: ranges are read from counts on the device, and the plan only says how large the
+ * launches should be. Broadphases, batchers and solvers are in folders of their own.
  */
 #include "host/pipeline/step.h"
 
@@ -71,7 +71,8 @@ private:
     run_range(Kernel::copy, COUNT_ZERO, COUNT_PAIRS, {}, {Buffer::leaf_pair_b, Buffer::pair_b});
   }
 
-  /* Groups for as many pairs as there is room for: a device launches no more than it is told. */
+  /* Launches groups for as many pairs as the capacity allows, because a device launches no more groups than the host
+   * specifies. */
   void run_pair_groups(Kernel kernel, uint32_t pairs_of_group)
   {
     run_at_most(kernel, pair_group_items(plan().capacity_pairs, pairs_of_group));
@@ -85,7 +86,7 @@ private:
     run(Kernel::drop_internal_edges);
   }
 
-  /* The matrix of shape pairs (shared/pairs.def), as far as the scene has them. */
+  /* Launches the kernels of shared/pairs.def for the kinds of pairs that the scene has. */
   void find_contacts()
   {
     if (has(FEATURE_PAIR_KINDS)) list_pairs(launcher(), plan().capacity_pairs);
@@ -104,7 +105,7 @@ private:
       collide(kernel, test.kind);
   }
 
-  /* Where a kernel is told how convex shapes meet, it has a value for it. */
+  /* Kernels that handle convex shapes have a value for the method. */
   void collide(Kernel kernel, uint32_t kind)
   {
     const bool takes_method = row_of(kernel).arguments.back().kind == Argument::Kind::value;
@@ -160,7 +161,8 @@ private:
     run(Kernel::write_pair_events);
   }
 
-  /* Before the commit: bodies are where their contacts were found, and the cache is that of the last step. */
+  /* This comes before the commit, while bodies are where their contacts were found and the cache is that of the last
+   * step. */
   void list_events()
   {
     run(Kernel::pair_impulses);

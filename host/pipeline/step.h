@@ -1,4 +1,4 @@
-/* step.h - the whole step as a list of launches. */
+/* step.h - the whole step as a list of launches; World calls it for each attempt of a step. */
 #pragma once
 
 #include <array>
@@ -10,8 +10,8 @@
 
 namespace tandem {
 
-/* What the host knows when it launches a step: sizes of launches, never of results. Launching too few
- * colours or rounds shows in the status, and the step runs again with more. */
+/* What the host knows when it launches a step. It sizes launches but never changes results. If too few colours or
+ * rounds are launched, the status says so, and the step runs again with more. */
 struct StepPlan {
   Features features = 0;
   uint32_t bodies = 0;

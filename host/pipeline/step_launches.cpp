@@ -1,4 +1,4 @@
-/* step_launches.cpp - see step_launches.h. */
+/* step_launches.cpp - sizes launches from what the host knows of the counts; see step_launches.h. */
 #include "host/pipeline/step_launches.h"
 
 #include <stdexcept>

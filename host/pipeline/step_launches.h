@@ -1,6 +1,7 @@
-/* step_launches.h - the operations of which a step is written: launch a kernel, launch it for each colour, scan, sort.
+/* step_launches.h - the operations from which a step is composed: launch a kernel, launch it for each colour, scan,
+ * sort.
  *
- * host/pipeline/step.cpp writes the pipeline with them, and each file of host/pipeline/solvers/ a solver. */
+ * host/pipeline/step.cpp composes the pipeline of them, and each file of host/pipeline/solvers/ a solver. */
 #pragma once
 
 #include <optional>
@@ -20,28 +21,31 @@ public:
   Launcher &launcher() { return launcher_; }
   bool has(Features feature) const { return (plan_.features & feature) != 0; }
 
-  /* A kernel over the items of its row; of groups only where the scene alone tells how many there are. */
+  /* Launches a kernel over the items of its row; a kernel of groups only if the scene alone determines their number. */
   void run(Kernel kernel, const Values &values = {}, const Slots &slots = {});
-  /* A kernel over [counts[first], counts[last]). */
+  /* Launches a kernel over [counts[first], counts[last]). */
   void run_range(Kernel kernel, uint32_t first, uint32_t last, const Values &values = {}, const Slots &slots = {});
-  /* A kernel over the items of its row, whose number changes by more than the last step tells: for at most so many. */
+  /* Launches a kernel over the items of its row, of which there are at most `most`; for numbers that the last step does
+   * not predict. */
   void run_at_most(Kernel kernel, uint32_t most, const Values &values = {}, const Slots &slots = {});
-  /* A kernel over the pairs of its kind: their list, or all pairs where the scene has no lists. */
+  /* Launches a kernel over the pairs of its kind: their list, or all pairs if the scene has no lists. */
   void run_pairs(Kernel kernel, uint32_t pair_kind, const Values &values = {});
-  /* The same, over those of kinds that follow each other. */
+  /* Launches a kernel over the pairs of consecutive kinds. */
   void run_pairs(Kernel kernel, uint32_t first_kind, uint32_t last_kind, const Values &values);
-  /* One launch a colour of constraints; those without a colour of their own are left to
+  /* Launches a kernel once for each colour of constraints; constraints without a colour are left to
    * host/pipeline/solvers/mass_split.h. */
   void for_each_color(Kernel kernel, const Values &values = {});
-  /* The same, and `overflow` over those without a colour. */
+  /* Does the same, and launches `overflow` over the constraints without a colour. */
   void for_each_color(Kernel kernel, Kernel overflow, const Values &values = {});
-  /* What every substep starts with: the impulses of the one before are added up for the events, and forces act. */
+  /* Starts a substep: the impulses of the previous one are added up for the events, and forces are applied. */
   void begin_substep(uint32_t substep);
-  /* From how many pairs each of so many finds to where its first goes, and to how many there are. */
+  /* Scans the numbers of pairs that items have found, so that `starts` holds the index of each item's first pair, and
+   * sets the total. */
   void scan_pairs(Buffer starts, uint32_t length = COUNT_BODIES);
-  /* A kernel of an extension over the items of its row; no point: between steps. InputError says what does not fit. */
+  /* Launches a kernel of an extension over the items of its row; without a point, between steps. Throws InputError if
+   * an argument does not fit. */
   void run_of_module(Kernel kernel, const Values &values, const Slots &slots, std::optional<StepPoint> point);
-  /* What modules launch at this point of the step (Settings::extensions). */
+  /* Launches what modules launch at this point of the step (Settings::extensions). */
   void run_extensions(StepPoint point);
   void sort(Buffer keys, Buffer values, uint32_t length, uint32_t capacity, unsigned first_bit, unsigned last_bit);
 

@@ -1,4 +1,4 @@
-/* backend_list.cpp - splitting lists of backends; see backend_list.h. */
+/* backend_list.cpp - splits lists of backends, recognising options by their names; see backend_list.h. */
 #include "host/runtime/backend_list.h"
 
 #include <algorithm>

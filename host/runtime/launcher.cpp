@@ -1,4 +1,5 @@
-/* launcher.cpp - binds a launch's arguments in the order of its kernel's row. */
+/* launcher.cpp - binds a launch's arguments in the order of its kernel's row and passes it to its backend; see
+ * launcher.h. */
 #include "host/runtime/launcher.h"
 
 #include <algorithm>

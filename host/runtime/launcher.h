@@ -1,6 +1,6 @@
-/* launcher.h - takes launches, finds their backend, and moves the buffers they need there.
+/* launcher.h - accepts launches, selects their backend, and moves the buffers they need there.
  *
- * Placement is decided here alone: step.cpp and the primitives only name kernels.
+ * Placement is applied here alone: step.cpp and the primitives only name kernels.
  */
 #pragma once
 
@@ -20,9 +20,9 @@ class TANDEM_API Launcher {
 public:
   virtual ~Launcher() = default;
   virtual void launch(const Launch &launch) = 0;
-  /* From here on what is launched writes the state that the next step starts from (host/world/carried.h). */
+  /* Marks the point from which on launches write the state that the next step starts from (host/world/carried.h). */
   virtual void begin_commit() {}
-  /* Room of a buffer, where launches run; without end where they are only recorded. */
+  /* The size of a buffer where launches run, and unlimited where they are only recorded. */
   virtual size_t bytes(Buffer) const { return SIZE_MAX; }
 };
 
@@ -57,7 +57,7 @@ private:
   std::vector<Buffer> written_;
 };
 
-/* Everything on one backend: for tests and benchmarks of single kernels. */
+/* Runs everything on one backend, for tests and benchmarks of single kernels. */
 class DirectLauncher : public PlacedLauncher {
 public:
   DirectLauncher(Memory &memory, Backend &backend)

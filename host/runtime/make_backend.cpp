@@ -1,4 +1,4 @@
-/* make_backend.cpp - from the text of --on to a backend. */
+/* make_backend.cpp - parses the text of --on and creates the backend; see make_backend.h. */
 #include "host/runtime/make_backend.h"
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-/* make_backend.h - backends by the names that users give them. */
+/* make_backend.h - creates backends from the names that users give them. It is the one place where the kinds of
+ * backends are listed. */
 #pragma once
 
 #include <memory>
@@ -10,9 +11,9 @@
 
 namespace tandem {
 
-/* "serial[:order=backward]", "tbb[:threads=N,lanes=1|4|8|16]", "cl[:P.D]", "cl:part-of-a-name",
- * "reference[:threads=N]": the same kernels in double, for measuring errors, never compared bit for bit.
- * InputError names what is available when the text names nothing. */
+/* The text is "serial[:order=backward]", "tbb[:threads=N,lanes=1|4|8|16]", "cl[:P.D]", "cl:part-of-a-name", or
+ * "reference[:threads=N]". The last runs the same kernels in double, to measure errors, and is never compared bit for
+ * bit. Throws InputError that lists what is available if the text names no backend. */
 TANDEM_API std::unique_ptr<Backend> make_backend(const std::string &text, bool allow_inexact = false);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* memory.cpp - residency of buffers; see memory.h. */
+/* memory.cpp - copies of buffers in storages, and which of them are valid; see memory.h. */
 #include "host/runtime/memory.h"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ Memory::~Memory()
   for (Entry &entry : entries_) release(entry);
 }
 
-/* Devices that work in host memory let go of it before it is freed: the host's copy is always first. */
+/* Copies are released in reverse order: a device that works in host memory must release it before it is freed, and the
+ * host's copy is always first. */
 void Memory::release(Entry &entry) noexcept
 {
   for (auto copy = entry.copies.rbegin(); copy != entry.copies.rend(); ++copy) copy->storage->release(copy->handle);
@@ -37,7 +38,7 @@ void Memory::resize(Buffer buffer, size_t bytes)
   entry.bytes = bytes;
 }
 
-/* All that can fail comes before the first change. */
+/* Everything that can fail comes before the first change. */
 void Memory::grow(Buffer buffer, size_t bytes)
 {
   Entry &entry = entries_[index_of(buffer)];
@@ -110,7 +111,7 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
   for (Copy &copy : entry.copies)
     if (copy.storage == &storage) return copy;
   entry.copies.reserve(entry.copies.size() +
-                       2); /* itself, and the host's copy beside it: a handle must not be lost for want of a place */
+                       2); /* this copy and the host's; a push_back that failed later would leak a handle */
   if (&storage != &host_storage() && storage.shares_host_memory()) {
     void *host = copy_in(entry, host_storage()).handle;
     entry.copies.push_back({&storage, allocate(entry, entry.bytes, storage, host), false});
@@ -121,7 +122,8 @@ Memory::Copy &Memory::copy_in(Entry &entry, Storage &storage)
   return *entry.copies.insert(place, fresh);
 }
 
-/* Between two devices the bytes pass through the host's copy, in which a third may still be reading old ones. */
+/* Bytes move between two devices through the host's copy. A third device may still be reading the old bytes there, so
+ * it is waited for. */
 void Memory::make_valid(Entry &entry, Copy &wanted)
 {
   if (wanted.valid) return;
@@ -143,7 +145,7 @@ void Memory::make_valid(Entry &entry, Copy &wanted)
   copy.valid = true;
 }
 
-/* A device may still be reading bytes that it shares with the place about to write them. */
+/* A device may still be reading bytes that it shares with the storage that is about to write them. */
 void Memory::wait_for_readers(Entry &entry, Storage &writer)
 {
   if (&writer != &host_storage() && !writer.shares_host_memory()) return;
@@ -169,7 +171,7 @@ void Memory::upload(Buffer buffer, const void *from, size_t bytes, size_t offset
   std::memcpy(host + offset, from, bytes);
 }
 
-/* Reads straight from a device when the host's copy is stale, so that reading a count moves a count. */
+/* Reads directly from a device if the host's copy is stale, so that reading a count transfers only the count. */
 void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
 {
   if (bytes == 0) return;
@@ -179,7 +181,7 @@ void Memory::download(Buffer buffer, void *to, size_t bytes, size_t offset)
     if (copy.valid) return copy.storage->read(copy.handle, offset, to, bytes);
 }
 
-/* Once the host has looked at a buffer its floats are valid beside the doubles. */
+/* Prefers a copy in double: once the host has read a buffer, its floats are valid beside the doubles. */
 Memory::Copy &Memory::most_precise(Entry &entry)
 {
   copy_in(entry, host_storage());

@@ -1,8 +1,8 @@
-/* memory.h - where each buffer is valid, and the moves that follow from it.
+/* memory.h - keeps track of where each buffer is valid, and makes the moves that follow from it.
  *
- * Every buffer can live on the host and on each device. A kernel says which buffers it reads and
- * writes (kernels.def); Memory moves a buffer only when a kernel reads it somewhere it is not valid.
- * So any kernel can run anywhere in any frame, and nothing moves that need not (inventory A3, A8).
+ * Every buffer can have copies on the host and on each device. kernels.def says which buffers a kernel reads and
+ * writes, and Memory moves a buffer only if a kernel reads it in a storage where it is not valid. Any kernel can
+ * therefore run anywhere in any step, and nothing is moved without need.
  */
 #pragma once
 
@@ -24,25 +24,25 @@ public:
   Memory(const Memory &) = delete;
   Memory &operator=(const Memory &) = delete;
 
-  /* New contents are zero. Room is made when a copy is first needed. */
+  /* Sets a new size; the contents become zero. Storage is allocated when a copy is first needed. */
   void resize(Buffer buffer, size_t bytes);
-  /* Keeps the contents. Where there is no room (OutOfMemory) the buffer is as it was. */
+  /* Enlarges a buffer and keeps its contents. If there is not enough memory (OutOfMemory), the buffer is unchanged. */
   void grow(Buffer buffer, size_t bytes);
-  /* Other contents of another size. Where there is no room (OutOfMemory) the buffer is as it was. */
+  /* Replaces contents and size. If there is not enough memory (OutOfMemory), the buffer is unchanged. */
   void assign(Buffer buffer, const void *from, size_t bytes);
-  /* Makes room in a storage before anything runs: OutOfMemory here leaves every content as it was. */
+  /* Allocates the copy in a storage before anything runs; OutOfMemory leaves all contents unchanged. */
   void reserve(Buffer buffer, Storage &storage);
-  /* After this uploads to the buffer cannot fail. */
+  /* Ensures that later uploads to the buffer cannot fail. */
   void prepare_upload(Buffer buffer) { acquire(buffer, host_storage(), Access::inout); }
-  /* Two buffers of one kind change places. */
+  /* Exchanges two buffers of the same type. */
   void exchange(Buffer one, Buffer other) noexcept { std::swap(entries_[index_of(one)], entries_[index_of(other)]); }
   size_t bytes(Buffer buffer) const { return entries_[index_of(buffer)].bytes; }
   size_t total_bytes() const;
-  bool holds(Buffer buffer, const Storage &storage) const; /* whether there is a copy of it */
+  bool holds(Buffer buffer, const Storage &storage) const; /* whether the storage has a copy of it */
 
-  /* The buffer in this storage, valid if `access` reads; a write makes all other copies stale. What cannot be had
-   * leaves every content as it was: OutOfMemory, naming the buffer and its bytes, or the device's
-   * std::runtime_error. */
+  /* Returns the buffer in this storage, valid if `access` reads; a write makes all other copies stale. If it throws
+   * (OutOfMemory that names the buffer and its bytes, or the device's std::runtime_error), all contents are
+   * unchanged. */
   void *acquire(Buffer buffer, Storage &storage, Access access);
 
   void upload(Buffer buffer, const void *from, size_t bytes, size_t offset = 0);
@@ -53,9 +53,9 @@ public:
     download(buffer, values.data(), elements * sizeof(T), first * sizeof(T));
     return values;
   }
-  /* Scalars of a buffer of rows or reals, in double where a backend has left them in double. */
+  /* Scalars of a buffer of float4s or reals, in double if a backend has left them in double. */
   std::vector<double> read_reals(Buffer buffer, size_t count, size_t first = 0);
-  /* Written as doubles where the buffer is in double now, rounded to floats elsewhere. */
+  /* Writes doubles if the buffer is now in double; otherwise they are rounded to floats. */
   void write_reals(Buffer buffer, const double *from, size_t count, size_t first = 0);
 
 private:
@@ -76,7 +76,7 @@ private:
   void wait_for_readers(Entry &entry, Storage &writer);
   void release(Entry &entry) noexcept;
 
-  std::vector<Entry> entries_; /* of all buffers there were when it was made */
+  std::vector<Entry> entries_; /* one for each buffer that existed when the memory was made */
 };
 
 } // namespace tandem

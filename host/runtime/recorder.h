@@ -1,5 +1,5 @@
-/* recorder.h - a launcher that runs nothing: which kernels a series of launches needs, and which buffers each
- * touches. */
+/* recorder.h - a launcher that runs nothing and records which kernels a series of launches needs and which buffers each
+ * touches. Worlds use it to allocate only those. */
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@ public:
     for (Buffer slot : launch.slots) touch(launch.kernel, slot);
     note(launch.kernel);
   }
-  /* As if it were launched, but for its slots. */
+  /* Records the kernel as if it were launched, except for its slots. */
   void note(Kernel kernel)
   {
     if (std::find(kernels.begin(), kernels.end(), kernel) != kernels.end()) return;

@@ -28,7 +28,7 @@ Point point_of(const float4 *place)
           double{place[0].z} + double{place[1].z}};
 }
 
-/* A shape as it stands in a body: the body's own, or a child of its compound. */
+/* A shape as it is placed in a body: the body's own, or a child of its compound. */
 struct PlacedShape {
   const Body *body;
   const Shape *shape;
@@ -36,10 +36,10 @@ struct PlacedShape {
   Quat orientation;
   uint32_t material;
   Filter filter;
-  float radius; /* of the whole body: kernels ask for that of no child */
+  float radius; /* of the whole body: kernels do not read that of a child */
 };
 
-/* Those of the bodies, then the children of each. */
+/* The shapes of all bodies, then the children of each. */
 std::vector<PlacedShape> placed_shapes(const Scene &scene, const std::vector<uint32_t> &order)
 {
   std::vector<PlacedShape> placed;
@@ -161,7 +161,7 @@ void upload_materials(Memory &memory, const Scene &scene)
 
 namespace {
 
-/* All but the flags. What can fail comes before the first change. */
+/* Writes all but the flags. Everything that can fail comes before the first change. */
 void write_state(Memory &memory, uint32_t index, const BodyRecord &record)
 {
   for (const Buffer buffer : {Buffer::body_position, Buffer::body_orientation, Buffer::body_velocity})
@@ -287,7 +287,7 @@ void measure_contacts(Memory &memory, Statistics &statistics)
   for (uint32_t plane = 0; plane < 4; ++plane) {
     const auto rows = memory.read<float4>(Buffer::manifold_points, pairs, size_t{plane} * stride);
     for (uint32_t i = 0; i < pairs; ++i) {
-      if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* of triggers nothing counts */
+      if (points[i] <= plane || colors[i] == COLOR_INACTIVE) continue; /* triggers are not counted */
       const double depth = std::max(0.0, -static_cast<double>(rows[i].w));
       ++statistics.contacts;
       sum += depth;

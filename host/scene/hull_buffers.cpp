@@ -1,4 +1,4 @@
-/* hull_buffers.cpp - see hull_buffers.h. */
+/* hull_buffers.cpp - counts and packs the distinct hulls of a scene; see hull_buffers.h. */
 #include "host/scene/hull_buffers.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ void add_hull(std::vector<const ConvexHull *> &hulls, const Shape &shape)
   for (const Child &child : shape.compound->children) add_hull(hulls, child.shape);
 }
 
-/* In the order of the first shape that has them. */
+/* Hulls in the order of the first shape that uses them. */
 std::vector<const ConvexHull *> distinct_hulls(const Scene &scene)
 {
   std::vector<const ConvexHull *> hulls;

@@ -1,5 +1,6 @@
-/* hull_chunks.h - the tables of a hull that its vertices, planes and faces imply: shared/float8.h, and the links of
- * shared/narrowphase/convex.h. For any record of four numbers, as the reference build has its own. */
+/* hull_chunks.h - the tables that follow from a hull's vertices, planes and faces: the chunks of shared/float8.h, and
+ * the links of shared/narrowphase/convex.h. The functions are templates over a record of four numbers, because the
+ * reference build has its own. */
 #pragma once
 
 #include <array>
@@ -12,13 +13,14 @@
 
 namespace tandem {
 
-/* Rows of so many entries of so many numbers each. */
+/* The number of float4s of so many entries of so many numbers each. */
 inline uint32_t chunk_float4s(size_t entries, uint32_t numbers)
 {
   return static_cast<uint32_t>((entries + 7) / 8) * 2 * numbers;
 }
 
-/* The first 3 or 4 numbers of each entry, eight entries a chunk; the last chunk is filled up with the first entry. */
+/* Appends the first 3 or 4 numbers of each entry, eight entries a chunk; the last chunk is padded with the first
+ * entry. */
 template <class Row>
 void append_chunks(std::vector<Row> &chunks, std::span<const std::type_identity_t<Row>> entries, int numbers)
 {
@@ -32,7 +34,7 @@ void append_chunks(std::vector<Row> &chunks, std::span<const std::type_identity_
         chunks.push_back({number(half, k), number(half + 1, k), number(half + 2, k), number(half + 3, k)});
 }
 
-/* faces: corners of each; edges: from, to, left, right. A corner whose side is no edge (a flat hull) names
+/* faces: corners of each; edges: from, to, left, right. A corner whose side is no edge (a flat hull) gets
  * INDEX_NONE. */
 template <class Faces>
 void append_links(std::vector<uint32_t> &links, uint32_t vertices, const Faces &faces, std::span<const uint32_t> edges)
@@ -55,7 +57,7 @@ void append_links(std::vector<uint32_t> &links, uint32_t vertices, const Faces &
   links.insert(links.end(), edge_of_corner.begin(), edge_of_corner.end());
 }
 
-/* The entry of the highest score; the lowest of equal ones. */
+/* The index of the entry with the highest score; of equal ones the lowest. */
 template <class Row, class Score> uint32_t highest_of(std::span<Row> entries, const Score &score)
 {
   uint32_t best = 0;
@@ -65,7 +67,8 @@ template <class Row, class Score> uint32_t highest_of(std::span<Row> entries, co
   return best;
 }
 
-/* For each cell of hull_support.h's cube of side x side x 6 what a look along its middle finds. */
+/* Appends for each cell of hull_support.h's cube of side x side x 6 what `look` returns for the direction through its
+ * middle. */
 template <class Look> void append_cube(std::vector<uint32_t> &links, uint32_t side, const Look &look)
 {
   const auto middle = [&](uint32_t cell) { return 2.0 * (cell + 0.5) / side - 1.0; };
@@ -78,7 +81,8 @@ template <class Look> void append_cube(std::vector<uint32_t> &links, uint32_t si
       }
 }
 
-/* Two maps: the vertex farthest in the direction, and the face that lies in it as seen from the middle. */
+/* Appends two maps: the vertex farthest in a direction, and the face that a ray from the middle in that direction
+ * hits. */
 template <class Row>
 void append_cube_maps(std::vector<uint32_t> &links, std::span<Row> vertices, std::span<Row> planes,
                       const std::type_identity_t<Row> &middle, uint32_t side)

@@ -1,4 +1,4 @@
-/* parameters.cpp - soft contact coefficients and margins; see parameters.h. */
+/* parameters.cpp - computes soft contact coefficients and margins; see parameters.h. */
 #include "host/scene/parameters.h"
 
 #include <algorithm>
@@ -25,8 +25,8 @@ SoftContact soft_contact(double hertz, double damping_ratio, double h)
   return {round_to_float(omega / a1), round_to_float(a2 * a3), round_to_float(a3)};
 }
 
-/* Cells of two-stage batching are four bodies wide: more than the largest where sizes are much alike, so that cells of
- * one class share no body, and few enough contacts that a work-group has its fill and no more. */
+/* Cells of two-stage batching are four bodies wide. If sizes are much alike, that is more than the largest body, so
+ * that cells of one class share no body; and a cell holds few enough contacts that one work-group can process it. */
 float inverse_batch_cell(const Scene &scene)
 {
   const float edge = 8 * median_radius(scene);
@@ -38,8 +38,8 @@ float inverse_batch_cell(const Scene &scene)
 Parameters parameters_of(const Scene &scene, const Settings &settings, Features features)
 {
   const double h = static_cast<double>(settings.step) / settings.substeps;
-  /* Above a fifth of the substep rate the bias lifts under load faster than the leak lets sink, and tall columns
-   * bounce. */
+  /* Above a fifth of the substep rate, the bias raises bodies under load faster than the leak lets them sink, and tall
+   * columns bounce. */
   const double hertz = std::min<double>(settings.contact_hertz, 0.2 / h);
   const SoftContact soft = soft_contact(hertz, settings.contact_damping_ratio, h);
   const SoftContact against_fixed = soft_contact(2 * hertz, settings.contact_damping_ratio, h);

@@ -1,7 +1,7 @@
-/* scene.cpp - what makes a scene impossible to simulate, said before the simulation starts.
+/* scene.cpp - validates scenes: it reports before the simulation starts what makes a scene impossible to simulate.
  *
- * Every loader and generator ends here, so that the later stages can rely on finite numbers, unit
- * quaternions and indices in range, and never check them again.
+ * Every loader and generator ends here, so that the later stages can rely on finite numbers, unit quaternions and
+ * indices in range, and never check them again.
  */
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@
 namespace tandem {
 namespace {
 
-/* What stages multiply stays a float. Areas squared are fourth powers of lengths, as are friction coefficients combined
- * and squared; distances are squared; masses and their inverses are added. */
+/* Limits that keep the products of the stages finite floats. Squared areas are fourth powers of lengths, as are
+ * friction coefficients combined and squared; distances are squared; masses and their inverses are added. */
 constexpr double farthest = 1e18;
 constexpr float most_friction = 1e9f, heaviest = 1e36f, lightest = 1e-36f;
 
@@ -34,7 +34,7 @@ std::string label(const char *kind, size_t index, const std::string &name)
   return name.empty() ? fmt::format("{} {}", kind, index) : fmt::format("{} {} '{}'", kind, index, printable(name));
 }
 
-/* One named check about one thing: `where: what: why` is put together only when it fails. */
+/* The checks of one thing. The message `where: what: why` is composed only if a check fails. */
 struct Checker {
   const std::string &where;
   const char *kind;
@@ -55,7 +55,7 @@ struct Checker {
   void positive(const char *field, float x) const
   {
     if (!(x > 0) || !std::isfinite(x)) fail(fmt::format("{} is {}; a finite number above 0 is needed", field, x));
-    /* The solver works with 1/x: it must not overflow. */
+    /* The solver computes 1/x, which must not overflow. */
     if (!std::isfinite(1.0f / x)) fail(fmt::format("{} is {}, too small: its inverse is not a finite float", field, x));
   }
   template <class Real> void at_most(const char *field, Real x, Real limit) const
@@ -89,7 +89,7 @@ struct Checker {
   }
 };
 
-/* Its sides, the common tangent of the two spheres, exist only while neither sphere holds the other. */
+/* The sides of a capsule, the common tangent of the two spheres, exist only if neither sphere contains the other. */
 void check_capsule(const Shape &shape, const Checker &check)
 {
   const float bottom = shape.size[0], half_height = shape.size[1], top = shape.size[2];
@@ -197,7 +197,7 @@ Vec3 inertia_of_shape(const Body &body, const Shape &shape, const Checker &check
 {
   try {
     return inertia_of(shape, body.mass);
-  } catch (const InputError &error) { /* a mesh without volume */
+  } catch (const InputError &error) { /* the mesh has no volume */
     check.fail(error.what());
   }
 }
@@ -252,7 +252,7 @@ void check_body(const Body &body, const Scene &scene, const Checker &check)
   check_inertia(body, shape, check);
 }
 
-/* Vertices that are welded change no surface; triangles that are left out might have been meant. */
+/* Welding vertices changes no surface, but triangles that are left out may have been intended. */
 std::string left_out_of(const Shape &shape)
 {
   if (shape.mesh)

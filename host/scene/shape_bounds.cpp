@@ -1,4 +1,5 @@
-/* shape_bounds.cpp - see shape_bounds.h. In double, since it is done once; rounded outward in the end. */
+/* shape_bounds.cpp - see shape_bounds.h. The bounds are computed once, so they are computed in double and rounded
+ * outward at the end. */
 #include "host/scene/shape_bounds.h"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ double length(const Double3 &v)
 } /* hypot differs between libraries */
 float outward(double x) { return std::nextafter(round_to_float(x), HUGE_VALF); }
 
-/* Where a shape stands in a body. Columns x y z: its axes. */
+/* The pose of a shape in a body; the columns x y z are its axes. */
 struct Frame {
   Double3 x, y, z, origin;
 };
@@ -50,7 +51,8 @@ Frame product(const Frame &outer, const Frame &inner)
   return {turned(outer, inner.x), turned(outer, inner.y), turned(outer, inner.z), placed(outer, inner.origin)};
 }
 
-/* The hull of these holds a shape: balls about points of the body, or discs across an axis. */
+/* The parts of a round shape, whose convex hull contains the shape: balls about points of the body, or discs across an
+ * axis. */
 struct Round {
   Double3 center;
   double radius;
@@ -93,13 +95,13 @@ std::vector<Round> rounds_of(const Shape &shape, const Vec3 &position, const Qua
   return rounds;
 }
 
-/* A disc reaches along an axis only as far as it is seen from there. */
+/* The extent of a disc along an axis is its projection. */
 double reach_along(const Round &round, size_t axis)
 {
   return round.disc ? round.radius * std::sqrt(std::max(0.0, 1 - round.axis[axis] * round.axis[axis])) : round.radius;
 }
 
-/* From the body's centre to the farthest point. */
+/* The distance from the body's centre to the farthest point. */
 double farthest_from_centre(const Round &round)
 {
   if (!round.disc) return length(round.center) + round.radius;

@@ -1,4 +1,4 @@
-/* specialise.cpp - derives the features of a scene from what is in it; see specialise.h. */
+/* specialise.cpp - derives the features of a scene from its contents; see specialise.h. */
 #include "host/scene/specialise.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ constexpr uint32_t shape_codes = 8; /* of body_flags */
 
 struct Presence {
   bool fixed[shape_codes] = {};   /* by shape: bodies that cannot be moved */
-  bool dynamic[shape_codes] = {}; /* where there are triggers, kinematic ones too: they meet fixed triggers */
+  bool dynamic[shape_codes] = {}; /* with triggers also kinematic bodies, because they meet fixed triggers */
 };
 
 Presence presence_of(const Scene &scene)
@@ -57,7 +57,7 @@ Presence presence_of(const Scene &scene)
   return present;
 }
 
-/* Of bodies, and of children of compounds. */
+/* Tests the shapes of bodies and of children of compounds. */
 bool any_shape(const Scene &scene, std::initializer_list<ShapeType> types)
 {
   const auto wanted = [&](const Shape &shape) {
@@ -83,7 +83,8 @@ Features convex_features(const Scene &scene)
   return features;
 }
 
-/* Polytopes find their depth by axes; triangles, and all else that is not sampled, by expansion. */
+/* The depth of polytopes is found by separating axes; that of triangles, and of everything else that is not sampled, by
+ * an expanding polytope. */
 Features narrowphase_features(const Scene &scene, Features features, const Settings &settings)
 {
   if ((features & FEATURE_CONVEX) == 0) return 0;
@@ -110,7 +111,7 @@ Features support_features(Features features, const Settings &settings)
   return 0;
 }
 
-/* Pairs of the kinds that shapes of the scene make. */
+/* The features of all kinds of pairs that shapes of the scene can make. */
 Features pair_features(const Presence &present)
 {
   Features features = 0;
@@ -122,9 +123,8 @@ Features pair_features(const Presence &present)
   return features;
 }
 
-/* Lists pay where pairs of several kinds lie among each other. Those with a half-space are few beside the others, since
- * a body has one at most with each, and only if it lies there: their kernel passes over all other pairs in less time
- * than the lists take. */
+/* Lists pay if pairs of several kinds are mixed. Pairs with a half-space are few, because a body has at most one with
+ * each half-space and only if it touches it; their kernel skips all other pairs in less time than the lists take. */
 Features list_features(Features features)
 {
   const auto counts = [&](const PairTest &test) {
@@ -141,7 +141,7 @@ bool spins_unevenly(const Scene &scene, const Body &body)
 
 bool meet(const Filter &a, const Filter &b) { return (a.group & b.mask) != 0 && (b.group & a.mask) != 0; }
 
-/* The filters and materials of a body's shape, or of its children's. */
+/* Visits the filters and materials of a body's shape, or of its children's. */
 template <class Visit> void for_each_filter(const Scene &scene, const Body &body, const Visit &visit)
 {
   const Shape &shape = scene.shapes[body.shape];
@@ -157,7 +157,7 @@ template <class Visit> void for_each_material(const Scene &scene, const Body &bo
     for (const Child &child : shape.compound->children) visit(scene.materials[child.material.value_or(body.material)]);
 }
 
-/* Nothing to filter where all are alike and meet each other. */
+/* No filtering is needed if all filters are equal and accept each other. */
 bool filters(const Scene &scene)
 {
   std::optional<Filter> first;
@@ -207,7 +207,7 @@ LargeBodies large_bodies(const Scene &scene)
   for (uint32_t body = 0; body < scene.bodies.size(); ++body) {
     if (scene.shapes[scene.bodies[body].shape].type == ShapeType::half_space) unbounded.push_back(body);
     else if (radius(body) > limit || scene.bodies[body].continuous)
-      large.push_back(body); /* what is fast has bounds as large */
+      large.push_back(body); /* a fast body has bounds as large as its displacement */
   }
   std::stable_sort(large.begin(), large.end(), [&](uint32_t a, uint32_t b) { return radius(a) > radius(b); });
   if (large.size() > most_large_bodies) large.resize(most_large_bodies);

@@ -1,4 +1,4 @@
-/* tree_tables.cpp - see tree_tables.h. */
+/* tree_tables.cpp - builds and packs the trees of a scene's meshes and compounds; see tree_tables.h. */
 #include "host/scene/tree_tables.h"
 
 #include <cmath>
@@ -26,9 +26,9 @@ uint32_t count_of(size_t n)
   return static_cast<uint32_t>(n);
 }
 
-/* A part of a shape, with the box around it in the shape's frame. */
+/* A part of a shape, with its bounding box in the shape's frame. */
 struct Leaf {
-  uint32_t child, triangle; /* INDEX_NONE: the shape itself; no triangle */
+  uint32_t child, triangle; /* INDEX_NONE: no child (the shape itself); no triangle */
   AxisAlignedBox box;
 };
 

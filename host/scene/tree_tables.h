@@ -1,8 +1,9 @@
-/* tree_tables.h - meshes and compounds of a scene as the tables that the midphase walks: shared/midphase/tree.h.
+/* tree_tables.h - the meshes and compounds of a scene as the tables that the midphase traverses:
+ * shared/midphase/tree.h.
  *
  * A compound's tree has a leaf for each convex child and one for each triangle of a child that is a mesh, so a pair of
- * bodies has one tree on either side at most. Bodies that share a shape share its tree; the children of each body have
- * places of their own behind the bodies, since they stand in that body's frame.
+ * bodies has at most one tree on either side. Bodies that share a shape share its tree. The children of each body have
+ * entries of their own after the bodies, because they are placed in that body's frame.
  */
 #pragma once
 
@@ -25,17 +26,17 @@ struct TreeTables {
   TreeSizes sizes;
   std::vector<uint32_t> tree_of_shape; /* of Scene::shapes; INDEX_NONE for convex ones */
   std::vector<uint32_t> headers, nodes, leaves, subtrees,
-      triangles; /* as buffers.def has them: tree_header, tree_node, tree_leaf, .. */
+      triangles; /* the tables of buffers.def: tree_header, tree_node, tree_leaf, ... */
   std::vector<float4> frames, vertices;
 };
 
-/* InputError where a mesh or compound has too much for 32-bit numbers, or bounds that are not finite. */
+/* Throws InputError if a mesh or compound has too many parts for 32-bit numbers, or bounds that are not finite. */
 TreeTables tree_tables(const Scene &scene);
 
-/* How many children the shape of a body has: 0 unless it is a compound. */
+/* The number of children of a shape: 0 unless it is a compound. */
 uint32_t children_of(const Shape &shape);
 
-/* order: of the bodies in the buffers. */
+/* order: that of the bodies in the buffers. */
 void upload_trees(Memory &memory, const Scene &scene, const TreeTables &tables, const std::vector<uint32_t> &order);
 
 } // namespace tandem

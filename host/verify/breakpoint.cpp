@@ -1,4 +1,4 @@
-/* breakpoint.cpp - see breakpoint.h. */
+/* breakpoint.cpp - maps elements of buffers to bodies and to the items of kernels; see breakpoint.h. */
 #include "host/verify/breakpoint.h"
 
 #include <algorithm>
@@ -25,10 +25,10 @@ bool is_allocated(World &world, Buffer buffer, size_t item)
 
 std::string_view name_of_buffer(Buffer buffer) { return row_of(buffer).name; }
 
-/* Rows of pairs come in three orders: that of the pairs, of the constraints (by colour), of the cache. */
+/* Elements of pairs are in one of three orders: that of the pairs, of the constraints (by colour), or of the cache. */
 bool is_by_constraint(Buffer buffer) { return name_of_buffer(buffer).starts_with("constraint_"); }
 
-/* Numbered as the kernel's own iterations are, whatever those stand for. */
+/* Buffers whose items are numbered like the iterations of the kernel, whatever those stand for. */
 bool is_by_item(Buffer buffer)
 {
   return buffer == Buffer::key_start || buffer == Buffer::small_neighbors || buffer == Buffer::large_neighbors ||
@@ -42,7 +42,7 @@ bool names_buffer(const KernelRow &row, bool (*wanted)(Buffer))
   });
 }
 
-/* What the iterations of a kernel stand for, and what the items of a buffer do. */
+/* What the iterations of a kernel, or the items of a buffer, stand for. */
 enum class Domain { bodies, bodies_in_grid_order, bodies_on_curve, pairs, constraints, place, unknown };
 
 Domain domain_of(const KernelRow &row)
@@ -79,7 +79,7 @@ Domain domain_of(Buffer buffer)
   }
 }
 
-/* The entry in [first, last) of an index buffer that holds `value`. */
+/* The index in [first, last) at which an index buffer holds `value`. */
 std::optional<uint32_t> search(World &world, Buffer index, uint32_t first, uint32_t last, uint32_t value)
 {
   if (last <= first || !is_allocated(world, index, last - 1)) return {};
@@ -89,7 +89,7 @@ std::optional<uint32_t> search(World &world, Buffer index, uint32_t first, uint3
   return first + static_cast<uint32_t>(found - indices.begin());
 }
 
-/* The iteration of a kernel over constraints that wrote the row of a body or of a pair. */
+/* The iteration of a kernel over constraints that wrote the element of a body or of a pair. */
 std::optional<uint32_t> constraint_of(World &world, const Launch &launch, Domain written, uint32_t item)
 {
   const uint32_t first = count_of(world, launch.first), last = count_of(world, launch.last);
@@ -99,7 +99,7 @@ std::optional<uint32_t> constraint_of(World &world, const Launch &launch, Domain
   return as_first ? as_first : search(world, Buffer::constraint_b, first, last, item);
 }
 
-/* Kernels of the grid and of the hierarchy walk the first bodies, then the others as they are sorted. */
+/* Kernels of the grid and of the hierarchy visit the first bodies, then the others in their sorted order. */
 std::optional<uint32_t> place_in_order(World &world, Buffer list, uint32_t unsorted, uint32_t body)
 {
   if (body < unsorted) return body;
@@ -122,7 +122,7 @@ std::optional<uint32_t> owner_of_pair(World &world, uint32_t pair)
   return world.memory().read<uint32_t>(Buffer::pair_a, 1, pair).at(0);
 }
 
-/* Kernels of pairs run over the list of their kind, where the scene has lists. */
+/* Kernels of pairs run over the list of their kind if the scene has lists. */
 bool runs_over_list(const Launch &launch)
 {
   return launch.first >= KIND_START && launch.first < KIND_START + uint32_t{PAIR_KIND_NONE};
@@ -133,7 +133,7 @@ std::optional<uint32_t> place_in_list(World &world, const Launch &launch, uint32
   return search(world, Buffer::pair_of_kind, count_of(world, launch.first), count_of(world, launch.last), pair);
 }
 
-/* Nothing where several iterations wrote the place (atomics), or where the kernel scatters. */
+/* Nothing if several iterations wrote the element (atomics), or if the kernel scatters. */
 std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch, Buffer buffer, uint32_t item)
 {
   const KernelRow &row = row_of(launch.kernel);
@@ -153,7 +153,7 @@ std::optional<uint32_t> iteration_that_wrote(World &world, const Launch &launch,
   return {};
 }
 
-/* Rows of pairs in the order of the pairs, but of the lists. */
+/* Elements of pairs are in the order of the pairs, except those of the lists. */
 size_t pair_of_row(World &world, Buffer buffer, size_t item)
 {
   return buffer == Buffer::pair_of_kind ? world.memory().read<uint32_t>(buffer, 1, item).at(0) : item;

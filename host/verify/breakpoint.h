@@ -1,7 +1,7 @@
-/* breakpoint.h - leads from a location in a buffer back to its bodies and to the item that wrote it.
+/* breakpoint.h - finds the bodies of a location in a buffer, and the item that wrote it.
  *
- * The last part of a comparison's report: a gdb breakpoint on the serial backend that stops in the one
- * item of the one step where two backends first differ.
+ * It is the last part of a comparison's report: a gdb breakpoint on the serial backend that stops in the one item of
+ * the one step in which two backends first differ.
  */
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace tandem {
 
-/* The parameter that is the item, or the group, in the kernel's shared function; "" where there is but one. */
+/* The parameter that is the item, or the group, in the kernel's shared function; "" if there is only one. */
 const char *iteration_name(Kernel kernel);
 
 size_t pair_capacity(World &world);
 
-/* Indices into Scene::bodies: the body of a body's row, the two of a pair's or constraint's. */
+/* Indices into Scene::bodies: the body of a body's element, or the two of a pair or constraint. */
 std::vector<uint32_t> bodies_of_item(World &world, Buffer buffer, size_t item);
 
-/* "integrate_item if i == 17 && tandem::step_of_launch == 3"; the step alone where the item that wrote
- * the place is not known (scattering kernels). */
+/* "integrate_item if i == 17 && tandem::step_of_launch == 3"; only the step if the item that wrote the element is not
+ * known (scattering kernels). */
 std::string breakpoint_for(World &world, const Launch &launch, Buffer buffer, size_t item, uint64_t step);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* buffer_location.cpp - see buffer_location.h. */
+/* buffer_location.cpp - decodes, compares and hashes the numbers of buffers; see buffer_location.h. */
 #include "host/verify/buffer_location.h"
 
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<std::string> field_names(Buffer buffer)
   return names;
 }
 
-/* buffers.def: an item with one name per scalar is a record; rows of pairs that share names are planes. */
+/* In buffers.def, an item with one name per scalar is a record; elements of pairs that share names are planes. */
 bool lies_in_planes(Buffer buffer, size_t names)
 {
   const BufferRow &row = row_of(buffer);
@@ -41,11 +41,11 @@ bool lies_in_planes(Buffer buffer, size_t names)
 uint64_t bits_of(Buffer buffer, const void *scalar)
 {
   uint64_t bits = 0;
-  std::memcpy(&bits, scalar, scalar_bytes(buffer)); /* little endian, as every target of ours */
+  std::memcpy(&bits, scalar, scalar_bytes(buffer)); /* all supported targets are little-endian */
   return bits;
 }
 
-/* Sign and magnitude turned into one ascending line of integers. */
+/* Maps sign and magnitude to ascending integers. */
 int64_t position_on_line(uint64_t bits, size_t bytes)
 {
   const uint64_t sign = uint64_t{1} << (bytes * 8 - 1);
@@ -72,7 +72,7 @@ template <class Real> bool any_nan(const void *contents, size_t bytes)
   return found > 0;
 }
 
-/* Every NaN becomes the same one. */
+/* Replaces every NaN by the same one before hashing. */
 template <class Real> uint64_t hash_reals(const void *contents, size_t bytes)
 {
   if (!any_nan<Real>(contents, bytes)) return hash_bytes(contents, bytes);

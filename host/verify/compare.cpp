@@ -1,4 +1,4 @@
-/* compare.cpp - backends in lockstep; see compare.h. */
+/* compare.cpp - runs backends in lockstep and compares the hashes of their buffers; see compare.h. */
 #include <algorithm>
 #include <cstring>
 #include <memory>
@@ -39,7 +39,7 @@ uint64_t hash_of(World &world, Buffer buffer)
   return bytes ? hash_numbers(buffer, contents_of(world, buffer), bytes) : 0;
 }
 
-/* What one launch left in one buffer. */
+/* The contents of one buffer after one launch. */
 struct Output {
   uint32_t launch;
   Kernel kernel;
@@ -47,12 +47,12 @@ struct Output {
   uint64_t hash;
 };
 
-/* Where a world's outputs left the reference's, and what its buffer held. */
+/* Where a world's outputs first differed from the reference's, and the contents of its buffer. */
 struct Departure {
   size_t world;
   uint64_t step;
   Output output;
-  bool kernels_differ; /* another kernel ran than on the reference: there is no buffer to compare */
+  bool kernels_differ; /* another kernel ran than on the reference, so there is no buffer to compare */
   std::vector<char> contents;
 };
 
@@ -87,7 +87,7 @@ std::unique_ptr<World> Lockstep::make_world(size_t index) const
   return std::make_unique<World>(scene_, request_.settings, placement);
 }
 
-/* Calls visit(launch, number) after each launch; a planted error is in place by then. */
+/* Calls visit(launch, number) after each launch; an injected fault is in place by then. */
 template <class Visit> void Lockstep::step(size_t index, World &world, uint64_t step, Visit visit) const
 {
   uint32_t number = 0;
@@ -130,7 +130,7 @@ void Lockstep::step_and_compare(size_t index, World &world)
   if (!departure_ && next < reference_.size()) departure_ = Departure{index, current_, reference_[next], true, {}};
 }
 
-/* Catches what no kernel's row admits to: equal outputs, yet different states. */
+/* Finds what no kernel's row declares: equal outputs, but different states. */
 void Lockstep::compare_states(std::vector<std::unique_ptr<World>> &worlds)
 {
   const uint64_t expected = worlds[0]->state_hash();
@@ -157,7 +157,7 @@ Difference Lockstep::describe_departure() const
   return difference;
 }
 
-/* Runs a fresh reference up to the launch at which the other one departed. */
+/* Runs a fresh reference up to the launch at which the other world differed. */
 Difference Lockstep::explain() const
 {
   Difference difference = describe_departure();
@@ -239,7 +239,7 @@ void change_in_memory(Memory &memory, Buffer buffer, size_t scalar)
   memory.upload(buffer, &value, width, scalar * width);
 }
 
-/* Empty if the error can be planted behind this launch. */
+/* Empty if the fault can be injected after this launch. */
 std::string what_is_missing(const InjectedFault &error, const Memory &memory, const Launch &launch)
 {
   const std::vector<Buffer> written = buffers_written(launch);
@@ -255,7 +255,7 @@ std::string what_is_missing(const InjectedFault &error, const Memory &memory, co
 FaultInjector inject_fault(const InjectedFault &error, std::string *missing)
 {
   if (missing) *missing = fmt::format("{} does not run in step {}", row_of(error.kernel).name, error.step);
-  /* The world that this step was planted in: a fresh world of the same index (the second run) gets it again. */
+  /* The world into which the fault was injected: a fresh world of the same index (the second run) gets it again. */
   return [error, missing, done = static_cast<World *>(nullptr)](size_t index, uint64_t step, World &world,
                                                                 const Launch &launch) mutable {
     if (index != error.world || step != error.step || launch.kernel != error.kernel || done == &world) return;
@@ -272,7 +272,8 @@ Comparison compare_backends(const Scene &scene, const ComparisonRequest &request
   if (request.backends.size() < 2) throw InputError("comparing takes at least two backends: serial,tbb");
   BroadphaseChoice choice{request.settings.broadphase, "as asked"};
   if (choice.broadphase == Broadphase::automatic)
-    choice = choose_broadphase(scene, request.backends.front()); /* each on its own choice would run other kernels */
+    choice = choose_broadphase(scene, request.backends.front()); /* individual choices could differ, and other kernels
+                                                                    would run */
   ComparisonRequest decided = request;
   decided.settings.broadphase = choice.broadphase;
   Comparison comparison = Lockstep(scene, decided).run();

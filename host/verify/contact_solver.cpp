@@ -1,4 +1,4 @@
-/* contact_solver.cpp - launches of the solvers of frictional contact problems. */
+/* contact_solver.cpp - launches the solvers of frictional contact problems; see contact_solver.h. */
 #include "host/verify/contact_solver.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 namespace tandem {
 namespace {
 
-/* Kernels square what they are given, in floats. A problem in units far from 1 is solved in others, powers of two away,
- * so that nothing is rounded for it: W' = W / compliance, q' = q / speed, r = r' speed / compliance. */
+/* Kernels square their inputs in floats. A problem in units far from 1 is therefore converted by powers of two, which
+ * round nothing: W' = W / compliance, q' = q / speed, r = r' speed / compliance. */
 struct Units {
   double compliance = 1, speed = 1;
 };
 
-constexpr int most_exponent = 40; /* of two: up to there the squares of what floats hold beside it are floats */
+constexpr int most_exponent = 40; /* of two: with larger exponents squares could exceed the range of floats */
 
 double power_near(double size)
 {
@@ -58,7 +58,7 @@ ContactProblem in_units(ContactProblem problem, const Units &units)
   return problem;
 }
 
-/* Contacts whose own compliances differ by more than floats can be squared in are no problem for them, whatever the
+/* A problem is refused if the compliances of its contacts differ by more than the range of squared floats, whatever the
  * units. */
 void check_range(const ContactProblem &problem, double mean)
 {
@@ -88,7 +88,7 @@ public:
     const double trace = memory_.read_reals(Buffer::problem_trace, 1)[0];
     const double size =
         double{RHO_FACTOR} * 3 * contacts_ / trace * std::sqrt(memory_.read_reals(Buffer::problem_sum, 1)[0]);
-    scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and found at once */
+    scale_ = size > 0 ? 1 / size : 1; /* without any free velocity the solution is 0 and is found at once */
   }
   ~ProblemSolver() { backend_.finish(); }
 
@@ -113,7 +113,7 @@ public:
     return relative(Buffer::problem_term_a);
   }
 
-  /* After natural_residual(). */
+  /* Must be called after natural_residual(). */
   ContactResiduals residuals()
   {
     add_up(Reduction::largest, Buffer::problem_term_c, Buffer::problem_sum);
@@ -234,7 +234,8 @@ ContactSolver parse_contact_solver(const std::string &name)
   throw InputError(fmt::format("--solver '{}' is unknown; use {}", name, names));
 }
 
-/* W couples both ways in theory; a file may hold one of the two blocks alone, so both directions count. */
+/* In theory W couples contacts in both directions; a file may contain only one of the two blocks, so both directions
+ * count. */
 ContactLevels contact_levels(const ContactProblem &problem)
 {
   const uint32_t n = problem.contacts;

@@ -1,7 +1,7 @@
-/* contact_solver.h - solves a frictional contact problem by itself, on any backend, and watches its residual.
+/* contact_solver.h - solves a frictional contact problem by itself, on any backend, and records its residual.
  *
- * The launches of shared/problem/ in order: see docs/contact-problems.md for what is measured and
- * shared/problem/pass.h for the methods.
+ * It launches the kernels of shared/problem/ in order. docs/contact-problems.md describes the measurements, and
+ * shared/problem/pass.h the methods.
  */
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace tandem {
 
-/* nsgs is pgs in double precision, which the backend `reference` has. */
+/* nsgs is pgs in double precision and runs on the backend `reference`. */
 enum class ContactSolver : uint8_t { pgs, nncg, jacobi, nsgs };
 inline constexpr std::array all_contact_solvers = {ContactSolver::pgs, ContactSolver::nncg, ContactSolver::jacobi,
                                                    ContactSolver::nsgs};
@@ -27,13 +27,13 @@ ContactSolver parse_contact_solver(const std::string &name);
 
 struct ContactSolverSettings {
   ContactSolver solver = ContactSolver::pgs;
-  double tolerance = 1e-3;    /* relative natural-map residual at which to stop, >= 0 */
+  double tolerance = 1e-3;    /* relative natural-map residual at which the solver stops, >= 0 */
   uint32_t iterations = 1000; /* passes at most */
 };
 
 struct ContactResiduals {
   double natural_map = 0, fischer_burmeister = 0; /* relative */
-  double cone_violation = 0;                      /* the largest of a contact, N s */
+  double cone_violation = 0;                      /* the largest of all contacts, N s */
 };
 
 struct ContactSolution {
@@ -42,14 +42,14 @@ struct ContactSolution {
   std::vector<double> history; /* relative natural-map residual after each pass */
   ContactResiduals residuals;  /* after the last */
   std::vector<std::array<double, 3>> impulse;
-  double milliseconds = 0; /* passes and residuals; without building kernels and the first moves */
+  double milliseconds = 0; /* passes and residuals, without building kernels and the first transfers */
 };
 
 ContactSolution solve_contact_problem(const ContactProblem &problem, const ContactSolverSettings &settings,
                                       Backend &backend);
 
-/* Contacts in an order of levels in which a parallel pass equals the pass from 0 to the last: order, and where levels
- * start. */
+/* An order of contacts in levels for which a parallel pass equals the sequential pass over all contacts: the order, and
+ * the start of each level. */
 struct ContactLevels {
   std::vector<uint32_t> order, start;
 };

@@ -1,4 +1,4 @@
-/* metrics.cpp - see metrics.h. */
+/* metrics.cpp - computes the metrics from downloaded states and buffers; see host/include/tandem/metrics.h. */
 #include <algorithm>
 #include <cmath>
 
@@ -24,7 +24,7 @@ std::array<double, 3> array_of(const Vector &v) { return {v.x(), v.y(), v.z()}; 
 
 Eigen::Quaterniond quaternion_of(const std::array<double, 4> &q) { return {q[3], q[0], q[1], q[2]}; }
 
-/* Principal moments of a body; 0 where it cannot turn. */
+/* Principal moments of a body; 0 if it cannot rotate. */
 Vector moments_of(const Scene &scene, const Body &body)
 {
   const Vec3 inverse = inverse_inertia_of(scene, body);
@@ -33,20 +33,21 @@ Vector moments_of(const Scene &scene, const Body &body)
   return moments;
 }
 
-/* Velocity of a body at the end of the step, its motion within it and its inertia, as the solver left them. */
+/* The velocity of a body at the end of the step, its displacement within it and its inertia, as the solver left
+ * them. */
 struct SolverBody {
   Vector linear, angular, moved;
   double inverse_mass;
 };
 
-/* The contact problem of the last step, read back from the buffers that the solver worked on. */
+/* The contact problem of the last step, read from the buffers of the solver. */
 class StepContacts {
 public:
   explicit StepContacts(World &world) : step_(world.settings().step)
   {
     Memory &memory = world.memory();
     const auto counts = memory.read<uint32_t>(Buffer::counts, COUNT_TOTAL);
-    if (memory.bytes(Buffer::constraint_friction_impulse) == 0) return; /* a solver without impulses */
+    if (memory.bytes(Buffer::constraint_friction_impulse) == 0) return; /* the solver has no impulses */
     count = counts[COUNT_CONSTRAINTS];
     stride_ = counts[CAPACITY_PAIRS];
     a_ = memory.read<uint32_t>(Buffer::constraint_a, count);
@@ -64,7 +65,7 @@ public:
 
   struct Point {
     bool used = false;
-    double impulse = 0, mass = 0, started = 0, speed = 0; /* speed: less the one wished by restitution */
+    double impulse = 0, mass = 0, started = 0, speed = 0; /* speed: minus the target speed of restitution */
   };
   struct Friction {
     double limit = 0, mass = 0;
@@ -127,7 +128,7 @@ private:
     return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}, {d[0], d[1], d[2]}, v[3]};
   }
 
-  /* Arms moved along with the bodies, as shift_of_arms of shared/setup/contact.h does it. */
+  /* The contact arms move with the bodies, as in shift_of_arms of shared/setup/contact.h. */
   Vector relative_velocity(size_t i, Vector arm_a, Vector arm_b) const
   {
     const SolverBody a = body(a_[i]), b = body(b_[i]);
@@ -138,7 +139,7 @@ private:
     return b.linear + b.angular.cross(arm_b) - a.linear - a.angular.cross(arm_a);
   }
 
-  /* The basis that friction impulses are given in: tangents_of of shared/math.h. */
+  /* The basis of the friction impulses: tangents_of of shared/math.h. */
   static double sign_of(const Vector &n) { return n.z() >= 0 ? 1 : -1; }
   static Vector first_tangent(const Vector &n)
   {
@@ -159,15 +160,16 @@ private:
   std::array<std::vector<double>, 2> center_, restitution_;
 };
 
-/* What a point still owes at the end of the step: a gap may be closed within the step, so any speed from closing it to
- * standing still is right. */
+/* The speed error of a point at the end of the step. A gap may close within the step, so any speed from closing it to
+ * rest is correct. */
 double owed_speed(const StepContacts::Point &p, double step)
 {
   if (p.speed > 0) return p.speed;
   return std::min(p.speed + std::max(p.started, 0.0) / step, 0.0);
 }
 
-/* f - the projection of f - r u on a disc: 0 iff f in the disc and opposes u where it slips (maximum dissipation). */
+/* f - the projection of f - r u on a disc, which is 0 iff f lies in the disc and opposes u where it slips (maximum
+ * dissipation). */
 template <class V> V disc_natural_map(const V &impulse, const V &mass_speed, double limit)
 {
   V projected = impulse - mass_speed;

@@ -1,4 +1,4 @@
-/* rounding.cpp - see rounding.h. */
+/* rounding.cpp - runs launches on the reference backend and collects the differences; see rounding.h. */
 #include "host/verify/rounding.h"
 
 #include <algorithm>
@@ -24,16 +24,16 @@
 namespace tandem {
 namespace {
 
-/* All planes of a buffer under one name: "separation[2]" is "separation". */
+/* The name of a field without its plane: "separation[2]" becomes "separation". */
 std::string field_of(const BufferLocation &location) { return location.field.substr(0, location.field.find('[')); }
 
-/* What stands for no end (UNBOUNDED of records.h) is no measured number. */
+/* UNBOUNDED of records.h stands for infinity and is not measured. */
 constexpr double unbounded = 1e29;
 
-/* The last place of a float of this size. */
+/* The unit in the last place of a float of this size. */
 double unit_of(double size) { return std::ldexp(1.0, size == 0 ? -149 : std::max(std::ilogb(size) - 23, -149)); }
 
-/* Two numbers stand for a coordinate (shared/records.h): their sum is what has a rounding. */
+/* A coordinate is the sum of two numbers (shared/records.h), so the rounding of the sum is measured. */
 void join_places(std::vector<double> &numbers)
 {
   for (size_t k = 0; k + 8 <= numbers.size(); k += 8)
@@ -90,7 +90,7 @@ private:
   std::vector<float> ulps_;
 };
 
-/* The reference's buffers: as the float world's were before the launch that comes next. */
+/* The reference's copy of the buffers, as the float world's were before the next launch. */
 class Mirror {
 public:
   Mirror() : backend_(make_backend("reference:threads=1")) { backend_->prepare(0, {}); }
@@ -127,7 +127,8 @@ public:
   void compare(const Launch &launch)
   {
     world_.backend_of(launch.kernel).finish();
-    /* Between steps the host may have written and buffers may have grown: each step starts from a full copy. */
+    /* Between steps the host may have written to buffers, and buffers may have grown, so each step starts from a full
+     * copy. */
     if (launch.kernel == Kernel::begin_step || !mirror_.fits(world_)) return mirror_.copy_all(world_);
     const std::vector<Buffer> written = buffers_written(launch);
     if (launch.kernel == Kernel::commit_bodies)

@@ -1,13 +1,14 @@
-/* rounding.h - float against double, kernel by kernel, on equal input: where rounding errors are made.
+/* rounding.h - compares float with double, kernel by kernel, on equal input, to find where rounding errors arise.
  *
  *     float world   --- launch k ---> outputs in float
  *        |  its buffers, widened                |  compared, number by number
  *        v                                      v
  *     reference     --- launch k ---> outputs in double
  *
- * After each launch of a world that runs in float the same launch runs on the reference backend, on what the float
- * launch read. So each kernel's own error is seen, not what earlier ones handed on. Numbers that neither launch changed
- * are left out: a kernel writes a range of its buffers, and what lies around it would make every error look small.
+ * After each launch of a world that runs in float, the same launch runs on the reference backend with the inputs of the
+ * float launch. The result is each kernel's own error, without those of earlier kernels. Numbers that neither launch
+ * changed are omitted: a kernel writes a range of its buffers, and the numbers around it would make every error look
+ * small.
  */
 #pragma once
 
@@ -34,18 +35,18 @@ struct RoundingRow {
   Buffer buffer;
   std::string field;
   uint64_t numbers = 0; /* compared */
-  /* Distance from the double result in units of the last place that a float has there; 0.5 is a perfect rounding, 2^24
-   * means that no digit is right. */
+  /* Distance from the double result in units in the last place of a float of that size; 0.5 is a correct rounding, 2^24
+   * means that no digit is correct. */
   double median_ulps = 0, high_ulps = 0 /* 99.9th percentile */, max_ulps = 0;
-  /* The same in units of the last place of the largest number of this field in the launch: what is a difference of
-   * large numbers is not held against a small result. */
+  /* The same in units in the last place of the largest number of this field in the launch, so that cancellation of
+   * large numbers does not count against a small result. */
   double max_field_ulps = 0;
   double max_relative = 0; /* distance / |double result| */
   double max_absolute = 0; /* distance, in the field's unit */
   uint64_t nonfinite = 0;  /* numbers that are not finite in one or both; in no other column */
 };
 
-/* Whole numbers - keys, indices, counts, flags - have no rounding: they are equal or a decision fell otherwise. */
+/* Integers - keys, indices, counts, flags - have no rounding: they are equal, or a decision differed. */
 struct DecisionRow {
   Kernel kernel;
   Buffer buffer;
@@ -58,10 +59,10 @@ struct RoundingTable {
   uint64_t launches = 0; /* compared */
 };
 
-/* InputError as World's constructor. */
+/* Throws InputError as World's constructor does. */
 RoundingTable measure_rounding(const Scene &scene, const RoundingRequest &request);
 
-/* |value - exact| in units of the last place of a float as large as the larger of them. */
+/* |value - exact| in units in the last place of a float as large as the larger of the two. */
 double ulps_from(double value, double exact);
 
 } // namespace tandem

@@ -1,6 +1,6 @@
-/* batch_fault.cpp - names the first two constraints that must not stand in one batch; see batch_fault.h.
+/* batch_fault.cpp - names the first two constraints that must not be in one batch; see batch_fault.h.
  *
- * The device only says which constraint is the first at fault; the one it conflicts with is looked for here. */
+ * The device only reports which constraint is the first at fault; the host searches for the one it conflicts with. */
 #include "host/world/batch_fault.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-/* batch_fault.h - turns the counts that check_batches left into a fault with names, if there is one. */
+/* batch_fault.h - turns the counts of check_batches into a fault with the indices of bodies, if there is one. */
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-/* carried.cpp - see carried.h. */
+/* carried.cpp - lists, swaps and hashes the carried buffers; see carried.h. */
 #include "host/world/carried.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace tandem {
 namespace {
 
-/* How many items of it the last step left; what lies behind them is of older ones. */
+/* The number of items that the last step left; later ones are of older steps. */
 size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
 {
   const BufferRow &row = row_of(buffer);
@@ -23,7 +23,7 @@ size_t items_of(Memory &memory, Buffer buffer, uint32_t bodies, uint32_t pairs)
 
 } // namespace
 
-/* The sides of a buffer stand next to each other. */
+/* The two sides of a buffer have consecutive numbers. */
 std::vector<CarriedBuffer> carried_buffers()
 {
   std::vector<CarriedBuffer> rows;

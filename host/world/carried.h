@@ -17,13 +17,14 @@ namespace tandem {
 struct CarriedBuffer {
   Buffer now, previous;
 };
-/* Of the pipeline and of all modules added so far. */
+/* The carried buffers of the pipeline and of all modules added so far. */
 TANDEM_API std::vector<CarriedBuffer> carried_buffers();
 constexpr bool is_carried(Lifetime lifetime) { return lifetime == Lifetime::STATE || lifetime == Lifetime::CACHE; }
 
 TANDEM_API void turn_carried(Memory &memory, const std::vector<CarriedBuffer> &carried) noexcept;
 
-/* Of these buffers, as far as a scene of these features has them. Equal iff the next step will be equal. */
+/* A hash of these buffers, as far as a scene of these features has them. It is equal iff the next step will be
+ * equal. */
 uint64_t hash_carried(Memory &memory, const std::vector<CarriedBuffer> &carried, uint32_t bodies, Features features);
 
 } // namespace tandem

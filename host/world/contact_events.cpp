@@ -1,5 +1,5 @@
-/* contact_events.cpp - see contact_events.h. The device lists pairs by its own indices, in which large bodies come
- * first. */
+/* contact_events.cpp - see contact_events.h. The device lists pairs by its own body indices, in which large bodies come
+ * first; the host converts them to those of the scene and sorts the events. */
 #include "host/world/contact_events.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ static_assert(EVENT_BEGIN == static_cast<int>(ContactEvent::Kind::begin) &&
               EVENT_PERSIST == static_cast<int>(ContactEvent::Kind::persist) &&
               EVENT_END == static_cast<int>(ContactEvent::Kind::end));
 
-/* The records of one event in event_bodies and event_contact. */
+/* Combines the records of one event in event_bodies and event_contact. */
 ContactEvent event_of(const uint32_t *bodies, const float4 *contact, const Scene &scene,
                       const std::vector<uint32_t> &order)
 {
@@ -45,7 +45,7 @@ std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, co
   const auto bodies = memory.read<uint32_t>(Buffer::event_bodies, 4 * size_t{n});
   const auto contacts = memory.read<float4>(Buffer::event_contact, 3 * size_t{n});
   std::vector<std::pair<uint64_t, uint32_t>> places(
-      n); /* the two bodies as one number, and where: shorter to sort than events */
+      n); /* the two bodies as one number, and the index: cheaper to sort than events */
   for (uint32_t i = 0; i < n; ++i) {
     const auto [low, high] = std::minmax(order[bodies[4 * size_t{i} + 1]], order[bodies[4 * size_t{i} + 2]]);
     places[i] = {uint64_t{low} << 32 | high, i};

@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-/* Those of the last step. order: the scene's body at each index of the body buffers. */
+/* The events of the last step. order: the scene's body at each index of the body buffers. */
 std::vector<ContactEvent> download_events(Memory &memory, const Scene &scene, const std::vector<uint32_t> &order);
 
 std::vector<PairEvent> download_pair_events(Memory &memory, const std::vector<uint32_t> &order);

@@ -1,4 +1,4 @@
-/* extensions.cpp - modules of users in a world: their buffers, and their kernels between steps. */
+/* extensions.cpp - users' modules in a world: their buffers, and their kernels between steps. */
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -11,7 +11,8 @@
 
 namespace tandem {
 
-/* Of a module all that the scene's features allow: its launches may differ from step to step. */
+/* Records all kernels of a module that the scene's features allow, because its launches may differ from step to
+ * step. */
 void World::Implementation::note_rows(Recorder &recorder, const Module &module) const
 {
   const auto needed = [&](Features feature) { return feature == 0 || (feature & special.features) != 0; };
@@ -27,7 +28,7 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
       !buffers.needs().touched[index_of(buffer)])
     throw InputError(fmt::format("write: buffer '{}' is of no module in Settings::extensions", row.name));
   const size_t unit = row.per_item * size_of(row.element);
-  constexpr uint64_t most = uint64_t{1} << 32; /* elements that kernels can number */
+  constexpr uint64_t most = uint64_t{1} << 32; /* elements that kernels can index */
   if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0 && bytes / size_of(row.element) <= most) return;
   if (offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
     throw InputError(fmt::format("write: buffer '{}' has {} bytes, not {} from byte {} on; an item has {}", row.name,
@@ -43,7 +44,7 @@ void World::Implementation::write(Buffer buffer, const void *from, size_t bytes,
   buffers.changed();
 }
 
-/* A step turns both sides of all that is carried over; what no kernel of the module wrote turns back. */
+/* A step swaps both sides of all carried buffers. Those that no kernel of the module wrote are swapped back. */
 void World::Implementation::keep_unwritten() noexcept
 {
   const std::vector<Buffer> &written = launcher.written_by_modules();
@@ -52,10 +53,10 @@ void World::Implementation::keep_unwritten() noexcept
       memory.exchange(buffer.now, buffer.previous);
 }
 
-/* Between two steps. What broadphases keep may be of bodies that the kernel has changed. */
+/* Runs between two steps. What broadphases keep is invalidated, because the kernel may have changed bodies. */
 void World::Implementation::run(Kernel kernel, const Values &values, const Slots &slots)
 {
-  restore_bodies(); /* where the last attempt of a step could not */
+  restore_bodies(); /* needed if the last attempt of a step could not */
   buffers.make_ready(sizes());
   ++state;
   begin_launches();

@@ -1,4 +1,4 @@
-/* implementation.cpp - a world is made: a dry run finds what its steps need, and the scene is uploaded. */
+/* implementation.cpp - makes a world: a dry run finds what its steps need, and the scene is uploaded. */
 #include "host/world/implementation.h"
 
 #include <algorithm>
@@ -63,8 +63,8 @@ Sizes World::Implementation::sizes() const
 
 namespace {
 
-/* Queries between steps read what shapes are made of, whether or not a kernel of the step does: in a scene of one
- * capsule none collides. */
+/* Queries between steps read the parts of shapes, even if no kernel of the step does; a scene of one capsule, for
+ * example, collides nothing. */
 void note_shapes(Recorder &recorder)
 {
   for (const Argument &argument : row_of(Kernel::cast_rays).arguments)
@@ -74,12 +74,12 @@ void note_shapes(Recorder &recorder)
 
 } // namespace
 
-/* Kernels and buffers of the overflow constraints only once there are some. */
+/* Records the kernels and buffers of the overflow constraints only once there are some. */
 void World::Implementation::record_kernels()
 {
   StepPlan all = plan;
   all.colors = std::max(plan.colors, COLOR_LIMIT);
-  all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most after which a batcher launches another kernel */
+  all.rounds = BATCH_ROUNDS * COLOR_LIMIT; /* the most rounds after which a batcher launches another kernel */
   Recorder recorder;
   launch_step(recorder, all, settings);
   note_shapes(recorder);
@@ -123,7 +123,7 @@ void World::Implementation::upload_parameters()
   memory.upload(Buffer::parameters, &parameters, sizeof parameters);
 }
 
-/* Before the first step the host knows no counts: launches are sized as if the buffers were full. */
+/* Before the first step the host knows no counts, so launches are sized as if the buffers were full. */
 void World::Implementation::guess_counts() noexcept
 {
   auto &known = plan.known;
@@ -137,7 +137,7 @@ void World::Implementation::guess_counts() noexcept
     known[COLOR_START + color] = static_cast<uint32_t>(uint64_t{plan.capacity_pairs} * color / 8);
 }
 
-/* Of the state as it is: once for all queries between two changes of it. */
+/* The structure is made once for all queries between two changes of the state. */
 QueryTarget World::Implementation::query_target()
 {
   const uint32_t structure = row_of(settings.broadphase).queries;

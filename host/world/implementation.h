@@ -1,7 +1,7 @@
-/* implementation.h - what a world holds, and what it does in a step; <tandem/world.h> is its face.
+/* implementation.h - the contents of a world and the phases of a step, behind the interface of <tandem/world.h>.
  *
- * Members stand in the order in which they need each other: backends outlive the memory that lies in their storage. The
- * functions stand by concern: making a world in implementation.cpp, steps in step_attempts.cpp, modules of users in
+ * Members are declared in the order of their dependencies: backends outlive the memory that lies in their storage. The
+ * functions are grouped by concern: making a world in implementation.cpp, steps in step_attempts.cpp, users' modules in
  * extensions.cpp.
  */
 #pragma once
@@ -26,21 +26,21 @@
 
 namespace tandem {
 
-/* A body's number shares a word with the stage that it failed in (COUNT_NONFINITE). */
+/* A body's index shares a word with the stage in which the body failed (COUNT_NONFINITE). */
 constexpr uint32_t body_numbers = 1u << 28;
 
-/* The pairs that there is room for at first; a step that finds more runs again. */
+/* The first capacity of pairs; a step that finds more runs again. */
 uint32_t first_capacity(const Scene &scene, const Settings &settings);
 
 struct World::Implementation {
   Implementation(const Scene &given, const Settings &chosen, const Placement &placement);
-  ~Implementation(); /* waits: what still runs reads buffers */
+  ~Implementation(); /* waits, because running kernels still read buffers */
 
   /* --- making a world: implementation.cpp --------------------------------------------------------------------- */
   Sizes sizes() const;
   void record_kernels();
   void place(const Placement &placement);
-  void place_again(); /* where other kernels are needed than before */
+  void place_again(); /* if other kernels are needed than before */
   void upload_scene();
   void upload_parameters();
   void guess_counts() noexcept;
@@ -80,18 +80,19 @@ struct World::Implementation {
   Specialisation special;
   HullSizes hulls;
   TreeTables trees;
-  Features scene_features; /* what the scene needs, also where all is run */
+  Features scene_features; /* what the scene needs, even if all features are run */
   PlacedBackends backends;
   Memory memory;
   StepBuffers buffers;
   PlacedLauncher launcher;
   StepPlan plan;
   std::vector<std::pair<int, uint32_t>> scene_entries; /* of counts */
-  uint64_t state = 1, structure_state = 0; /* the state that is, and the one that the queries' structure is of */
+  uint64_t state = 1, structure_state = 0; /* the number of the present state, and of the one that the queries'
+                                              structure belongs to */
   bool launches_ended = true;
   bool turned = false; /* the commit of an unfinished step has begun */
-  bool whole = true;   /* the last step was; after one that failed there is nothing to say of it */
-  /* In an unfinished step, by their index in the buffers; as they were. */
+  bool whole = true;   /* the last step succeeded; after one that failed there are no events or figures */
+  /* Bodies that an unfinished step has quarantined, by their index in the buffers, with their earlier records. */
   std::vector<std::pair<uint32_t, BodyRecord>> taken_out;
   std::vector<uint32_t> index_of_body;
   std::vector<Quarantine> quarantined;

@@ -1,4 +1,4 @@
-/* placed_backends.cpp - see placed_backends.h. */
+/* placed_backends.cpp - makes backends, and maps kernels to them; see placed_backends.h. */
 #include "host/world/placed_backends.h"
 
 #include <exception>
@@ -27,7 +27,7 @@ void PlacedBackends::finish_at_last() noexcept
     } catch (const std::exception &) {}
 }
 
-/* Backends once made are kept: a buffer may live on one that runs no kernel any more. */
+/* Backends are kept once made, because a buffer may be valid only in one that runs no kernel any more. */
 Backend &PlacedBackends::named(const std::string &text, bool allow_inexact)
 {
   if (const auto known = backends_.find(text); known != backends_.end()) return *known->second;
@@ -36,7 +36,8 @@ Backend &PlacedBackends::named(const std::string &text, bool allow_inexact)
   return *backends_.emplace(text, std::move(made)).first->second;
 }
 
-/* Stages of the host run there whatever is said of them; a name that means nothing is refused all the same. */
+/* CPU-only kernels run on the host whatever the placement says, but a name that is no backend is refused all the
+ * same. */
 Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
 {
   Backend &as_said = named(backend_text(placement, kernel), placement.allow_inexact);
@@ -47,7 +48,7 @@ Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
   return *backends_.emplace(cpu_kernels_name, std::move(host)).first->second;
 }
 
-/* All that can fail comes before the first change of what is placed. */
+/* Everything that can fail comes before the first change of the placement. */
 void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels)
 {
   std::map<Backend *, std::vector<Kernel>> own;
@@ -71,7 +72,7 @@ Backend &PlacedBackends::of(Kernel kernel)
   Backend *&backend = placed_.at(index_of(kernel));
   if (!backend) {
     Backend &chosen = for_kernel(wanted_, kernel);
-    chosen.prepare(features_, {kernel}); /* may fail, and then none is chosen */
+    chosen.prepare(features_, {kernel}); /* if this throws, no backend is chosen */
     backend = &chosen;
   }
   return *backend;

@@ -13,19 +13,19 @@
 
 namespace tandem {
 
-/* Outlives the memory of its world, which lives in the backends' storage. */
+/* It outlives the memory of its world, which lies in the backends' storage. */
 class PlacedBackends {
 public:
   PlacedBackends(const Placement &placement, Features features) : wanted_(placement), features_(features) {}
-  /* Moves these kernels, and from their next launch on all others. InputError or a device's std::runtime_error leave
-   * everything as it was. */
+  /* Moves these kernels, and all others from their next launch on. If it throws (InputError or a device's
+   * std::runtime_error), nothing has changed. */
   void place(const Placement &placement, const std::vector<Kernel> &kernels);
   void place_again(const std::vector<Kernel> &kernels) { assign(wanted_, kernels); }
-  /* Kernels that place() did not name are built when they are first asked for, then kept. */
+  /* Kernels that place() did not name are built when they are first used, and then kept. */
   Backend &of(Kernel kernel);
 
   const std::map<std::string, std::unique_ptr<Backend>> &all() const { return backends_; }
-  /* What fails now was told when it did; a destructor has no one to tell. */
+  /* Ignores failures, because they were reported when they occurred and a destructor cannot report them. */
   void finish_at_last() noexcept;
   void set_profiling(bool on);
   std::vector<KernelTime> take_kernel_times();
@@ -40,7 +40,7 @@ private:
   Features features_;
   std::map<std::string, std::unique_ptr<Backend>> backends_; /* by the text that names them */
   std::vector<Backend *> placed_;                            /* by the kernel's number */
-  bool profiling_ = false;                                   /* of backends made later, too */
+  bool profiling_ = false;                                   /* also of backends made later */
 };
 
 } // namespace tandem

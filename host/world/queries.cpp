@@ -25,7 +25,7 @@ namespace {
 
 double length(const Vec3 &v) { return std::sqrt(double{v[0]} * v[0] + double{v[1]} * v[1] + double{v[2]} * v[2]); }
 
-/* Squares of lengths are taken in float. */
+/* The kernels square lengths in float, which limits their range. */
 constexpr double shortest = 1e-15, longest = 1e15;
 
 template <class T> void upload(Memory &memory, Buffer buffer, const std::vector<T> &values)
@@ -44,7 +44,7 @@ void upload_filters(Memory &memory, const Scene &scene, const std::vector<uint32
   upload(memory, Buffer::query_filter, filters);
 }
 
-/* Kernels number the rows of queries, two of a start, with 32 bits. */
+/* Kernels index the float4s of queries, two for a start, with 32 bits. */
 constexpr size_t most_queries = size_t{1} << 31;
 
 void set_length(Memory &memory, size_t queries)
@@ -65,7 +65,7 @@ void reserve_hits(Memory &memory, size_t hits)
   memory.resize(Buffer::query_hit_body, hits * sizeof(uint32_t));
 }
 
-/* A kernel over all queries; the structure is the last value of each. */
+/* Launches a kernel over all queries; the structure is the last of its values. */
 void launch(const QueryTarget &target, Kernel kernel, size_t queries, std::vector<uint32_t> values = {})
 {
   values.push_back(target.structure);
@@ -91,7 +91,8 @@ template <class Start> std::vector<QueryHit> take_hits(Memory &memory, size_t qu
   return found;
 }
 
-/* Counts the hits of each query, scans, writes: where the hits of each start, and behind the last. */
+/* Counts the hits of each query, scans the counts and writes the hits. Returns where the hits of each query start, and
+ * the end of the last. */
 std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel write, size_t queries)
 {
   Memory &memory = target.memory;
@@ -109,7 +110,7 @@ std::vector<uint32_t> find_all(const QueryTarget &target, Kernel count, Kernel w
   return starts;
 }
 
-/* By place along the way, then by body. */
+/* Orders hits by their fraction along the query, then by body. */
 template <class Hit> bool comes_before(const Hit &a, const Hit &b)
 {
   return a.fraction != b.fraction ? a.fraction < b.fraction : a.body < b.body;
@@ -150,7 +151,7 @@ void upload_boxes(const QueryTarget &target, std::span<const QueryBox> boxes)
   set_length(target.memory, boxes.size());
 }
 
-/* Of a shape in the middle of its body. */
+/* The radius of a shape that is centred in its body. */
 float radius_of(const Shape &shape)
 {
   Scene scene;
@@ -159,7 +160,7 @@ float radius_of(const Shape &shape)
   return bounding_radius(scene, scene.bodies[0]);
 }
 
-/* What a scene would refuse, a shape cast refuses: as a body that need not have a mass. */
+/* A shape cast refuses the shapes that a scene would refuse for a body that need not have a mass. */
 void check_swept_shape(const Shape &shape)
 {
   const ShapeType type = shape.type;

@@ -1,7 +1,7 @@
-/* queries.h - how the questions of <tandem/queries.h> are answered.
+/* queries.h - how the queries of <tandem/queries.h> are answered.
  *
- * Boxes around the bodies as they stand, and the structure of the broadphase over them, are made for the first query
- * after a step; every query walks it (shared/queries/body_walk.h).
+ * The AABBs of the bodies at their present poses, and the structure of the broadphase over them, are made for the first
+ * query after a step; every query traverses it (shared/queries/body_walk.h).
  */
 #pragma once
 
@@ -15,17 +15,19 @@
 
 namespace tandem {
 
-/* InputError with the index of the first query that is not finite, has no direction, or a negative reach or extent. */
+/* Throws InputError with the index of the first query that is not finite, has no direction, or has a negative reach or
+ * extent. */
 void check_rays(std::span<const Ray> rays);
 void check_boxes(std::span<const QueryBox> boxes);
-/* Also for half-spaces, which cannot be swept, for shapes that no scene could hold, and for lists of two lengths. */
+/* Throws InputError also for half-spaces, which cannot be cast, for shapes that no scene could contain, and for lists
+ * of different lengths. */
 void check_shape_casts(const Shape &shape, std::span<const Pose> poses, std::span<const Vec3> displacements);
 
-/* The launches that make a structure, QUERY_ of shared/body_codes.h. */
+/* Launches the kernels that make a structure, QUERY_ of shared/body_codes.h. */
 void launch_query_structure(StepLaunches &step, uint32_t structure);
 
-/* Where the questions go. structure: the one that was made; order: body order[i] of the scene stands at i in the body
- * buffers. */
+/* The world that answers the queries. structure: the one that was made; order: body order[i] of the scene is at index i
+ * of the body buffers. */
 struct QueryTarget {
   Memory &memory;
   Launcher &launcher;

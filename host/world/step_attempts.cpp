@@ -1,5 +1,5 @@
-/* step_attempts.cpp - steps run until they are whole: what overflows grows, what stops being finite is taken out, and a
- * step that fails leaves the state before it. */
+/* step_attempts.cpp - runs a step until it succeeds. Buffers that overflow grow, bodies that stop being finite are
+ * quarantined, and a step that fails leaves the state before it. */
 #include <algorithm>
 #include <new>
 #include <set>
@@ -16,11 +16,11 @@
 namespace tandem {
 namespace {
 
-/* Each repetition fixes one cause; many in one step means that something is wrong. */
+/* Each repetition fixes one cause; many repetitions in one step mean that something is wrong. */
 constexpr size_t most_repetitions = 64;
 
-/* So many bodies of a step that stop being finite are taken out by a repetition each, so that what one of them would
- * have infected in another pass stays; where there are more, all that are not finite by then. */
+/* So many bodies of a step that stop being finite are quarantined one at a time, with a repetition each, so that bodies
+ * which one of them would have infected stay. After that, all bodies that are not finite are quarantined at once. */
 constexpr size_t taken_one_by_one = 32;
 
 constexpr uint32_t most_rounds = 1 << 20;
@@ -33,7 +33,7 @@ void World::Implementation::step()
   ++state;
   const Attempt before{plan, statistics, quarantined.size()};
   try {
-    restore_bodies(); /* where the last attempt could not */
+    restore_bodies(); /* needed if the last attempt could not */
     buffers.make_ready(sizes());
     run_until_whole();
   } catch (...) {
@@ -86,17 +86,17 @@ void World::Implementation::undo(const Attempt &before) noexcept
   if (capacity != before.plan.capacity_pairs) guess_counts();
   try {
     restore_bodies();
-  } catch (const std::exception &) { /* the next step does, before all else */
+  } catch (const std::exception &) { /* the next step restores them before anything else */
   }
 }
 
-/* Bodies that were taken out by an attempt that failed later on. */
+/* Restores the bodies that were quarantined by an attempt that failed later. */
 void World::Implementation::restore_bodies()
 {
   for (; !taken_out.empty(); taken_out.pop_back()) write_body(memory, taken_out.back().first, taken_out.back().second);
 }
 
-/* Out of the handler of what went wrong. */
+/* Must be called from the handler of the exception. */
 void World::Implementation::tell_why_step_failed() const
 {
   const auto told = [&](const char *why) {
@@ -117,15 +117,16 @@ void World::Implementation::tell_why_step_failed() const
   }
 }
 
-/* Where launches broke off, by an exception that the caller survived, what is kept may be of no launch. */
+/* If launches were interrupted by an exception that the caller handled, what broadphases kept may belong to no complete
+ * launch. */
 void World::Implementation::begin_launches()
 {
   if (!launches_ended) forget_kept(memory);
   launches_ended = false;
 }
 
-/* Some rounds and a colour of slack keep a growing scene from repeating every step. Nothing fails once the state has
- * been accepted. */
+/* Plans some rounds and one colour more than were needed, so that a growing scene does not repeat every step. Nothing
+ * can fail once the state has been accepted. */
 void World::Implementation::accept()
 {
   if (settings.check && !fault) fault = find_batch_fault(memory, plan.known, special.order, statistics.steps);
@@ -149,17 +150,17 @@ void World::Implementation::prepare_repetition(uint32_t status, bool &may_forget
   plan.known[COUNT_COMMIT_BODIES_PLUS_ONE] = plan.bodies + 1;
   plan.known[COUNT_COMMIT_PAIRS] = plan.known[COUNT_PAIRS];
   plan.known[COUNT_COMMIT_CONSTRAINTS] = plan.known[COUNT_CONSTRAINTS];
-  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last: it forgets what is known */
+  if (status & STATUS_PAIRS) grow_pairs(needed, may_forget); /* last, because it forgets the counts */
 }
 
-/* The pairs among what did not fit are not known then. */
+/* If candidates did not fit, the number of pairs among them is unknown. */
 bool World::Implementation::candidates_overflow() const
 {
   return plan.known[COUNT_CANDIDATES_NEEDED] > uint64_t{CANDIDATES_PER_PAIR} * plan.capacity_pairs;
 }
 
-/* A broadphase that keeps its list may need room for more changes than there are pairs: without what is kept it needs
- * none. */
+/* A broadphase that keeps its list may need capacity for more changes than there are pairs; without its kept list it
+ * does not. */
 void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
 {
   if (needed > settings.max_pairs && std::exchange(may_forget, false)) return forget_kept(memory);
@@ -172,7 +173,8 @@ void World::Implementation::grow_pairs(uint32_t needed, bool &may_forget)
   guess_counts();
 }
 
-/* Room for so many pairs, and for what the present plan launches; longer scans and sorts take other kernels. */
+/* Makes capacity for so many pairs, and for what the present plan launches; longer scans and sorts need other
+ * kernels. */
 void World::Implementation::enlarge(uint32_t pairs)
 {
   const uint32_t capacity = plan.capacity_pairs;
@@ -197,7 +199,7 @@ void World::Implementation::enlarge(uint32_t pairs)
   }
 }
 
-/* code: COUNT_NONFINITE, the first body that is not finite, and where. */
+/* code: COUNT_NONFINITE, which holds the first body that is not finite, and the stage. */
 void World::Implementation::quarantine_from(uint32_t code)
 {
   const uint32_t first = code & (body_numbers - 1), stage = code / body_numbers;
@@ -214,7 +216,7 @@ void World::Implementation::quarantine(uint32_t index, uint32_t stage)
   const uint32_t body = special.order[index];
   quarantined.push_back({body, scene.bodies[body].name, stages[stage], statistics.steps});
   ++statistics.nonfinite;
-  taken_out.emplace_back(index, read_body(memory, index)); /* first: a body that stays as it is can be restored, too */
+  taken_out.emplace_back(index, read_body(memory, index)); /* first, so that it can be restored */
   quarantine_body(memory, index);
 }
 

@@ -1,4 +1,4 @@
-/* step_buffers.cpp - see step_buffers.h. */
+/* step_buffers.cpp - allocates the buffers that steps and queries need; see step_buffers.h. */
 #include "host/world/step_buffers.h"
 
 #include <stdexcept>
@@ -14,11 +14,11 @@ bool is_sized_by_writes(Buffer buffer)
   return index_of(buffer) >= buffer_count && row_of(buffer).capacity == Capacity::NOTHING;
 }
 
-/* Where one side of what is carried over is touched, both are needed. */
+/* If one side of a carried buffer is touched, both are needed. */
 void StepBuffers::take_needs(Recorder recorder)
 {
   std::vector<bool> &touched = recorder.touched;
-  touched.resize(queried_.size()); /* modules that were added after this world are none of its own */
+  touched.resize(queried_.size()); /* modules that were added after this world are not part of it */
   for (const CarriedBuffer &buffer : carried_) {
     const bool needed = touched[index_of(buffer.now)] || touched[index_of(buffer.previous)];
     touched[index_of(buffer.now)] = touched[index_of(buffer.previous)] = needed;
@@ -37,8 +37,8 @@ size_t StepBuffers::wanted_bytes(Buffer buffer, const Sizes &sizes) const
   return needs_.touched[index_of(buffer)] || is_queried(buffer) ? bytes_of(buffer, sizes) : 0;
 }
 
-/* Of the buffers that grow, those alone carry anything over to the next step that never lose it: they come last, when
- * the others have let go of their room. */
+/* Of the buffers that grow, only the present sides of carried buffers must keep their contents. They are enlarged last,
+ * when the others have released their memory. */
 void StepBuffers::allocate(const Sizes &sizes)
 {
   for (size_t i = 0; i < needs_.touched.size(); ++i)
@@ -66,7 +66,7 @@ void StepBuffers::make_ready(const Sizes &sizes)
   ready_ = true;
 }
 
-/* Drivers may put allocation off until the work that fills the buffers is done. */
+/* Drivers may postpone allocation until the work that fills the buffers runs, so that work is waited for. */
 void StepBuffers::settle(Backend &backend)
 {
   try {

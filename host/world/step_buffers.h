@@ -1,7 +1,7 @@
-/* step_buffers.h - the room for a world's buffers: of which there is any, how much, and on which backends.
+/* step_buffers.h - the memory for a world's buffers: which of them exist, how large they are, and on which backends.
  *
- * A dry run of the step tells which kernels it launches and which buffers they touch; the others take no memory. Room
- * is made before a step begins, so that a step that has begun does not run out of memory.
+ * A dry run of the step records which kernels it launches and which buffers they touch; the others take no memory.
+ * Memory is allocated before a step begins, so that a step in progress does not run out of it.
  */
 #pragma once
 
@@ -23,21 +23,22 @@ public:
   struct Needs {
     std::vector<Kernel> kernels;
     std::vector<bool> touched;                /* by the buffer's number */
-    std::set<std::pair<Kernel, Buffer>> uses; /* the same, by which kernel */
+    std::set<std::pair<Kernel, Buffer>> uses; /* the same, by kernel */
   };
 
   StepBuffers(Memory &memory, PlacedBackends &backends) : memory_(memory), backends_(backends) {}
 
   const Needs &needs() const { return needs_; }
   void take_needs(Recorder recorder);
-  void give_back_needs(Needs before); /* where there was no room for others */
+  void give_back_needs(Needs before); /* if there was no memory for others */
 
-  /* InputError where kernels cannot number so many elements; OutOfMemory leaves the contents that are carried over. */
+  /* Throws InputError if kernels cannot index so many elements. If it throws OutOfMemory, the carried contents are
+   * unchanged. */
   void allocate(const Sizes &sizes);
-  /* Room wherever the kernels that use a buffer run; nothing to do unless something changed. */
+  /* Allocates each buffer on the backends whose kernels use it; does nothing unless something changed. */
   void make_ready(const Sizes &sizes);
   void changed() { ready_ = false; }
-  /* For queries between steps, of a buffer that the step itself may not have. */
+  /* Allocates a buffer for queries between steps, which the step itself may not have. */
   void ensure_capacity(Buffer buffer, const Sizes &sizes);
   bool is_queried(Buffer buffer) const { return queried_[index_of(buffer)]; }
 
@@ -51,12 +52,12 @@ private:
   PlacedBackends &backends_;
   std::vector<CarriedBuffer> carried_ = carried_buffers();
   Needs needs_;
-  std::vector<bool> queried_ = std::vector<bool>(all_buffers()); /* by the structure that queries walk */
+  std::vector<bool> queried_ = std::vector<bool>(all_buffers()); /* used by the structure that queries traverse */
   bool ready_ = false;
 };
 
-/* A buffer of a module whose room is what was last written: the pipeline's of capacity NOTHING are sized by each batch
- * of queries. */
+/* A module's buffer whose size is that of the last write; the pipeline's buffers of capacity NOTHING are sized by each
+ * batch of queries. */
 bool is_sized_by_writes(Buffer buffer);
 
 } // namespace tandem

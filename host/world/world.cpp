@@ -1,4 +1,5 @@
-/* world.cpp - the functions of <tandem/world.h>; host/world/implementation.h has what is behind them. */
+/* world.cpp - the functions of <tandem/world.h>, which call host/world/implementation.h and turn a lack of memory into
+ * OutOfMemory. */
 #include <new>
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ void check_numbers(const Scene &scene)
 
 World::World(const Scene &scene, const Settings &settings, const Placement &placement)
 {
-  const minicl::ExactFloatingPoint environment; /* what is derived from the scene rounds alike too */
+  const minicl::ExactFloatingPoint environment; /* values derived from the scene must be rounded alike too */
   const auto told = [&](const char *why) {
     return fmt::format("scene '{}' of {} bodies, with room for {} pairs: {}", scene.name, scene.bodies.size(),
                        first_capacity(scene, settings), why);
@@ -46,7 +47,7 @@ World::World(const Scene &scene, const Settings &settings, const Placement &plac
 
 namespace {
 
-/* What was asked of a world of so many bodies, where there was no room for the answer. */
+/* Runs a query of a world; if memory runs out, the message says what was requested and for how many bodies. */
 template <class Work> auto answer(const char *what, size_t bodies, Work work)
 {
   return naming_what_failed(
@@ -119,7 +120,7 @@ void World::write_bytes(Buffer buffer, const void *from, size_t bytes, size_t of
 
 size_t World::buffer_bytes(Buffer buffer) const
 {
-  row_of(buffer); /* InputError where there is none of this number */
+  row_of(buffer); /* InputError if there is no buffer of this number */
   return index_of(buffer) < implementation_->buffers.needs().touched.size() ? implementation_->memory.bytes(buffer) : 0;
 }
 

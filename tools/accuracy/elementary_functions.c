@@ -1,7 +1,9 @@
-/* elementary_functions.c - how far the library's own sine, cosine and arc tangent are from double precision.
+/* elementary_functions.c - measures the error of the library's own sine, cosine and arc tangent against double
+ * precision.
  *
- * The kernels may not call built-in ones (docs/exactness.md), so their error is ours to state. This program visits
- * every float of a range and prints the largest error found; docs/exactness.md holds its figures. About a minute:
+ * The kernels may not call built-in ones (docs/exactness.md), so their error must be measured here. This program visits
+ * every float of a range and prints the largest error found; docs/exactness.md lists its figures. It takes about a
+ * minute:
  *
  *   gcc -std=gnu99 -O2 -ffp-contract=off -I. tools/accuracy/elementary_functions.c -lm -o build/elementary_functions
  *   build/elementary_functions
@@ -23,7 +25,7 @@ static float from_bits(uint bits)
   return x;
 }
 
-/* Distance in units of the last place of the true value's float. */
+/* Distance in units in the last place of the true value's float. */
 static double ulps_between(double found, double truth)
 {
   int exponent;
@@ -65,7 +67,7 @@ static void measure_sine_cosine(const char *range, float low, float high)
   print_row(text, cosine, 2 * visited);
 }
 
-/* The slope y / x and its inverse take every float of the range, in all four quadrants. */
+/* The slope y / x and its inverse take the value of every float of the range, in all four quadrants. */
 static void measure_arc_tangent(float low, float high)
 {
   worst w = {0, 0, 0};

@@ -1,7 +1,7 @@
 /* batching.cpp - see batching.h.
  *
- * One world gives the list of contacts; then each batcher works on that list, over and over, from bodies without
- * colours. `coloring` is measured a second time with the colours of the last step, as it works in a run.
+ * One world provides the list of contacts; each batcher then batches that list repeatedly, starting without colours.
+ * `coloring` is measured a second time with the colours of the last step, as in a run.
  */
 #include "tools/bench/batching.h"
 
@@ -26,7 +26,7 @@ constexpr int batching_repetitions = 9;
 const std::vector<uint32_t> talk_2d = {4931, 4836, 4711, 4502, 4197, 3702, 2702, 1375, 470, 138, 31, 7};
 const std::vector<uint32_t> talk_3d = {1064, 909, 767, 579, 392, 208, 87, 26, 5, 1, 1, 1};
 
-/* Batches the contacts of a world again and again, with kernels alone. */
+/* Batches the contacts of a world repeatedly, by launching kernels directly. */
 class BatchingBench {
 public:
   BatchingBench(World &world, Backend &backend) : world_(world), backend_(backend), launcher_(world.memory(), backend)
@@ -82,7 +82,7 @@ private:
     backend_.finish();
   }
 
-  /* The rounds are those of the last time, as in a run that has settled; too few are not timed. */
+  /* Launches the rounds of the last time, as in a run that has settled. A run with too few rounds is not timed. */
   double batch(const BatcherRow &batcher, bool keep)
   {
     using Clock = std::chrono::steady_clock;
@@ -152,7 +152,7 @@ BatchScene batch_scene(const std::string &text, const std::string &backend, bool
 
 uint32_t sum_of(const std::vector<uint32_t> &sizes) { return std::accumulate(sizes.begin(), sizes.end(), 0u); }
 
-/* Batches side by side: a row a batch, so that they read like the talk's. */
+/* Lists batches side by side, one row for each batch, so that they can be compared with the talk's. */
 std::string size_table(const BatchScene &scene)
 {
   std::vector<std::string> header{"batch"};

@@ -1,5 +1,4 @@
-/* batching.h - `tandem bench batching`: every batcher on the same contacts, beside the batch tables of the
- * talks. */
+/* batching.h - `tandem bench batching`: every batcher on the same contacts, beside the batch tables of the talks. */
 #pragma once
 
 #include <string>
@@ -12,10 +11,10 @@ namespace tandem {
 
 struct BatchTable {
   std::string batcher;
-  std::vector<uint32_t> sizes; /* of the batches that are not empty, in order; without the overflow constraints */
+  std::vector<uint32_t> sizes; /* of the non-empty batches, in order; without the overflow constraints */
   uint32_t overflow = 0;
   uint32_t rounds = 0;
-  Spread milliseconds; /* from the list of contacts to a colour for each; no sort by colour */
+  Spread milliseconds; /* from the list of contacts to a colour for each; without the sort by colour */
   bool right = false;  /* the check found no conflict and no pair in a wrong number of batches */
 };
 
@@ -27,7 +26,7 @@ struct BatchScene {
   std::vector<BatchTable> tables;
 };
 
-/* The scenes of the talk, or the cube of boxes with about `boxes` if that is not 0. */
+/* The scenes of the talk, or a cube of about `boxes` boxes if that is not 0. */
 std::vector<BatchScene> bench_batching(const std::string &backend, uint64_t boxes, bool allow_inexact);
 
 std::string batch_text(const BatchScene &scene);

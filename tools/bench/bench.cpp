@@ -1,4 +1,4 @@
-/* bench.cpp - `tandem bench`: how fast one part runs by itself, on any backend. */
+/* bench.cpp - `tandem bench`: measures how fast one part of the pipeline runs by itself, on any backend. */
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -38,7 +38,7 @@ struct Result {
   Json details = Json::object(); /* further keys of the JSON */
 };
 
-/* The cube of boxes with about so many of them; the benchmark of the step is always the same scene. */
+/* Runs a cube of about so many boxes. The benchmark of the step always uses the same scene. */
 Result bench_step(const BenchOptions &options, uint64_t count)
 {
   const auto side = static_cast<uint64_t>(std::max(1.0, std::round(std::cbrt(static_cast<double>(count)))));
@@ -63,7 +63,7 @@ Result bench_primitive(const BenchOptions &options, uint64_t count)
   return {count, sort ? "pairs" : "numbers", spread_of(times)};
 }
 
-/* Every batcher on one list of contacts; exit status 1 if the check finds a batch wrong. */
+/* Runs every batcher on one list of contacts; the exit status is 1 if the check finds a wrong batch. */
 int execute_batching(const BenchOptions &options)
 {
   const uint64_t boxes = options.count.empty() ? 0 : whole_number("--n", options.count, 1, most_bodies);
@@ -89,7 +89,7 @@ void print_scene(const BroadphaseScene &scene)
   std::fflush(stdout);
 }
 
-/* Exit status 1 if any two broadphases give different pairs. */
+/* The exit status is 1 if any two broadphases give different pairs. */
 int execute_broadphase(const BenchOptions &options)
 {
   BroadphaseRequest request = broadphase_request(options.broadphases, options.scenes);
@@ -149,7 +149,7 @@ int execute_rays(const BenchOptions &options)
   return 0;
 }
 
-/* Exit status 1 if climbing ever ends at another vertex. */
+/* The exit status is 1 if hill climbing ever ends at another vertex. */
 int execute_support(const BenchOptions &options)
 {
   const uint64_t directions =
@@ -190,7 +190,7 @@ Json result_json(const BenchOptions &options, const Result &result)
 
 constexpr const char *benchmarks = "sort, scan, broadphase, batching, narrowphase, rays, support or step";
 
-/* Options of one benchmark, given to another. */
+/* Throws InputError for options of one benchmark that are given to another. */
 void check_options(const BenchOptions &options)
 {
   if (!options.pairs.empty() && options.what != "narrowphase")

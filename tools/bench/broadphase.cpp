@@ -1,4 +1,4 @@
-/* broadphase.cpp - see broadphase.h. */
+/* broadphase.cpp - runs, times and compares broadphases, and formats the results; see broadphase.h. */
 #include "tools/bench/broadphase.h"
 
 #include <algorithm>
@@ -15,10 +15,11 @@
 namespace tandem {
 namespace {
 
-/* More than the least while they are short: what is kept from frame to frame makes some cost more than others. */
+/* Short frames are timed more often than the least number, because some frames cost more than others if data is kept
+ * from frame to frame. */
 constexpr uint32_t warm_frames = 2, timed_frames = 9, most_timed_frames = 30;
 constexpr double enough_milliseconds = 3000;
-constexpr uint32_t most_by_brute_force = 16384; /* its work is that of the square */
+constexpr uint32_t most_by_brute_force = 16384; /* its work grows with the square */
 constexpr double longest_milliseconds = 5000;   /* of a frame: 11 of them are a minute */
 constexpr const char *oracle = "brute-force";
 
@@ -37,7 +38,7 @@ bool was_too_slow(const std::vector<BroadphaseRun> &runs, const std::string &bro
                      [&](const BroadphaseRun &run) { return run.broadphase == broadphase && !run.skipped.empty(); });
 }
 
-/* Empty if there is none. */
+/* Empty if there is no reason. */
 std::string reason_to_skip(const std::vector<BroadphaseRun> &smaller, const std::string &broadphase, uint32_t bodies)
 {
   if (broadphase == oracle && bodies > most_by_brute_force) return fmt::format("over {}: skipped", most_by_brute_force);
@@ -60,14 +61,15 @@ void run_frames(BroadphaseRun &run, BroadphaseFrames &frames, const std::functio
       run.milliseconds.push_back(milliseconds);
       spent += milliseconds;
     } else if (frame + 1 == warm_frames &&
-               milliseconds > longest_milliseconds) { /* no smaller number of bodies had told */
+               milliseconds > longest_milliseconds) { /* smaller numbers of bodies did not predict it */
       run.skipped = "too slow: stopped";
       return;
     }
   }
 }
 
-/* The first frame in which two lists differ: of one that was skipped after its warm frames, of these. */
+/* The first frame in which two lists differ. Of a run that was skipped after its warm-up frames, only these are
+ * compared. */
 std::string difference_between(const BroadphaseRun &run, const BroadphaseRun &reference)
 {
   const size_t frames = std::min(run.hashes.size(), reference.hashes.size());
@@ -78,7 +80,7 @@ std::string difference_between(const BroadphaseRun &run, const BroadphaseRun &re
   return "";
 }
 
-/* Against the oracle, or the first that ran. */
+/* Compares with the reference broadphase, or else with the first that ran. */
 void compare(std::vector<BroadphaseRun> &runs)
 {
   const BroadphaseRun *reference = nullptr;
@@ -132,7 +134,7 @@ std::string cell_text(const BroadphaseRun &run)
 
 std::string slope_text(const std::optional<double> &slope) { return slope ? fmt::format("{:.2f}", *slope) : ""; }
 
-/* Of the last frame that all run. */
+/* The pairs of the last frame that all broadphases run. */
 std::optional<uint32_t> last_pairs(const BroadphaseRun &run)
 {
   if (run.pairs.empty()) return {};

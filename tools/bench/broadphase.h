@@ -1,9 +1,9 @@
-/* broadphase.h - `tandem bench broadphase`: every broadphase on the same moving bodies, from thousands to a
- * million of them.
+/* broadphase.h - `tandem bench broadphase`: every broadphase on the same moving bodies, from thousands to a million of
+ * them.
  *
- * They must give the same pair list in every frame, or the benchmark says which did not. How time grows with the number
- * of bodies is what tells them apart: the slope of the line through the two largest on a chart whose axes are both
- * logarithmic.
+ * They must give the same pair list in every frame; otherwise the benchmark reports which one did not. They are
+ * compared by how time grows with the number of bodies: the slope of the line through the two largest numbers on a
+ * chart with two logarithmic axes.
  */
 #pragma once
 
@@ -26,7 +26,7 @@ struct BroadphaseRun {
   std::string skipped;              /* why it did not run; empty if it did */
   std::vector<double> milliseconds; /* of the timed frames */
   std::vector<uint32_t> pairs;      /* of all frames, */
-  std::vector<uint64_t> hashes;     /* warm ones included */
+  std::vector<uint64_t> hashes;     /* warm-up frames included */
   std::string difference;           /* where its pairs differ from those of the others; empty if nowhere */
 };
 
@@ -43,30 +43,31 @@ struct BroadphaseRequest {
   bool allow_inexact = false;
 };
 
-/* Of all that there is those that are named, in the order of the list; all if none are. InputError for a scene that
- * does not exist. */
+/* The broadphases and inputs with these names, in the order of the list, or all if no names are given. Throws
+ * InputError for a scene that does not exist. */
 BroadphaseRequest broadphase_request(const std::vector<std::string> &broadphases,
                                      const std::vector<std::string> &scenes);
 
-/* `after_scene` hears of each as it is done: all take minutes. InputError as make_backend. */
+/* `after_scene` is called after each scene, because all together take minutes. Throws InputError as make_backend
+ * does. */
 std::vector<BroadphaseScene> bench_broadphase(const BroadphaseRequest &request,
                                               const std::function<void(const BroadphaseScene &)> &after_scene = {});
 
 struct TimeAt {
   double bodies, milliseconds;
 };
-/* d log(time) / d log(bodies) between the last two: 1 where time is proportional to bodies, 2 to their square. None
- * with less than two. */
+/* d log(time) / d log(bodies) between the last two: 1 if time is proportional to bodies, 2 if it is to their square.
+ * Nothing if there are fewer than two. */
 std::optional<double> slope_of(const std::vector<TimeAt> &times);
-/* What a frame of so many bodies may take: along that slope, taken to be 1 to 2, and 2 after one time; none without
- * any. */
+/* The expected time of a frame of so many bodies, extrapolated with that slope, clamped to 1 .. 2, or with 2 after a
+ * single time; nothing without any time. */
 std::optional<double> predicted_milliseconds(const std::vector<TimeAt> &times, double bodies);
 
-/* One line each. */
+/* One line for each difference. */
 std::vector<std::string> differences_of(const std::vector<BroadphaseScene> &scenes);
 std::string broadphase_text(const BroadphaseScene &scene);
 Json broadphase_json(const BroadphaseScene &scene);
-/* One chart a scene, below each other. */
+/* One chart for each scene, one below the other. */
 std::string broadphase_chart(const std::vector<BroadphaseScene> &scenes, const std::string &backend);
 
 } // namespace tandem

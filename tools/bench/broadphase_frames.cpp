@@ -1,4 +1,4 @@
-/* broadphase_frames.cpp - see broadphase_frames.h. */
+/* broadphase_frames.cpp - allocates the buffers of one broadphase and runs its frames; see broadphase_frames.h. */
 #include "tools/bench/broadphase_frames.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace tandem {
 namespace {
 
-constexpr int most_repetitions = 8; /* one is enough: the count of pairs is that of all, also where they find no room */
+constexpr int most_repetitions = 8; /* one is enough, because the count includes pairs that did not fit */
 
 void prepare(StepLaunches &step)
 {
@@ -54,7 +54,7 @@ void BroadphaseFrames::record_kernels()
   backend_.prepare(plan_.features, kernels_);
 }
 
-/* What a broadphase keeps from frame to frame is lost, as in a world. */
+/* As in a world, what a broadphase keeps from frame to frame is lost. */
 void BroadphaseFrames::allocate()
 {
   const Sizes sizes{.bodies = plan_.bodies,
@@ -82,7 +82,7 @@ void BroadphaseFrames::upload()
   memory_.upload(Buffer::counts, counts.data(), counts.size() * sizeof(uint32_t));
 }
 
-/* As a world does before its first step, and after it has grown. */
+/* As in a world before its first step, and after its buffers have grown. */
 void BroadphaseFrames::guess_counts()
 {
   plan_.known.fill(plan_.capacity_pairs);
@@ -126,7 +126,7 @@ double BroadphaseFrames::find_pairs()
 void BroadphaseFrames::grow(uint32_t needed)
 {
   plan_.capacity_pairs = needed + needed / 4;
-  record_kernels(); /* longer scans and sorts take other kernels */
+  record_kernels(); /* longer scans and sorts need other kernels */
   allocate();
   memory_.upload(Buffer::counts, &plan_.capacity_pairs, sizeof(uint32_t), CAPACITY_PAIRS * sizeof(uint32_t));
   forget_kept(memory_);

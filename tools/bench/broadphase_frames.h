@@ -1,10 +1,10 @@
-/* broadphase_frames.h - one broadphase by itself, frame after frame: what `tandem bench broadphase` times.
+/* broadphase_frames.h - runs one broadphase by itself, frame after frame, for `tandem bench broadphase`.
  *
- *    bodies move, begin_step, compute_bounds | broadphase, and its commit where it has one | counts to the host
- *                                             <------------- the time of a frame ----------->
+ *    bodies move, begin_step, compute_bounds | broadphase, and its commit if it has one | counts to the host
+ *                                             <------------- the time of a frame ---------->
  *
- * Buffers and kernels of a broadphase alone, so that there is room for millions of bodies where a whole step would not
- * fit.
+ * Only the buffers and kernels of a broadphase are allocated, so that there is memory for millions of bodies when a
+ * whole step would not fit.
  */
 #pragma once
 
@@ -18,15 +18,15 @@ namespace tandem {
 
 class BroadphaseFrames {
 public:
-  /* All three must outlive this. `pairs`: room for so many to start with; 0: as much as a world begins with. */
+  /* All three references must outlive this object. `pairs`: the first capacity; 0: that of a world. */
   BroadphaseFrames(const MovingBodies &bodies, const BroadphaseRow &broadphase, Backend &backend, uint32_t pairs = 0);
   ~BroadphaseFrames() { backend_.finish(); }
 
-  /* Milliseconds, the clock read with the backend finished. A frame that finds more pairs than there is room for runs
-   * again with room, and the time is that of the last run. Frames follow each other: 0, 1, 2... */
+  /* Returns milliseconds; the clock is read with the backend finished. A frame that finds more pairs than fit runs
+   * again with larger buffers, and the time is that of the last run. Frames must be run in order: 0, 1, 2, ... */
   double run(uint32_t frame);
 
-  /* Of the last frame. */
+  /* Of the last frame: */
   uint32_t pairs() const { return plan_.known[COUNT_PAIRS]; }
   uint64_t hash(); /* of the pair list and of where each body's pairs start */
   Memory &memory() { return memory_; }

@@ -1,7 +1,8 @@
-/* broadphase_inputs.cpp - see broadphase_inputs.h.
+/* broadphase_inputs.cpp - the scenes of broadphase_inputs.h.
  *
- * Bodies are spread evenly over a cube whose edge grows with the root of a whole number, so that no library's cube root
- * decides where they stand. How dense: two cubes of sides s and t overlap in n^2 / 2 (s + t)^3 / volume pairs.
+ * Bodies are spread evenly over a cube. Its edge is a multiple of the smallest integer whose cube is at least the
+ * number of bodies, so that positions do not depend on a library's cube root. Two cubes of sides s and t overlap in
+ * n^2 / 2 (s + t)^3 / volume pairs, from which the density follows.
  */
 #include "tools/bench/broadphase_inputs.h"
 
@@ -22,7 +23,7 @@ using scene_builders::add_body;
 using scene_builders::add_shape;
 using scene_builders::cube_side;
 
-constexpr double margin = 0.03; /* m, about what bounds reach beyond a slow body on both sides together */
+constexpr double margin = 0.03; /* m: about twice the margin by which the bounds of a slow body exceed it */
 
 /* A cube about the origin. */
 struct Region {
@@ -34,10 +35,10 @@ struct Region {
   }
 };
 
-/* Each body has a cell of this edge to itself, were they in order. */
+/* In a regular grid, each body would have a cell of this edge. */
 Region region_of(uint32_t bodies, double cell) { return {cell * double(cube_side(bodies))}; }
 
-/* In m/s: a body moves by a sixtieth of it a step. */
+/* Sets a velocity in m/s; a body moves by a sixtieth of it in a step. */
 void set_moving(Body &body, Random &random, double across = 1, double up = 1)
 {
   body.linear_velocity = {float(random.uniform(-across, across)), float(random.uniform(-up, up)),
@@ -51,7 +52,7 @@ Scene without_gravity()
   return scene;
 }
 
-/* (2 (1 + margin))^3 = 8.74 m^3 round a body hold the centres of 4 others. */
+/* (2 (1 + margin))^3 = 8.74 m^3 around a body contain the centres of 4 others. */
 Scene spheres(uint32_t bodies)
 {
   Random random(1);
@@ -62,8 +63,8 @@ Scene spheres(uint32_t bodies)
   return scene;
 }
 
-/* The boxes of box-grid as they stand on its ground, which is one of the bodies; jittered by less than would part
- * layers or join columns. */
+/* The boxes of box-grid on their ground, which is one of the bodies. The jitter is too small to separate layers or to
+ * join columns. */
 Scene pile(uint32_t bodies)
 {
   Random random(2);
@@ -82,7 +83,8 @@ Scene pile(uint32_t bodies)
   return scene;
 }
 
-/* The small ones overlap each other now and then; a tenth of them lies in reach of the large one in their middle. */
+/* The small bodies overlap each other occasionally; a tenth of them is within reach of the large one in their
+ * middle. */
 Scene one_large(uint32_t bodies)
 {
   constexpr double share_along_axis = 0.4642; /* its cube is 0.1 */
@@ -96,8 +98,8 @@ Scene one_large(uint32_t bodies)
   return scene;
 }
 
-/* Half extents of 1 cm to 10 m, each ratio as frequent as any other. The largest make most pairs: 8 E((h + h')^3) is
- * 1,280 m^3, a sixth of which for every body makes three pairs each. */
+/* Half extents of 1 cm to 10 m, with equally frequent ratios. The largest bodies make most of the pairs: 8 E((h +
+ * h')^3) is 1,280 m^3, and with a sixth of it for every body there are three pairs for each. */
 Scene sizes(uint32_t bodies)
 {
   constexpr uint32_t steps = 256;
@@ -115,7 +117,7 @@ Scene sizes(uint32_t bodies)
   return scene;
 }
 
-/* Every hundredth moves among boxes that never do and make no pairs with each other. */
+/* Every hundredth body moves among fixed boxes, which make no pairs with each other. */
 Scene standing(uint32_t bodies)
 {
   constexpr uint32_t variants = 16;

@@ -1,12 +1,12 @@
 /* narrowphase.cpp - see narrowphase.h.
  *
- *    (a)(b)   .   (a)(b)   .      Pairs far from each other, at random poses near contact: a third apart, yet within
- *      .   (a)(b)   .   (a)(b)    reach of a contact ahead of touching, the others overlapping by up to 2 cm. Every
+ *    (a)(b)   .   (a)(b)   .      The pairs are far from each other, at random poses near contact: a third is separate,
+ *      .   (a)(b)   .   (a)(b)    but near enough for a speculative contact; the others overlap by up to 2 cm. Every
  *                                 pair makes a manifold.
  *
- * b comes from afar along a line through both middles until it touches (conservative advancement), then steps along the
- * normal to the gap wanted. A first step of a microsecond makes the list of pairs, and moves nothing; then the kernel
- * runs again and again.
+ * b approaches from afar along a line through both centres until it touches (conservative advancement), and is then
+ * moved along the normal to the required gap. A first step of a microsecond makes the list of pairs and moves nothing;
+ * then the kernel runs repeatedly.
  */
 #include "tools/bench/narrowphase.h"
 
@@ -42,7 +42,7 @@ Shape ball(Random &random) { return sphere_shape(size_of(random)); }
 Vec3 sizes_of(Random &random)
 {
   return {size_of(random), size_of(random), size_of(random)};
-} /* in this order, which arguments have not */
+} /* evaluated in this order, which is unspecified for arguments */
 Shape box(Random &random) { return {ShapeType::box, sizes_of(random)}; }
 Shape capsule(Random &random)
 {
@@ -74,13 +74,13 @@ Shape any_convex(Random &random)
 
 struct PairKind {
   const char *name;
-  Maker a, b;     /* b empty: a above one half-space */
+  Maker a, b;     /* if b is empty, a lies on a half-space */
   uint32_t pairs; /* PAIR_KIND_ */
   std::vector<std::string> methods;
 };
 
-/* Methods differ where cores overlap; axes of polytopes alone are tested by `sat`. After a comma: the support of
- * hulls. */
+/* Methods differ if cores overlap; only `sat` tests the axes of polytopes. The support function of hulls follows after
+ * a comma. */
 std::vector<PairKind> kinds()
 {
   const std::vector<std::string> own{""}, round{"gjk-epa", "gjk-sampled"}, all = choice_names<Narrowphase>();
@@ -113,7 +113,7 @@ public:
       index_[world_.scene_body(index)] = index;
     }
   }
-  /* Seen from the body's centre plus `offset`. */
+  /* The shape of a body, relative to the body's centre plus `offset`. */
   convex of(uint32_t body, vec3 offset) const
   {
     const hull_tables tables = {headers_.data(), vertices_.data(), planes_.data(),     face_starts_.data(),
@@ -153,13 +153,13 @@ vec3 any_direction(Random &random)
   return axis_x(rotation_of(make_quat(q[0], q[1], q[2], q[3])));
 }
 
-/* How a pair is to meet: b comes along `from`. */
+/* The required pose of a pair: b approaches along `from` to the gap. */
 struct Approach {
   double gap;
   vec3 from;
 };
 
-/* Where b's centre stands then, seen from a's. */
+/* The position of b's centre relative to a's at that gap. */
 vec3 near_contact(const Convexes &convexes, uint32_t a, uint32_t b, const Approach &approach)
 {
   const convex first = convexes.of(a, make_vec3(0, 0, 0));
@@ -201,7 +201,7 @@ Scene scene_of(const PairKind &kind, uint32_t pairs)
   return scene;
 }
 
-/* All from one series, in order: the same with any number of threads. */
+/* All approaches come from one sequence of random numbers, so they are the same with any number of threads. */
 std::vector<Approach> approaches_of(uint32_t pairs, bool on_plane)
 {
   Random random(2);
@@ -261,7 +261,7 @@ public:
         method.empty() ? std::vector<uint32_t>{} : std::vector<uint32_t>{narrowphase_method(settings_)};
     world_.set_profiling(true);
     std::vector<double> times;
-    for (int k = 0; k <= narrowphase_repetitions; ++k) { /* the first brings buffers and caches to where they stay */
+    for (int k = 0; k <= narrowphase_repetitions; ++k) { /* the first repetition warms up buffers and caches */
       for (Kernel kernel : kernels) step.run_pairs(kernel, kind.pairs, values);
       backend.finish();
       double nanoseconds = 0;

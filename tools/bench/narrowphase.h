@@ -1,5 +1,4 @@
-/* narrowphase.h - `tandem bench narrowphase`: how many manifolds a second, by the shapes that meet and by
- * method. */
+/* narrowphase.h - `tandem bench narrowphase`: manifolds per second, by the pair of shapes and by method. */
 #pragma once
 
 #include <string>
@@ -17,10 +16,10 @@ struct PairTime {
   Spread milliseconds;                           /* of the kernels alone */
 };
 
-/* box-box, hull32-hull32 and the like. */
+/* Names such as box-box and hull32-hull32. */
 std::vector<std::string> bench_pair_names();
 
-/* `pairs` separate pairs of each kind, or of those named in `only`. InputError as make_backend. */
+/* Times `pairs` separate pairs of each kind, or of those named in `only`. Throws InputError as make_backend does. */
 std::vector<PairTime> bench_narrowphase(const std::string &backend, uint32_t pairs,
                                         const std::vector<std::string> &only, bool allow_inexact);
 

@@ -1,4 +1,4 @@
-/* primitives.cpp - see primitives.h. */
+/* primitives.cpp - times sorts and scans and checks their results against the standard library; see primitives.h. */
 #include "tools/bench/primitives.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int warm_up_calls = 2, timed_calls = 10;
 
-/* Numbers without a pattern, the same on every run. */
+/* Numbers without a pattern, the same in every run. */
 std::vector<uint32_t> scrambled(uint32_t count)
 {
   std::vector<uint32_t> values(count);
@@ -52,7 +52,7 @@ public:
   void reserve(Buffer buffer, size_t words) { memory_.resize(buffer, words * sizeof(uint32_t)); }
   std::vector<uint32_t> contents(Buffer buffer, size_t words) { return memory_.read<uint32_t>(buffer, words); }
 
-  /* The same call again and again, each on fresh inputs that have reached the backend before the clock starts. */
+  /* Times repeated calls, each on fresh inputs that are on the backend before the clock starts. */
   std::vector<double> time(const std::function<void()> &make_inputs, const std::vector<Buffer> &inputs)
   {
     using Clock = std::chrono::steady_clock;
@@ -70,7 +70,7 @@ public:
   }
 
 private:
-  std::unique_ptr<Backend> backend_; /* outlives the memory, which gives its buffers back */
+  std::unique_ptr<Backend> backend_; /* outlives the memory, which releases its buffers there */
   Memory memory_;
   DirectLauncher launcher_;
   Call call_;

@@ -1,4 +1,4 @@
-/* primitives.h - the parallel primitives by themselves: how long one call takes, and that it is right. */
+/* primitives.h - benchmarks of the parallel primitives: the time of one call, with a check of its result. */
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-/* Milliseconds of each of some calls over `count` items, data already on the backend, devices finished.
- * std::runtime_error if a result is wrong; InputError as make_backend. */
+/* The milliseconds of several calls over `count` items, with data already on the backend and devices finished. Throws
+ * std::runtime_error if a result is wrong, and InputError as make_backend does. */
 std::vector<double> bench_sort(const std::string &backend, uint32_t count, bool allow_inexact);
 std::vector<double> bench_scan(const std::string &backend, uint32_t count, bool allow_inexact);
 

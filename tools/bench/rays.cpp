@@ -1,4 +1,4 @@
-/* rays.cpp - see rays.h. */
+/* rays.cpp - times ray queries against a cube of boxes; see rays.h. */
 #include "tools/bench/rays.h"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ Scene boxes_in_a_cube(uint32_t boxes, double side)
   return scene;
 }
 
-/* From one side of the cube to another, in no order. */
+/* Rays from one side of the cube to another, in random order. */
 std::vector<Ray> rays_through_a_cube(uint32_t count, double side)
 {
   Random random(32);
@@ -49,7 +49,7 @@ std::vector<Ray> rays_through_a_cube(uint32_t count, double side)
   return rays;
 }
 
-/* Kernels since the last call: those of the query, and all others, which make the structure. */
+/* The time of kernels since the last call: of the query, and of all others, which make the structure. */
 std::pair<double, double> spent(World &world, Kernel query)
 {
   double own = 0, others = 0;
@@ -57,14 +57,14 @@ std::pair<double, double> spent(World &world, Kernel query)
   return {own, others};
 }
 
-/* Setting a body to where it is makes the structure anew. */
+/* Setting a body to its own state causes the structure to be rebuilt. */
 void touch(World &world)
 {
   world.set_body(0, world.bodies().front());
   world.take_kernel_times();
 }
 
-/* Of the structure of a broadphase. */
+/* Times the queries with one broadphase's structure. */
 std::vector<RayTime> time_rays(World &world, const std::string &structure, const std::vector<Ray> &asked)
 {
   RayTime nearest{structure, "nearest"}, blocked{structure, "blocked"}, making{structure, "making"};

@@ -1,4 +1,4 @@
-/* support.cpp - see support.h. */
+/* support.cpp - times the support functions on random directions and compares their results; see support.h. */
 #include "tools/bench/support.h"
 
 #include <algorithm>
@@ -17,9 +17,9 @@
 namespace tandem {
 namespace {
 
-constexpr int repetitions = 5; /* the shortest counts */
+constexpr int repetitions = 5; /* the shortest time counts */
 
-/* The corners of an ellipsoid of 1 x 0.75 x 0.5 m. */
+/* The hull of an ellipsoid of 1 x 0.75 x 0.5 m. */
 Shape ellipsoid(uint32_t vertices)
 {
   Random random(vertices);
@@ -33,7 +33,7 @@ Shape ellipsoid(uint32_t vertices)
   return hull_shape(points, "ellipsoid");
 }
 
-/* Its tables as a world holds them. */
+/* The tables of a shape as a world stores them. */
 class Tables {
 public:
   Tables(const Shape &shape, uint32_t cells)

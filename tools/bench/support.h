@@ -1,5 +1,5 @@
-/* support.h - `tandem bench support`: the ways to a hull's farthest vertex, how long each takes and how far off
- * the cube map is. */
+/* support.h - `tandem bench support`: the support functions of hulls, with the time of each and the error of the cube
+ * map. */
 #pragma once
 
 #include <cstdint>
@@ -10,15 +10,15 @@
 
 namespace tandem {
 
-/* One hull under one cube map. Errors: by how much the vertex named is lower than the highest, in parts of the height
- * that the hull has in that direction (its extent from one side to the other), over `directions` random ones. */
+/* One hull with one cube map. The error of a direction is the height by which the vertex found is below the highest
+ * one, relative to the hull's extent in that direction; it is measured over `directions` random directions. */
 struct SupportTime {
   uint32_t vertices = 0, cells = 0, bytes = 0; /* bytes: of the map */
   uint64_t directions = 0;
   double largest_error = 0, error_999 = 0,
-         share_wrong = 0; /* 99.9th percentile; share of directions with another vertex */
+         share_wrong = 0; /* 99.9th percentile; share of directions with a wrong vertex */
   double brute_force = 0, hill_climbing = 0, cube_map = 0; /* ns a direction, on one thread without AVX2 */
-  uint64_t differences = 0;                                /* of hill climbing from brute force: none, or it is wrong */
+  uint64_t differences = 0;                                /* between hill climbing and brute force; must be 0 */
 };
 
 std::vector<SupportTime> bench_support(uint64_t directions);

@@ -1,13 +1,13 @@
-/* bullet_bench.cpp - Bullet's broadphase (btDbvtBroadphase: two dynamic trees of boxes, updated incrementally, on one
- * thread) beside ours.
+/* bullet_bench.cpp - compares Bullet's broadphase (btDbvtBroadphase: two dynamic AABB trees, updated incrementally, on
+ * one thread) with Tandem's.
  *
- *    frame:   ours 1 -> ours 2 -> ... -> bounds -> Bullet       in turn, so that a busy machine slows all alike
+ *    frame:   Tandem 1 -> Tandem 2 -> ... -> bounds -> Bullet       in turn, so that a busy machine slows all alike
  *
- * Bullet is given the bounds that ours starts from: setAabb for every body that moves, then calculateOverlappingPairs.
- * What it makes of them differs in one respect: it pads the boxes in its trees, so that a body need not be moved there
- * every frame, and drops the pairs of boxes that have parted by and by. Its pairs are therefore some more than ours,
- * and each of ours must be among them. And its time comes in bursts, when bodies reach the edge of the padding: a
- * median says little without the mean, and frames must be many.
+ * Bullet receives the same bounds as Tandem: setAabb for every body that moves, then calculateOverlappingPairs. Its
+ * result differs in one respect: it enlarges the boxes in its trees, so that a body need not be reinserted every frame,
+ * and removes pairs of boxes that have separated only gradually. Its pairs are therefore a superset of Tandem's, which
+ * the program checks. Its work also comes in bursts, when bodies reach the edge of their enlarged boxes, so the mean is
+ * as important as the median, and many frames are needed.
  */
 #include <chrono>
 #include <memory>
@@ -35,7 +35,7 @@ struct Options {
   std::vector<std::string> broadphases = {"grid", "trees"};
 };
 
-/* Checked. */
+/* A request whose values have been checked. */
 struct Request {
   uint32_t bodies, frames;
   std::vector<std::string> broadphases;
@@ -83,7 +83,7 @@ public:
   }
 
 private:
-  /* Bullet passes over what has no client object, and asks it nothing else. */
+  /* Bullet ignores proxies without a client object, and uses the object for nothing else. */
   static void *number(size_t k) { return reinterpret_cast<void *>(k + 1); }
 
   btDbvtBroadphase broadphase_;
@@ -97,7 +97,7 @@ struct Row {
   uint32_t pairs = 0;
 };
 
-/* Pairs of ours that Bullet has not. */
+/* The number of Tandem's pairs that Bullet has not found. */
 uint32_t missing_pairs(BroadphaseFrames &frames, BulletFrames &bullet)
 {
   const auto a = frames.memory().read<uint32_t>(Buffer::pair_a, frames.pairs()),
@@ -107,7 +107,7 @@ uint32_t missing_pairs(BroadphaseFrames &frames, BulletFrames &bullet)
   return missing;
 }
 
-/* Ours, then Bullet's; false if Bullet misses a pair. */
+/* Measures Tandem's broadphases, then Bullet's; returns false if Bullet misses a pair. */
 bool measure_input(const BroadphaseInput &input, const Request &request, Backend &backend, std::vector<Row> &rows)
 {
   const MovingBodies moving(input, request.bodies);

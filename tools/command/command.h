@@ -1,8 +1,8 @@
 /* command.h - the subcommands of `tandem`, one file each.
  *
- * A function adds its options to the parser and returns what to run once they are parsed. Exit status:
- * 0 fine, 1 the check failed (or a device did, or memory or the room of --max-pairs did not suffice), 2 bad use or
- * input, or an output that cannot be written, thrown as InputError.
+ * A function adds its options to the parser and returns what to run once they are parsed. The exit status is 0 for
+ * success; 1 if a check failed, a device failed, or memory or --max-pairs did not suffice; 2 for bad use, bad input or
+ * an output that cannot be written, which are thrown as InputError.
  */
 #pragma once
 

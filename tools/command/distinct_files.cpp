@@ -1,4 +1,4 @@
-/* distinct_files.cpp - see distinct_files.h. */
+/* distinct_files.cpp - compares files by identity and not by name; see distinct_files.h. */
 #include "tools/command/distinct_files.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ void DistinctFiles::writes(const std::string &option, const std::string &path)
 {
   if (path.empty()) return;
   if (path == "-") throw InputError(fmt::format("{} -: a file is needed; standard output is for --json alone", option));
-  if (is_same_file(path, "/dev/stdout")) /* what is printed would be lost, or stand amid the file */
+  if (is_same_file(path, "/dev/stdout")) /* otherwise printed text would be lost, or mixed into the file */
     throw InputError(fmt::format("{} {}: this is standard output, where the command prints; write to a file of its own",
                                  option, path));
   for (const Use &use : read_)

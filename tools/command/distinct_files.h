@@ -1,6 +1,6 @@
-/* distinct_files.h - no output of a command may take the place of another one, or of what the command reads.
+/* distinct_files.h - ensures that no output of a command replaces another output, or a file that the command reads.
  *
- * Each file that is read or written is told here before anything runs; the second use of one is refused.
+ * A command registers each file that it reads or writes before anything runs; a second use of a file is refused.
  */
 #pragma once
 
@@ -11,9 +11,9 @@ namespace tandem {
 
 class DistinctFiles {
 public:
-  /* InputError where an output has this place. `name` begins the message, as in "--problems". */
+  /* Throws InputError if the file is an output. `name` begins the message, for example "--problems". */
   void reads(const std::string &name, const std::string &path);
-  /* InputError where another use has this place, or where the file cannot be written. An empty path is none. */
+  /* Throws InputError if the file has another use or cannot be written. An empty path stands for no file. */
   void writes(const std::string &option, const std::string &path);
 
 private:

@@ -1,8 +1,8 @@
-/* failed_allocation.cpp - the operators new and delete of the command, which note what they could not give; see
- * failed_allocation.h.
+/* failed_allocation.cpp - the operators new and delete of the command, which record the size of an allocation that
+ * failed; see failed_allocation.h.
  *
- * Part of the executable alone: a library has no business with its users' allocator. Where a sanitizer has one of its
- * own, that stays. */
+ * They are part of the executable alone, because a library must not replace its users' allocator. A sanitizer's own
+ * operators are kept. */
 #include "tools/command/failed_allocation.h"
 
 #include <atomic>

@@ -1,4 +1,4 @@
-/* main.cpp - the command `tandem`: parses, runs one subcommand, turns errors into one line. */
+/* main.cpp - the command `tandem`: parses arguments, runs one subcommand, and turns errors into one line. */
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -30,7 +30,7 @@
 namespace tandem {
 namespace {
 
-/* Scripts read one line an error, whatever a library put into its message. */
+/* Scripts read one line for each error, so line ends in a library's message are replaced. */
 int complain(std::string message, int status)
 {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -42,10 +42,10 @@ int complain(std::string message, int status)
 void end_as_asked(int signal)
 {
   remove_unfinished_files();
-  ::raise(signal); /* which ends the process now, and who asked sees that it did */
+  ::raise(signal); /* ends the process now, with a status that its parent recognises */
 }
 
-/* But for what the process was started to ignore, as by nohup. */
+/* Signals that the process was started to ignore, as by nohup, stay ignored. */
 void clean_up_when_asked_to_end()
 {
   struct sigaction action {
@@ -57,18 +57,19 @@ void clean_up_when_asked_to_end()
       ::sigaction(signal, &action, nullptr);
 }
 
-/* A file opened later would else take the number of an output that is closed, and what is printed would land in it. */
+/* A file that is opened later would otherwise get the number of a closed standard stream, and printed text would be
+ * written to it. */
 void keep_standard_files_apart()
 {
   for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(file, F_GETFD) == -1)
-      open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that its use fails */
+      open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY); /* so that any use of it fails */
 }
 
-constexpr int output_lost = -1; /* and said */
+constexpr int output_lost = -1; /* the error has been printed */
 
-/* Where the reader of standard output has gone, as `head` does, the process ends as others do; other pipes are told as
- * files are. */
+/* If the reader of standard output has exited, as `head` does, the process ends by SIGPIPE as other commands do; errors
+ * of other pipes are reported like those of files. */
 int complain_of_output(int reason)
 {
   if (reason == EPIPE) {
@@ -79,7 +80,7 @@ int complain_of_output(int reason)
   return output_lost;
 }
 
-/* What was printed may wait in the buffer still. Where status 2 has been said, its line is the only one. */
+/* Printed text may still be in the buffer. If status 2 has been reported, its line is the only one. */
 int with_output_written(int status)
 {
   errno = 0;
@@ -95,15 +96,15 @@ std::string typed(int count, char **arguments)
   return text;
 }
 
-/* What nothing catches: the destructor of nlohmann's JSON allocates, and what is said of the first failure may fail in
- * its turn; a library's thread throws where it cannot start another. The words for it are ready beforehand. */
+/* Exceptions that nothing catches: the destructor of nlohmann's JSON allocates, reporting the first failure may fail
+ * too, and a library's thread throws if it cannot start another. The text of the message is prepared in advance. */
 std::string last_words;
 std::terminate_handler usual_end = nullptr;
 
 template <class... Values> [[noreturn]] void end_with_line(const char *format, Values... values) noexcept
 {
   static std::atomic_flag said = ATOMIC_FLAG_INIT;
-  while (said.test_and_set()) ::pause(); /* another thread is saying it, and ends them all */
+  while (said.test_and_set()) ::pause(); /* another thread is printing and will end the process */
   char line[1024];
   const int length = std::snprintf(line, sizeof line - 1, format, values...);
   const size_t size = std::min(static_cast<size_t>(std::max(length, 0)), sizeof line - 2);
@@ -114,7 +115,8 @@ template <class... Values> [[noreturn]] void end_with_line(const char *format, V
   _exit(1);
 }
 
-/* What the machine refuses is said and ends with a status. Anything else is a defect of ours, and ends as such. */
+/* A lack of resources is reported and ends with a status. Anything else is a defect of this program, and is reported as
+ * such. */
 [[noreturn]] void end_uncaught()
 {
   try {
@@ -136,14 +138,14 @@ void prepare_last_words(int count, char **arguments)
   last_words = typed(count, arguments);
 }
 
-/* "`tandem run --help`" for the subcommand that was being parsed. */
+/* For example "`tandem run --help`" for the subcommand that was being parsed. */
 std::string where_to_look(const CLI::App &parser)
 {
   const std::vector<CLI::App *> parsed = parser.get_subcommands();
   return fmt::format("`tandem {}--help` lists what there is", parsed.empty() ? "" : parsed.front()->get_name() + " ");
 }
 
-/* As of a variable of a shell that is not set: nothing is meant by it, or something else than nothing. */
+/* An empty value usually comes from an unset shell variable, so it is refused. */
 void refuse_empty_values(const CLI::App &parser)
 {
   for (const CLI::Option *option : parser.get_options())
@@ -183,7 +185,7 @@ int parse_and_execute(int count, char **arguments)
   try {
     parser.parse(count, arguments);
   } catch (const CLI::Success &asked) { /* --help, --version */
-    std::ostringstream text;            /* CLI11 flushes the stream it prints to, and loses why that failed */
+    std::ostringstream text;            /* CLI11 flushes the stream it prints to, which loses the reason of a failure */
     const int status = parser.exit(asked, text);
     fmt::print("{}", text.str());
     return status;
@@ -208,7 +210,7 @@ int guarded(int count, char **arguments)
     return complain(error.what() + failed_allocation(), 1);
   } catch (const std::bad_alloc &) {
     return complain(fmt::format("out of memory in `{}`{}", last_words, failed_allocation()), 1);
-  } catch (const std::system_error &error) { /* fmt::print throws one where the output takes no more */
+  } catch (const std::system_error &error) { /* fmt::print throws one if output fails */
     return std::ferror(stdout) ? complain_of_output(error.code().value()) : complain(error.what(), 1);
   } catch (const std::exception &error) {
     return complain(error.what(), 1);
@@ -221,7 +223,7 @@ int guarded(int count, char **arguments)
 int main(int count, char **arguments)
 {
   for (const int signal : {SIGPIPE, SIGXFSZ})
-    std::signal(signal, SIG_IGN); /* a write that cannot be is an error like others */
+    std::signal(signal, SIG_IGN); /* a write to a closed pipe returns an error */
   tandem::clean_up_when_asked_to_end();
   tandem::prepare_last_words(count, arguments);
   tandem::keep_standard_files_apart();

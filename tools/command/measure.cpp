@@ -1,4 +1,4 @@
-/* measure.cpp - see measure.h. */
+/* measure.cpp - times and profiles the steps of a run; see measure.h. */
 #include "tools/command/measure.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t profile_every = 8;
 
-/* Of a last half shorter than 8 steps the last step is profiled; a single step is both timed and profiled. */
+/* If the last half is shorter than 8 steps, its last step is profiled; a single step is both timed and profiled. */
 bool is_profiled(uint64_t step, uint64_t steps)
 {
   const uint64_t half = steps - steps / 2;

@@ -20,21 +20,21 @@ namespace tandem {
 struct Spread {
   double median = 0, minimum = 0, maximum = 0;
 };
-Spread spread_of(std::vector<double> values); /* zeros for none */
+Spread spread_of(std::vector<double> values); /* zeros if there are no values */
 
 struct StageTime {
   std::string name;
   std::string backend;
-  double milliseconds = 0; /* a step */
+  double milliseconds = 0; /* per step */
 };
 
 struct Measurement {
   Spread step_milliseconds;
-  std::vector<StageTime> stages; /* pipeline order */
+  std::vector<StageTime> stages; /* in pipeline order */
   uint64_t timed_steps = 0, profiled_steps = 0;
 };
 
-/* One step, ms, the clock read with all devices finished. */
+/* The time of one step in ms; the clock is read with all devices finished. */
 double timed_step(World &world);
 
 /* `after_step(done)` is called outside of the timed span. */

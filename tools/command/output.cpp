@@ -1,4 +1,4 @@
-/* output.cpp - see output.h. */
+/* output.cpp - writes files and JSON, and formats tables and numbers; see output.h. */
 #include "tools/command/output.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
-/* output.h - what a command leaves behind: text for people, JSON for scripts, files that can be written.
+/* output.h - the output of a command: text for people, JSON for scripts, and files.
  *
- * A run may take minutes; a path that cannot be written is refused before it starts.
+ * A run may take minutes, so a path that cannot be written is refused before it starts.
  */
 #pragma once
 
@@ -18,26 +18,26 @@ namespace tandem {
 /* Keys keep the order in which they are added. */
 using Json = nlohmann::ordered_json;
 
-/* InputError naming the option unless `path` can be opened for writing; an existing file is left as it is.
- * An empty path passes. */
+/* Throws InputError that names the option unless `path` can be opened for writing; an existing file is not changed. An
+ * empty path is accepted. */
 void check_writable(const std::string &option, const std::string &path);
 
-/* Whole or not at all (host/io/output_file.h); InputError if the disk will not take it. */
+/* Writes the file completely or not at all (host/io/output_file.h); throws InputError if the disk is full or fails. */
 void write_file(const std::string &option, const std::string &path, std::string_view contents);
 
-/* The --json option's value: FILE, "-" for standard output, or empty for none. */
+/* The value of the option --json: FILE, "-" for standard output, or empty for none. */
 class JsonOutput {
 public:
   std::string path;
 
   void check(DistinctFiles &files) const;
-  void check() const; /* where there is no other file */
-  /* With "-" standard output belongs to the JSON, so commands leave their tables out. */
+  void check() const; /* if there are no other files */
+  /* With "-" standard output is reserved for the JSON, so commands omit their tables. */
   bool takes_standard_output() const { return path == "-"; }
   void write(const Json &json) const;
 };
 
-/* Rows of cells in aligned columns; the first column is left-aligned, the others by `right`. */
+/* Rows of cells in aligned columns. The first column is left-aligned; the others are right-aligned if `right`. */
 class Table {
 public:
   explicit Table(std::vector<std::string> header, bool right = true) : rows_{std::move(header)}, right_(right) {}

@@ -1,4 +1,4 @@
-/* parallel.cpp - see parallel.h. */
+/* parallel.cpp - threads that take tasks from a shared counter; see parallel.h. */
 #include "tools/command/parallel.h"
 
 #include <algorithm>
@@ -39,7 +39,8 @@ private:
   std::exception_ptr thrown_;
 };
 
-/* As many as can be had: without any, one thread does it all, and what has started must be joined whatever happens. */
+/* Starts as many threads as possible: if there are none, the calling thread does all the work. Threads that have
+ * started must be joined in any case. */
 void start(std::vector<std::thread> &helpers, size_t count, const std::function<void()> &work)
 {
   try {

@@ -1,4 +1,4 @@
-/* progress.cpp - see progress.h. */
+/* progress.cpp - draws and clears the bar; see progress.h. */
 #include "tools/command/progress.h"
 
 #include <cstdio>

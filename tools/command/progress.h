@@ -1,4 +1,4 @@
-/* progress.h - a progress bar for long runs: on a terminal alone, and not before a second has passed. */
+/* progress.h - a progress bar for long runs. It is drawn only on a terminal, and not before a second has passed. */
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@ public:
   Progress &operator=(const Progress &) = delete;
 
   void update(uint64_t done);
-  void clear(); /* removes the bar, so that what is printed next starts on a clean line */
+  void clear(); /* removes the bar, so that the next output starts on an empty line */
 
 private:
   using Clock = std::chrono::steady_clock;

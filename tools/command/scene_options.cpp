@@ -1,5 +1,5 @@
-/* scene_options.cpp - see scene_options.h. Numbers are read here rather than by the parser, so that a
- * bad one is named with what would be right. */
+/* scene_options.cpp - see scene_options.h. Numbers are parsed here and not by CLI11, so that the message for a bad one
+ * says what would be right. */
 #include "tools/command/scene_options.h"
 
 #include <charconv>

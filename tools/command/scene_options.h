@@ -1,4 +1,4 @@
-/* scene_options.h - the options that say what is simulated and how; run, diff and plan share them. */
+/* scene_options.h - the options for the scene and its simulation, which run, diff and plan share. */
 #pragma once
 
 #include <cstdint>
@@ -14,29 +14,29 @@
 
 namespace tandem {
 
-/* Whole number in [lowest, highest]; InputError names the option. */
+/* Parses an integer in [lowest, highest]; throws InputError that names the option. */
 uint64_t whole_number(const std::string &option, const std::string &text, uint64_t lowest, uint64_t highest);
-/* Any finite number, as strtod reads it. */
+/* Parses any finite number that strtod accepts. */
 double real_number(const std::string &option, const std::string &text);
 
 class SceneOptions {
 public:
-  /* `one_backend`: adds --on; diff names its backends otherwise. */
+  /* `one_backend`: adds --on; diff takes its backends from another option. */
   SceneOptions(CLI::App &parser, bool one_backend);
 
-  /* For commands that list events without writing them: a flag --events. */
+  /* Adds a flag --events, for commands that compute events without writing them. */
   void add_events_flag(CLI::App &parser);
 
-  /* After parsing. InputError on the first option that makes no sense. */
+  /* These are for use after parsing. They throw InputError for the first invalid option. */
   Settings settings() const;
   Placement placement() const;
   uint64_t steps() const;
-  /* InputError also where one of `files` is written and the scene is read from it. */
+  /* Throws InputError also if one of `files` is an output and the scene is read from it. */
   Scene scene(DistinctFiles &files) const;
   const std::string &scene_text() const { return scene_; }
 
-  /* The options that differ from their defaults, as they would be typed again; `broadphase` is the one that was used,
-   * which auto does not say. */
+  /* The options that differ from their defaults, in the form of a command line. `broadphase` is the one that was used,
+   * because `auto` does not name it. */
   std::string typed_again(const std::string &broadphase) const;
 
 private:

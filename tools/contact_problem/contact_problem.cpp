@@ -1,5 +1,5 @@
-/* contact_problem.cpp - `tandem contact-problem`: one frictional contact problem, one solver, its residual sweep by
- * sweep. */
+/* contact_problem.cpp - `tandem contact-problem`: solves one frictional contact problem with one solver and prints its
+ * residual sweep by sweep. */
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,7 +35,7 @@ ContactSolverSettings settings_from(const ContactProblemOptions &options)
   return settings;
 }
 
-/* nsgs is pgs in double, and only the reference backend has that. */
+/* nsgs is pgs in double, which only the reference backend supports. */
 std::string backend_from(const ContactProblemOptions &options)
 {
   const bool reference = options.on.rfind("reference", 0) == 0;
@@ -46,7 +46,7 @@ std::string backend_from(const ContactProblemOptions &options)
   return options.solver == "nsgs" ? "reference" : "tbb";
 }
 
-/* The sweeps 1, 2, 5, 10, 20, 50, .. and the last. */
+/* Prints the sweeps 1, 2, 5, 10, 20, 50, ... and the last. */
 void print_history(const std::vector<double> &history)
 {
   Table table({"sweep", "residual"});
@@ -87,7 +87,7 @@ Json solution_json(const ContactProblemOptions &options, const std::string &back
           {"impulse", solution.impulse}};
 }
 
-/* Numbers that floats hold may have squares that they do not. */
+/* The squares of numbers that fit in floats may overflow. */
 void require_finite(const ContactSolution &solution, const ContactProblemOptions &options)
 {
   const auto finite = [](double x) { return std::isfinite(x); };

@@ -1,4 +1,4 @@
-/* devices.cpp - `tandem devices`: what can run kernels here, and whether its bits can be trusted. */
+/* devices.cpp - `tandem devices`: lists what can run kernels on this machine, and whether its results are exact. */
 #include <memory>
 #include <stdexcept>
 
@@ -46,7 +46,7 @@ Json device_json(const opencl::DeviceInfo &device)
           {"note", device.reason}};
 }
 
-/* What OpenCL offers, or why it offers nothing. */
+/* The devices of OpenCL, or the reason why there are none. */
 struct Offer {
   std::vector<opencl::DeviceInfo> devices;
   std::string fault;

@@ -1,4 +1,4 @@
-/* diff.cpp - `tandem diff`: the same scene on several backends, every kernel compared bit for bit. */
+/* diff.cpp - `tandem diff`: runs the same scene on several backends and compares every kernel bit for bit. */
 #include <memory>
 
 #include <fmt/format.h>
@@ -72,7 +72,7 @@ FaultInjector fault_injector(const std::string &text, size_t world, std::string 
   return inject_fault(error, &missing);
 }
 
-/* The scene text may hold characters that a shell would take apart. */
+/* The text of the scene may contain characters that a shell would interpret. */
 std::string quoted(const std::string &text)
 {
   if (text.find_first_of(" '\"$`\\;&|<>()*?[]{}!#~") == std::string::npos) return text;
@@ -178,7 +178,7 @@ void print_difference(const Difference &difference, const Scene &scene, const Sc
   if (!gdb.empty()) fmt::print("\nTo stop there (debug build):\n  {}\n", gdb);
 }
 
-/* No difference between backends, but no result either. */
+/* Quarantined bodies are no difference between backends, but the comparison has no valid result either. */
 std::string quarantine_text(const std::vector<Quarantine> &lost, const std::string &backend, const Scene &scene)
 {
   const Quarantine &first = lost.front();

@@ -1,19 +1,20 @@
-/* embed_kernels - makes the OpenCL programs that the library carries: cl/NAME.cl with its includes, and its entries.
+/* embed_kernels.cpp - makes the OpenCL programs that the library contains: cl/NAME.cl with its includes, and its
+ * entries.
  *
- * A line ENTRIES(STAGE) at the end of a file asks for the entry of each kernel of that stage; they are written from
- * shared/kernels.def (entries.h). An installed program needs no source tree, for the library carries the text. Each
- * header is expanded once, where it is first included, and a .def list every time; #line directives keep the compiler's
- * messages on the file and line that people edit. What becomes of each file can be read in FOLDER/NAME.cl, with its
- * comments, which the library does not carry.
+ * A line ENTRIES(STAGE) at the end of a file requests the entry of each kernel of that stage; the entries are written
+ * from shared/kernels.def (entries.h). An installed program needs no source tree, because the library contains the
+ * text. Each header is expanded once, where it is first included, and a .def list every time; #line directives keep the
+ * compiler's messages on the file and line that people edit. FOLDER/NAME.cl is a readable copy with comments, which the
+ * library omits.
  *
- * A module of another project is one program: its lists and headers stand in a folder of its own, in which includes are
- * looked for first, and all its kernels are of the stage that has its name.
+ * A module of another project is one program: its lists and headers are in a folder of its own, which is searched first
+ * for includes, and all its kernels are of the stage that has its name.
  *
  * Usage: embed_kernels ROOT FOLDER cl/one.cl cl/two.cl ...
  *          writes FOLDER/embedded_kernels.cpp and FOLDER/one.cl ...
  *        embed_kernels ROOT FOLDER --module NAME SOURCES KERNELS BUFFERS NAME.cl
  *          writes FOLDER/NAME_programs.cpp and FOLDER/NAME.cl; KERNELS, BUFFERS: files of the folder SOURCES
- * Beside the source stands a list of all files that it was made of, for the build (FOLDER/..., with .d behind it).
+ * Beside the source it writes a list of all files that the source was made of, for the build (the same name with .d).
  */
 #include <algorithm>
 #include <filesystem>
@@ -37,7 +38,7 @@ std::string included_name(const std::string &line)
   return open == std::string::npos || close == open ? std::string{} : line.substr(open + 1, close - open - 1);
 }
 
-/* STAGE of a line ENTRIES(STAGE). */
+/* The STAGE of a line ENTRIES(STAGE). */
 std::string stage_wanted(const std::string &line)
 {
   const std::string wish = "ENTRIES(";
@@ -45,12 +46,12 @@ std::string stage_wanted(const std::string &line)
 }
 
 struct Program {
-  std::string name, stage; /* stage: empty where no entries are wanted */
+  std::string name, stage; /* stage: empty if no entries are requested */
   std::ostringstream headers;
-  std::set<std::string> seen, files; /* files: where those were found */
+  std::set<std::string> seen, files; /* files: the paths of the headers in `seen` */
 };
 
-using Folders = std::vector<std::string>; /* in which includes are looked for, in this order */
+using Folders = std::vector<std::string>; /* searched for includes, in this order */
 
 std::string path_of(const Folders &folders, const std::string &name)
 {
@@ -63,7 +64,7 @@ std::string path_of(const Folders &folders, const std::string &name)
 
 void expand(const Folders &folders, const std::string &name, Program &program)
 {
-  const bool is_list = name.ends_with(".def"); /* expanded anew wherever it is included */
+  const bool is_list = name.ends_with(".def"); /* expanded at every include */
   if (!is_list && !program.seen.insert(name).second) return;
   std::ifstream in(path_of(folders, name));
   if (!in) throw std::runtime_error("cannot read " + path_of(folders, name));
@@ -83,8 +84,8 @@ void expand(const Folders &folders, const std::string &name, Program &program)
   }
 }
 
-/* A quarter of the text is comments, which no device needs: their lines stay, so that messages name the right ones, but
- * not the space before a line's end. */
+/* A quarter of the text is comments, which no device needs. Their line ends are kept, so that messages name the right
+ * lines; trailing blanks are not. */
 std::string without_comments(const std::string &text)
 {
   std::string kept;
@@ -102,12 +103,12 @@ std::string without_comments(const std::string &text)
       const size_t last = std::min(text.find("*/", at + 2), text.size());
       for (; at < last; ++at)
         if (text[at] == '\n') end_line();
-      ++at; /* the slash */
+      ++at; /* the closing slash */
     }
   return kept;
 }
 
-/* String literals have a length limit on some compilers, so the text goes out in pieces. */
+/* String literals have a length limit on some compilers, so the text is written in pieces. */
 std::string literal(const std::string &text)
 {
   const size_t piece = 8000;
@@ -116,7 +117,7 @@ std::string literal(const std::string &text)
   return written;
 }
 
-/* list: the rows' file, as it is named in #line directives. */
+/* list: the name of the rows' file in #line directives. */
 void write_program(const Program &program, const std::vector<embed::KernelRow> &rows, const std::string &list,
                    const std::string &folder, std::ostream &out)
 {
@@ -137,10 +138,10 @@ void write_program(const Program &program, const std::vector<embed::KernelRow> &
   if (!readable.flush()) throw std::runtime_error("cannot write " + folder + "/" + program.name + ".cl");
 }
 
-/* What is read and written. */
+/* The inputs and outputs of one run of this program. */
 struct Job {
   embed::Lists lists;
-  std::string list_name; /* of kernels, in messages of compilers */
+  std::string list_name; /* the list of kernels, in messages of compilers */
   Folders folders;
   std::vector<std::string> programs;
   std::string name_space, function, written;
@@ -168,7 +169,7 @@ Job job_of(const std::vector<std::string> &words)
           folder + "/" + name + "_programs.cpp"};
 }
 
-/* A module is one stage, of its own name. */
+/* Checks that all rows of a module have the stage of its name. */
 void check_stages(const std::vector<embed::KernelRow> &rows, const Job &job)
 {
   if (job.name_space == "tandem") return;
@@ -179,7 +180,7 @@ void check_stages(const std::vector<embed::KernelRow> &rows, const Job &job)
                                job.name_space + ", its name");
 }
 
-/* files: what it is made of is added. */
+/* The files that the source is made of are added to `files`. */
 std::string source_of(const Job &job, const std::vector<embed::KernelRow> &rows, const std::string &folder,
                       std::set<std::string> &files)
 {
@@ -199,7 +200,7 @@ std::string source_of(const Job &job, const std::vector<embed::KernelRow> &rows,
   return out.str();
 }
 
-/* A rule of make: blanks in names behind backslashes. */
+/* A rule of make, with blanks in names escaped by backslashes. */
 std::string rule_of(const std::string &target, const std::set<std::string> &files)
 {
   const auto escaped = [](const std::string &path) {

@@ -1,10 +1,11 @@
-/* entries.cpp - writes entries as people would: lines of at most 120 columns, names as in the row. */
+/* entries.cpp - writes entries in readable form: lines of at most 120 columns, with the names of the row; see
+ * entries.h. */
 #include "tools/embed/entries.h"
 
 namespace embed {
 namespace {
 
-/* Pieces behind an opening, a comma between them, each line but the first indented. */
+/* Joins pieces by commas between an opening and a closing text, with every line but the first indented. */
 std::string wrapped(const std::string &opening, const std::vector<std::string> &pieces, const std::string &closing)
 {
   const size_t columns = 120;

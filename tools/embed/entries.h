@@ -1,4 +1,5 @@
-/* entries.h - the entry of a kernel: its parameters, and the call of the shared function for each item or group. */
+/* entries.h - the OpenCL entry of a kernel: its parameters, and the call of the shared function for each item or
+ * group. */
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace embed {
 
-/* OpenCL C, behind a #line directive that names the kernel's row in this list. */
+/* The entry in OpenCL C, after a #line directive that names the kernel's row in this list. */
 std::string entry_of(const KernelRow &row, const std::string &list);
 
 } // namespace embed

@@ -1,4 +1,4 @@
-/* list_rows.cpp - reads calls of macros, NAME(first, second, ...), out of the lists of shared/. */
+/* list_rows.cpp - parses calls of macros, NAME(first, second, ...), in the lists of shared/; see list_rows.h. */
 #include "tools/embed/list_rows.h"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ std::string read_file(const std::string &path)
   return text.str();
 }
 
-/* Blanks in their place, so that lines keep their numbers. */
+/* Replaces comments by blanks, so that lines keep their numbers. */
 std::string without_comments(std::string text)
 {
   for (size_t at = text.find("/*"); at != text.npos; at = text.find("/*", at)) {
@@ -37,7 +37,7 @@ std::string without_comments(std::string text)
   return text;
 }
 
-/* Directives and what their backslashes continue. */
+/* Removes directives and their continuation lines. */
 std::string without_directives(const std::string &text)
 {
   std::istringstream in(text);
@@ -59,7 +59,8 @@ std::string trimmed(const std::string &text)
 
 bool is_of_a_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
-/* From behind an open parenthesis to behind the one that closes it; commas and parentheses in strings do not count. */
+/* Parses arguments from after an opening parenthesis to after the closing one; commas and parentheses in strings do not
+ * count. */
 std::vector<std::string> arguments_from(const std::string &text, size_t &at)
 {
   std::vector<std::string> arguments(1);
@@ -91,7 +92,7 @@ std::vector<Call> calls_in(const std::string &text)
   return calls;
 }
 
-/* Names of OpenCL C for the elements of buffers.def. */
+/* The name in OpenCL C of an element type of buffers.def. */
 std::string type_of_element(const std::string &element) { return element == "real" ? "memory_real" : element; }
 
 void read_buffer_types(const std::string &list, std::map<std::string, std::string> &types)
@@ -118,7 +119,7 @@ struct Member {
   std::string buffer, name;
 };
 
-/* #define GROUP_name(BUFFER) BUFFER(buffer, type, member) ... */
+/* Parses #define GROUP_name(BUFFER) BUFFER(buffer, type, member) ... */
 std::map<std::string, std::vector<Member>> argument_groups(const std::string &root)
 {
   std::map<std::string, std::vector<Member>> groups;

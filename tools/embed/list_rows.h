@@ -1,7 +1,8 @@
 /* list_rows.h - the rows of a list of kernels as tables of text, from which entries of OpenCL are written.
  *
- * The compiler of the host expands the same rows as macros (host/runtime/interface/kernel_list.h). Here they are read
- * as text, because an entry needs what macros cannot give: the type of each buffer, which stands in buffers.def. */
+ * The compiler of the host expands the same rows as macros (host/runtime/interface/kernel_list.h). Here they are parsed
+ * as text, because an entry needs what macros cannot provide: the type of each buffer, which is given in buffers.def.
+ * */
 #pragma once
 
 #include <string>
@@ -9,15 +10,15 @@
 
 namespace embed {
 
-/* What becomes one parameter of an entry. */
+/* One parameter of an entry. */
 struct Parameter {
   enum class Kind { read, written, value } kind;
   std::string type, name;
 };
 
-/* An argument of the shared function: a parameter, or a struct of several (shared/argument_groups.h). */
+/* An argument of the shared function: one parameter, or a struct of several (shared/argument_groups.h). */
 struct FunctionArgument {
-  std::string group_type; /* empty: the one parameter itself */
+  std::string group_type; /* empty for a single parameter */
   std::vector<std::string> members;
   std::vector<Parameter> parameters;
 };
@@ -29,14 +30,14 @@ struct KernelRow {
   int line;                /* of kernels.def, from 1 */
 };
 
-/* The lists of a module. The pipeline's buffers and groups (ROOT/shared) can be named by all. */
+/* The lists of a module. Its rows may also name the pipeline's buffers and groups (ROOT/shared). */
 struct Lists {
   std::string root;
-  std::string kernels; /* a file, as it is named in messages */
-  std::string buffers; /* of the module's own; empty: the pipeline's alone */
+  std::string kernels; /* a file, by its name in messages */
+  std::string buffers; /* the module's own buffers; empty for the pipeline */
 };
 
-/* Rows in the order of the list; std::runtime_error names a row that does not fit. */
+/* The rows in the order of the list. Throws std::runtime_error that names an invalid row. */
 std::vector<KernelRow> kernel_rows(const Lists &lists);
 
 } // namespace embed

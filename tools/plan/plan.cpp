@@ -1,4 +1,4 @@
-/* plan.cpp - `tandem plan`: what a scene needs, and what is left out for it. */
+/* plan.cpp - `tandem plan`: prints what a scene needs, and what specialisation omits. */
 #include <algorithm>
 #include <memory>
 
@@ -32,7 +32,7 @@ constexpr Feature feature_rows[] = {
 #undef FEATURE
 };
 
-/* The scene's world beside one that has everything: the difference is what specialising saves. */
+/* The scene's world and one with all features; the difference is what specialisation saves. */
 struct Plan {
   World &chosen;
   World &everything;
@@ -44,7 +44,7 @@ struct Plan {
   }
   bool has(int feature) const { return (chosen.features() & feature_of_index(feature)) != 0; }
   std::string flags() const { return fmt::format("-D FEATURES={:#x}ul", chosen.features()); }
-  /* The broadphase, and why it was chosen where that was left to us. */
+  /* The broadphase, and the reason for it if it was chosen automatically. */
   std::string broadphase_text(Broadphase wanted, const std::string &on) const
   {
     const std::string why = wanted == Broadphase::automatic
@@ -80,7 +80,7 @@ Json kernels_json(const Plan &plan)
   return list;
 }
 
-/* Bytes of a buffer left out: what it would take with every feature. */
+/* For a buffer that is omitted, the bytes are those that it would take with every feature. */
 Json buffers_json(const Plan &plan)
 {
   Json list = Json::array();
@@ -117,7 +117,7 @@ void print_features(const Plan &plan)
   fmt::print("{}\nflags: {}\n\n", table.text("  "), plan.flags());
 }
 
-/* "name name name", broken into lines of at most 100 columns. */
+/* Breaks names into lines of at most 100 columns. */
 std::string wrapped(const std::vector<std::string> &names, const std::string &indent)
 {
   std::string text, line;

@@ -1,4 +1,4 @@
-/* chart.cpp - see chart.h. */
+/* chart.cpp - lays out axes, series and legend and writes them as SVG; see chart.h. */
 #include "tools/plot/chart.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace tandem {
 namespace {
 
 constexpr double left = 72, right = 20, top = 34, bottom = 50, legend_row = 20,
-                 letter = 6.6; /* px; letter: mean width of one */
+                 letter = 6.6; /* px; letter: mean width of a letter */
 
-/* One axis laid on pixels. */
+/* One axis, mapped to pixels. */
 class Ruler {
 public:
   Ruler(const ChartAxis &axis, std::vector<double> values, double from, double to)
@@ -44,7 +44,7 @@ public:
   std::vector<double> ticks() const { return ticks_of(low_, high_, scale_); }
 
 private:
-  /* Out to the next 1, 2 or 5, and over at least half a decade: noise must not fill a chart. */
+  /* Extends the range to the next 1, 2 or 5, and to at least half a decade, so that noise does not fill a chart. */
   void widen_to_ticks()
   {
     if (high_ < low_ * 3) {
@@ -138,7 +138,7 @@ std::string levels_text(const Chart &chart, const Frame &frame)
   return text;
 }
 
-/* A marker round (0, 0); which of five goes with which series is part of telling them apart. */
+/* A marker around (0, 0). Series differ in which of five markers they have. */
 std::string marker_text(size_t series, bool hollow)
 {
   static constexpr std::array<const char *, 5> shapes = {
@@ -212,7 +212,7 @@ struct Legend {
   double height = 0;
 };
 
-/* Entries one after the other, a new row where the width is used up. */
+/* Entries follow each other, and a new row begins when the width is used up. */
 Legend legend_of(const Chart &chart)
 {
   Legend legend;

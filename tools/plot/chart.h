@@ -1,4 +1,4 @@
-/* chart.h - line charts as self-contained SVG: what `tandem report` and `tandem stability` draw.
+/* chart.h - line charts as self-contained SVG, for `tandem report` and `tandem stability`.
  *
  *   y  10⁻² |  o                      ringed, dashed: the Pareto front (nothing is both faster and better)
  *           |   `--o---.              every point is a <g> with a <title>: browsers show it on hover
@@ -6,8 +6,8 @@
  *           +-----|-----|-----|  x
  *              0.1     1     10       ticks 1, 2, 5 or decades
  *
- * Colours: Okabe and Ito's palette, told apart by colour-blind readers, of which those that read on white and on
- * black alike are kept. Text and axes take the colour of their surroundings, so pages may be dark or light.
+ * The colours are those of Okabe and Ito's palette, which colour-blind readers can distinguish, that are legible on
+ * white and on black. Text and axes take the colour of their surroundings, so pages may be dark or light.
  */
 #pragma once
 
@@ -36,11 +36,11 @@ struct ChartSeries {
 struct ChartAxis {
   std::string label;
   AxisScale scale = AxisScale::linear;
-  /* Widened to these if given; else to the data. On a logarithmic axis above 0. */
+  /* The axis includes these values if given, and always the data. On a logarithmic axis they must be above 0. */
   std::optional<double> lowest = std::nullopt, highest = std::nullopt;
 };
 
-/* A horizontal line with its name at its right end: a bound to keep, a figure to reach. */
+/* A horizontal line with its name at its right end, such as a bound or a target. */
 struct ChartLevel {
   double y;
   std::string name;
@@ -54,20 +54,20 @@ struct Chart {
   double width = 760, height = 420; /* px, without the legend, which goes below */
 };
 
-/* Values that a logarithmic axis cannot show (0 and less) lie on its lower end, hollow, with their true values in the
- * note; points that are not finite are left out and counted under the chart. */
+/* Values that a logarithmic axis cannot show (0 and less) are drawn hollow at its lower end, with their true values in
+ * the note. Points that are not finite are omitted and counted under the chart. */
 std::string svg_of(const Chart &chart);
-/* One picture of several charts, each below the one before. */
+/* One picture of several charts, one below the other. */
 std::string svg_of(const std::vector<Chart> &charts);
 
-/* Where an axis over [low, high] is ticked: multiples of 1, 2 or 5 times a power of ten, or decades. low < high; at
- * most about ten. */
+/* The ticks of an axis over [low, high]: multiples of 1, 2 or 5 times a power of ten, or decades. Requires low < high;
+ * there are at most about ten. */
 std::vector<double> ticks_of(double low, double high, AxisScale scale);
 
-/* The colour of the k-th series, "#rrggbb"; they repeat after seven, with other markers. */
+/* The colour of the k-th series, "#rrggbb"; colours repeat after seven, with other markers. */
 std::string series_color(size_t k);
 
-/* "0.002", "5", "10⁻⁷": short, for ticks. */
+/* A short text for ticks, such as "0.002", "5" or "10⁻⁷". */
 std::string tick_text(double value);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* image.cpp - see image.h. */
+/* image.cpp - casts rays, shades hits and writes PNG; see image.h. */
 #include "tools/plot/image.h"
 
 #include <algorithm>
@@ -34,14 +34,14 @@ Vec3 vec3_of(const Vector &v) { return {float(v[0]), float(v[1]), float(v[2])}; 
 
 const Vector to_light = unit({0.5, 1.0, 0.35});
 constexpr Vector ground_color{0.62, 0.64, 0.66};
-/* Told apart by colour-blind readers too (Okabe and Ito). */
+/* Colour-blind readers can distinguish these colours (Okabe and Ito). */
 constexpr Vector body_colors[] = {{0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.00, 0.62, 0.45}, {0.94, 0.89, 0.26},
                                   {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.47, 0.65}};
 
-/* The axes of a picture: where the middle of a pixel lies on a plane at distance 1. */
+/* The axes of a picture, which give the position of a pixel's middle on a plane at distance 1. */
 struct Frame {
   Vector forward, right, up;
-  double scale; /* of the height's half */
+  double scale; /* of half the height */
 
   explicit Frame(const Camera &camera)
   {
@@ -72,8 +72,8 @@ Vector sky(const Vector &direction)
   return mixed({0.93, 0.95, 0.97}, {0.55, 0.70, 0.88}, std::clamp(1.6 * unit(direction)[1], 0.0, 1.0));
 }
 
-/* Squares of a metre on what does not move, so that sizes can be read; fainter where they would be smaller than a
- * pixel. */
+/* Fixed bodies have a checker pattern of one metre, so that sizes can be read; it fades where a square would be smaller
+ * than a pixel. */
 Vector color_of(const Scene &scene, const RayHit &hit, double distance)
 {
   const Body &body = scene.bodies[hit.body];
@@ -89,7 +89,7 @@ Vector lit(const Vector &color, const Vector &normal, bool in_shadow)
   return plus({0, 0, 0}, color, 0.25 + 0.2 * above + 0.6 * direct);
 }
 
-/* The colours along rays from the eye; those that hit nothing show the sky. */
+/* The colours along rays from the eye; rays that hit nothing show the sky. */
 std::vector<Vector> colors_along(World &world, const std::vector<Ray> &rays)
 {
   const std::vector<RayHit> hits = world.cast_rays(rays);
@@ -114,7 +114,7 @@ std::vector<Vector> colors_along(World &world, const std::vector<Ray> &rays)
   return colors;
 }
 
-/* A pixel that differs from a neighbour lies on an edge. */
+/* A pixel that differs from a neighbour is on an edge. */
 std::vector<uint32_t> edges_of(const std::vector<Vector> &colors, const Camera &camera)
 {
   std::vector<uint32_t> edges;
@@ -157,7 +157,7 @@ uint8_t byte_of(double light)
 
 } // namespace
 
-/* Large bodies are grounds and walls: they may stand out of the picture. */
+/* Large bodies are grounds and walls, which may extend beyond the picture. */
 Camera camera_for(World &world, uint32_t width, uint32_t height)
 {
   const Scene &scene = world.scene();

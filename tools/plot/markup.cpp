@@ -1,4 +1,4 @@
-/* markup.cpp - see markup.h. */
+/* markup.cpp - escapes the special characters of HTML and SVG; see markup.h. */
 #include "tools/plot/markup.h"
 
 namespace tandem {

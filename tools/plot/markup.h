@@ -1,11 +1,11 @@
-/* markup.h - text that goes into HTML and SVG. */
+/* markup.h - escapes text for HTML and SVG; charts and pages use it. */
 #pragma once
 
 #include <string>
 
 namespace tandem {
 
-/* & < > " ' written so that they stand for themselves, in text and in attributes. */
+/* Escapes & < > " ' for text and attributes. */
 std::string escaped(const std::string &text);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* page.cpp - see page.h. */
+/* page.cpp - writes the HTML, style and script of a page; see page.h. */
 #include "tools/plot/page.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 /* page.h - a self-contained HTML page: sections, sortable tables, charts, the commands that made it.
  *
- * One file that opens offline: style, script and pictures are inside, nothing is fetched. Sorting takes a dozen lines
- * of script at the end; without script the tables stand as they were written.
+ * It is one file that opens offline: style, script and pictures are inside, and nothing is fetched. Sorting takes a
+ * dozen lines of script at the end; without script the tables keep the order in which they were written.
  */
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace tandem {
 
-/* One cell: its text, and what it is sorted by if that is a number. */
+/* One cell: its text, and the number by which it is sorted, if there is one. */
 struct PageCell {
   PageCell(std::string words) : text(std::move(words)) {}
   PageCell(const char *words) : text(words) {}
@@ -33,7 +33,7 @@ struct PageTable {
 
 class Page {
 public:
-  /* `introduction` and all paragraphs are text; html() is not. */
+  /* `introduction` and all paragraphs are plain text, which is escaped; html() is not escaped. */
   Page(std::string title, std::string introduction);
 
   void section(const std::string &title);    /* level 2, listed in the contents */
@@ -41,8 +41,8 @@ public:
   void paragraph(const std::string &text, const std::string &style_class = "");
   void chart(const Chart &chart);
   void table(const PageTable &table);
-  void commands(const std::vector<std::string> &lines); /* as they would be typed, in one block */
-  void html(const std::string &markup);                 /* as it is: an image as data:, a picture as SVG */
+  void commands(const std::vector<std::string> &lines); /* in the form of a command line, in one block */
+  void html(const std::string &markup);                 /* not escaped: an image as data:, a picture as SVG */
 
   std::string text() const;
 

@@ -1,4 +1,4 @@
-/* cases.cpp - see cases.h. */
+/* cases.cpp - the tables of metrics and cases, and the grids of settings; see cases.h. */
 #include "tools/report/cases.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ template <class Row> std::string names_in(const Row &rows)
 
 uint32_t &knob_of(Settings &settings, bool substeps) { return substeps ? settings.substeps : settings.iterations; }
 
-/* A solver's own amount of work, as it asks for, times `factor` on its knob. */
+/* A solver's default work, times `factor` on its own setting (substeps or iterations). */
 Settings with_work(const std::string &solver, double factor, float step = base_step)
 {
   Settings settings = settings_for(parse_setting<Solver>(solver));
@@ -62,7 +62,7 @@ Settings with_work(const std::string &solver, double factor, float step = base_s
   return settings;
 }
 
-/* Some of its own work moved to the other knob: several passes a substep, or several substeps of fewer passes. */
+/* Moves some of the work to the other setting: several passes a substep, or several substeps of fewer passes. */
 Settings with_other_knob(const std::string &solver, uint32_t count)
 {
   Settings settings = settings_for(parse_setting<Solver>(solver));
@@ -73,7 +73,7 @@ Settings with_other_knob(const std::string &solver, uint32_t count)
   return settings;
 }
 
-/* Small factors may give the same settings. */
+/* Different small factors may give the same settings. */
 std::vector<Settings> without_repetition(const std::vector<Settings> &all)
 {
   std::vector<Settings> grid;

@@ -1,4 +1,5 @@
-/* cases.h - what the report simulates, how long, and by which error it is judged; and the settings that it tries. */
+/* cases.h - the scenes that the report simulates, their durations and metrics, and the grids of settings that it
+ * tries. */
 #pragma once
 
 #include <span>
@@ -28,7 +29,7 @@ struct MetricName {
 };
 std::span<const MetricName> metric_names();
 const MetricName &name_of(Metric metric);
-Metric metric_named(const std::string &name); /* InputError lists them */
+Metric metric_named(const std::string &name); /* InputError lists the names */
 
 enum class Grid { quick, coarse, full }; /* how many settings of a solver are tried */
 
@@ -38,23 +39,26 @@ struct ReportCase {
   double duration, quick_duration; /* s */
   Metric metric;
   uint32_t refinement =
-      64; /* the truth's time step is 1/60 s divided by it; 0: too large for a reference, and judged without */
+      64; /* the reference solution's time step is 1/60 s divided by it; 0: the scene is too large for one */
   Grid grid = Grid::full; /* unless the report is quick */
 };
 std::span<const ReportCase> report_cases();
-const ReportCase &report_case_named(const std::string &name); /* InputError lists them */
+const ReportCase &report_case_named(const std::string &name); /* InputError lists the names */
 
-/* Around the substeps and iterations that the solver asks for: an eighth to eight times on its own knob (substeps if it
- * wants several, else iterations), some of the work on the other, and other time steps. Coarse: a quarter to four
- * times, and the other knob. Quick: a quarter, its own, four times, and the other knob. */
+/* The grid is centred on the solver's default substeps and iterations. Full: an eighth to eight times on its own
+ * setting (substeps if its default has several, else iterations), some of the work on the other setting, and other time
+ * steps. Coarse: a quarter to four times, and the other setting. Quick: a quarter, the default, four times, and the
+ * other setting. */
 std::vector<Settings> settings_grid(const std::string &solver, Grid size);
 
-/* The time step all others are multiples or fractions of by a power of two: their times then agree to the bit. */
+/* All other time steps are multiples or fractions of this one by a power of two, so that their times agree to the
+ * bit. */
 inline constexpr float base_step = 1.0f / 60.0f;
 
-/* "8 substeps", "4 substeps of 2 iterations", "20 iterations, dt 1/120 s": what differs from one pass in 1/60 s. */
+/* What differs from one pass in 1/60 s, such as "8 substeps", "4 substeps of 2 iterations" or "20 iterations, dt 1/120
+ * s". */
 std::string short_text(const Settings &settings);
-/* "1/60", "1/120", ...: as --dt takes it. */
+/* "1/60", "1/120", ..., in the form that --dt accepts. */
 std::string step_text(const Settings &settings);
 
 } // namespace tandem

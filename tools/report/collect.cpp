@@ -1,4 +1,4 @@
-/* collect.cpp - see collect.h. */
+/* collect.cpp - plans, runs and evaluates the scenes of a report; see collect.h. */
 #include "tools/report/collect.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::string date_text()
   return text;
 }
 
-/* Counts what is done in estimated milliseconds, so that the bar knows a long run from a short one. */
+/* Counts progress in estimated milliseconds, so that the bar weighs long runs more than short ones. */
 class Work {
 public:
   explicit Work(double seconds) : progress_("reporting", milliseconds(seconds)) {}
@@ -57,7 +57,7 @@ uint32_t refinement_of(const ReportCase &source, bool quick)
   return quick ? std::min(source.refinement, 16u) : source.refinement;
 }
 
-/* A scene that waits to be run, with what its runs will cost. */
+/* A planned scene, with the estimated cost of its runs. */
 struct Planned {
   SceneReport report;
   uint32_t refinement;
@@ -97,7 +97,7 @@ std::vector<Planned> plan_scenes(const ReportRequest &request)
   return plans;
 }
 
-/* Nothing is timed meanwhile, so all truths go at once. */
+/* Nothing is timed during these runs, so all reference solutions are computed at once. */
 double truth_seconds(const std::vector<Planned> &plans)
 {
   double sum = 0, longest = 0;
@@ -123,7 +123,7 @@ void find_truths(std::vector<Planned> &plans)
   });
 }
 
-/* The errors on the fastest backend, the time on each. */
+/* The errors are computed on the fastest backend, the time on each. */
 void run_scene(Planned &plan, const ReportRequest &request, Work &work)
 {
   SceneReport &report = plan.report;
@@ -195,7 +195,7 @@ void collect_rounding(Report &report)
   rounding.far_table = measure_rounding(moved(scene, rounding.far), request);
 }
 
-/* "1 mm", "0.001 rad", "1e-06": a wished error as one says it. */
+/* A target error in readable form: "1 mm", "0.001 rad", "1e-06". */
 std::string amount_text(double value, const std::string &unit)
 {
   if (unit != "m") return unit == "relative" ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
@@ -205,7 +205,7 @@ std::string amount_text(double value, const std::string &unit)
   return fmt::format("{:.3g} nm", value * 1e9);
 }
 
-/* "RMS" is read letter by letter: an R. */
+/* "RMS" is pronounced letter by letter, so it takes "an". */
 const char *article_of(const std::string &label)
 {
   return std::string("aeiouR").find(label.front()) == std::string::npos ? "a" : "an";
@@ -230,7 +230,7 @@ std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double un
   for (const double target_error : sensible_wishes(points, most_picks)) {
     const auto run = cheapest_within(points, target_error);
     if (target_error < uncertainty || !run) continue;
-    if (!picks.empty() && picks.back().run == *run) picks.pop_back(); /* the same setting keeps a finer error too */
+    if (!picks.empty() && picks.back().run == *run) picks.pop_back(); /* the same setting also keeps the finer error */
     picks.push_back({target_error, *run});
   }
   return picks;
@@ -281,7 +281,7 @@ Report collect_report(const ReportRequest &request)
   report.machine = machine_text();
   report.date = date_text();
   for (const std::string &backend : request.backends)
-    make_backend(backend); /* a bad name is said before anything runs */
+    make_backend(backend); /* reports a bad name before anything runs */
   std::vector<Planned> plans = plan_scenes(request);
   report.estimate = estimate_text(plans, request);
   if (!plans.empty()) fmt::print(stderr, "{}\n", report.estimate);

@@ -1,4 +1,5 @@
-/* collect.h - runs everything that a report shows. What it finds is plain data; page.cpp and data.cpp write it down. */
+/* collect.h - runs everything that a report shows. The results are plain data; report_page.cpp and data.cpp write
+ * them. */
 #pragma once
 
 #include <string>
@@ -15,14 +16,14 @@ struct ReportRequest {
   bool quick = false;
   std::vector<const ReportCase *> cases;
   std::vector<std::string> solvers;
-  std::vector<std::string> backends; /* every scene on each; contact problems on the first */
+  std::vector<std::string> backends; /* every scene runs on each; contact problems on the first */
   std::optional<Metric> metric;      /* instead of each scene's own */
   std::vector<std::string> problems; /* files of contact problems */
   bool with_problems = true, with_rounding = true;
   std::string command; /* as it was typed */
 };
 
-/* The setting to take for a wished error. */
+/* The setting to choose for a target error. */
 struct Pick {
   double target_error;
   size_t run;
@@ -45,7 +46,7 @@ struct SceneReport {
   std::vector<BackendRuns> backends;
   std::vector<EqualError> equal_errors;
 
-  /* Errors below this say nothing: the truth itself is not known better. */
+  /* Errors below this are not significant, because the reference solution itself is not known more exactly. */
   double uncertainty() const;
 };
 
@@ -71,20 +72,19 @@ struct Report {
   std::vector<ContactCurve> contact_curves;
   RoundingReport rounding;
   std::string machine, date;
-  std::string estimate; /* what was said of the time before it started */
+  std::string estimate; /* the estimate that was printed before the start */
 
-  size_t unequal() const; /* runs that do not end in the bits of the backend that was observed */
+  size_t unequal() const; /* runs whose final bits differ from those of the backend on which errors were computed */
 };
 
-/* InputError for what a user got wrong. Says first on standard error how long it will take, and shows a progress
- * bar. */
+/* Throws InputError for bad input. Prints on standard error how long the report will take, and shows a progress bar. */
 Report collect_report(const ReportRequest &request);
 
-/* Scenes with all their runs, in the request's order; what collect_report does of it, without a word. */
+/* The part of collect_report that runs scenes, in the request's order, without any output. */
 std::vector<SceneReport> collect_scenes(const ReportRequest &request);
 
-/* Marks the runs on the Pareto front of cost against `metric`, and finds what to pick; wishes finer than `uncertainty`
- * are left out. */
+/* Marks the runs on the Pareto front of cost against `metric`, and selects settings; targets finer than `uncertainty`
+ * are omitted. */
 std::vector<Pick> pick_settings(std::vector<Run> &runs, Metric metric, double uncertainty);
 
 /* "For a position error of at most 1 mm take pgs with 1 substep, 8 iterations (0.12 ms for 1/60 s); for ..." */

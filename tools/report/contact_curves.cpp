@@ -1,4 +1,4 @@
-/* contact_curves.cpp - see contact_curves.h. */
+/* contact_curves.cpp - solves the contact problems of a report; see contact_curves.h. */
 #include "tools/report/contact_curves.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double wished_residual = 1e-8;
 constexpr size_t most_points = 60;
 
-/* Time is that of the whole solve, shared out evenly: every sweep of a solver does the same work. */
+/* The time of the whole solve is distributed evenly, because every sweep of a solver does the same work. */
 ContactCurve curve_of(const std::string &problem, const std::string &solver, const ContactSolution &solution)
 {
   ContactCurve curve{problem, solver, {}};

@@ -1,4 +1,4 @@
-/* data.cpp - see data.h. */
+/* data.cpp - writes CSV and JSON; see data.h. */
 #include "tools/report/data.h"
 
 #include <cmath>
@@ -8,7 +8,8 @@
 namespace tandem {
 namespace {
 
-/* Numbers written so that they read back as they are; what is not finite is empty in CSV and null in JSON. */
+/* Numbers are written so that they are read back exactly; a number that is not finite is empty in CSV and null in
+ * JSON. */
 std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : ""; }
 Json json_number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -58,7 +59,7 @@ Json run_json(const Run &run)
   return json;
 }
 
-/* Backend by backend in one list; `picks` count within their backend. */
+/* The runs of all backends in one list; `picks` are indices within their backend. */
 Json runs_json(const SceneReport &scene)
 {
   Json list = Json::array();

@@ -1,4 +1,4 @@
-/* equal_error.cpp - see equal_error.h. */
+/* equal_error.cpp - chooses levels of error and the cheapest run for each; see equal_error.h. */
 #include "tools/report/equal_error.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ std::vector<std::string> solvers_in(const std::vector<std::vector<Run>> &by_back
 
 std::optional<size_t> cheapest_of(const std::vector<Run> &runs, const std::string &solver, Metric metric, double level)
 {
-  std::vector<Tradeoff> points; /* those of other solvers are not finite, and so never chosen */
+  std::vector<Tradeoff> points; /* not finite for runs of other solvers, which are therefore never chosen */
   for (const Run &run : runs) points.push_back({run.solver == solver ? run.cost() : NAN, run.error(metric)});
   return cheapest_within(points, level);
 }

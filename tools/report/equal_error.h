@@ -1,9 +1,9 @@
-/* equal_error.h - who is fastest at the same error: for a few round levels the cheapest setting of each solver on each
- * backend.
+/* equal_error.h - compares solvers at the same error: for a few round levels the cheapest setting of each solver on
+ * each backend.
  *
  *   error |  .a  .b                 level 10 mm:  a 0.1 ms, b 0.2 ms
  *         |---\---\-------- 10 mm   level  1 mm:  a -       b 0.8 ms
- *         |    `.  \                where a curve crosses no level its solver does not reach that error
+ *         |    `.  \                a solver whose curve does not cross a level does not reach that error
  *         |---------\------  1 mm
  *         +-------------- ms
  */
@@ -24,9 +24,9 @@ struct EqualError {
       runs; /* for each backend the cheapest, as an index into its runs; nothing where none keeps the error */
 };
 
-/* Powers of ten from the coarsest error on the common front to the finest, none finer than `finest`; of more than five,
- * five spread evenly. `by_backend` holds the runs of each backend; level by level, within each solver by solver as they
- * first occur. */
+/* Levels are powers of ten from the coarsest error on the common front to the finest, none finer than `finest`; of more
+ * than five, five are chosen evenly. `by_backend` holds the runs of each backend. The rows are ordered by level, then
+ * by solver in the order of first occurrence. */
 std::vector<EqualError> equal_errors(const std::vector<std::vector<Run>> &by_backend, Metric metric, double finest);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* estimate.cpp - see estimate.h. */
+/* estimate.cpp - times a few steps from the middle of a scene and extrapolates; see estimate.h. */
 #include "tools/report/estimate.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 constexpr int timed_steps = 2;
 
-/* Of a step, ms: the first, which sizes buffers and builds kernels, is left out. 0 where the simulation breaks down:
- * the run itself will say so. */
+/* The time of a step in ms. The first step, which sizes buffers and builds kernels, is omitted. The result is 0 if the
+ * simulation fails, which the run itself will report. */
 double step_time(const Scene &scene, const Settings &settings, const std::string &backend)
 {
   try {
@@ -34,7 +34,7 @@ double step_time(const Scene &scene, const Settings &settings, const std::string
 Scene at_half_time(Scene scene, double duration, const std::string &backend)
 {
   World world(scene, Settings{}, Placement{backend, {}, false});
-  for (size_t step = 0; step < frames_in(duration); ++step) world.step(); /* of half a frame each */
+  for (size_t step = 0; step < frames_in(duration); ++step) world.step(); /* half a frame each */
   const std::vector<BodyState> states = world.bodies();
   if (world.statistics().nonfinite > 0) return scene;
   for (size_t i = 0; i < states.size(); ++i) {
@@ -55,7 +55,7 @@ double SceneEstimate::run_seconds(size_t backend, const Settings &settings, doub
   const auto solver =
       static_cast<size_t>(std::find(solvers.begin(), solvers.end(), name_of(settings.solver)) - solvers.begin());
   const double steps = duration / double{settings.step},
-               beside_passes = 0.3; /* share of a step that does not grow with them */
+               beside_passes = 0.3; /* share of a step that does not grow with the passes */
   return 1e-3 * steps * step_milliseconds[backend][solver] * (beside_passes + (1 - beside_passes) * passes);
 }
 

@@ -1,4 +1,4 @@
-/* experiment.cpp - see experiment.h. */
+/* experiment.cpp - runs a scene, times its steps and computes its errors frame by frame; see experiment.h. */
 #include "tools/report/experiment.h"
 
 #include <algorithm>
@@ -26,13 +26,13 @@ bool only_gravity_acts(const Scene &scene)
                      [](const Body &body) { return body.type == BodyType::dynamic; });
 }
 
-/* A quarter of the steps of a frame of 1/30 s at least: 1/30 s itself is a whole number of every step in the grids. */
+/* Steps of all grids divide a frame of 1/30 s evenly. */
 uint64_t steps_in_frame(const Settings &settings)
 {
   return static_cast<uint64_t>(std::llround(frame_time / double{settings.step}));
 }
 
-/* What is gathered over the frames of a run. */
+/* The errors accumulated over the frames of a run. */
 class Observation {
 public:
   Observation(const Scene &scene, const Truth &truth) : scene_(scene), truth_(truth) {}
@@ -73,8 +73,8 @@ public:
   }
 
 private:
-  /* Gravity turns momentum by M g t, which is known, and angular momentum about the origin by a torque that depends on
-   * the path; so the latter is taken about the common centre of mass. */
+  /* Gravity changes momentum by M g t, which is known, and angular momentum about the origin by a torque that depends
+   * on the path. Angular momentum is therefore taken about the common centre of mass. */
   void write_drift(Run &run) const
   {
     run.momentum_drift = run.angular_momentum_drift = undefined;
@@ -104,7 +104,7 @@ private:
     return states;
   }
 
-  /* Momentum, and angular momentum about the common centre of mass: bodies moved so that it is the origin. */
+  /* Momentum, and angular momentum about the common centre of mass, to which the bodies are translated. */
   std::pair<Array, Array> about_center(PreciseBodies states) const
   {
     Array center{};
@@ -168,7 +168,7 @@ Run empty_run(const Settings &settings, const std::string &backend)
   return run;
 }
 
-/* What goes wrong in a simulation is a finding of the report; what a user got wrong is not. */
+/* A failing simulation is a result of the report; an error of the user is not, and is thrown. */
 void run_or_fail(Run &run, const std::function<void()> &run_it)
 {
   try {
@@ -180,7 +180,7 @@ void run_or_fail(Run &run, const std::function<void()> &run_it)
   }
 }
 
-/* Time, backend and front are its own. */
+/* Copies the errors of another run; time, backend and front stay its own. */
 void take_errors(Run &run, const Run &observed)
 {
   run.errors = observed.errors;

@@ -1,4 +1,4 @@
-/* pareto.cpp - see pareto.h. */
+/* pareto.cpp - the front, by a sort and one pass; see pareto.h. */
 #include "tools/report/pareto.h"
 
 #include <algorithm>

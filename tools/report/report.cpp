@@ -151,12 +151,12 @@ ReportRequest request_of(const ReportOptions &options)
     request.problems =
         options.problems.empty() ? usual_contact_problems(options.quick) : list_of("--problems", options.problems);
   for (const std::string &file : request.problems)
-    read_contact_problem(file); /* a bad one is said before anything runs */
+    read_contact_problem(file); /* reports a bad file before anything runs */
   request.command = typed(options);
   return request;
 }
 
-/* Refused before minutes are spent on what could not be written. */
+/* A folder that cannot be written is refused before minutes are spent on results. */
 void prepare_folder(const std::string &folder, DistinctFiles &files)
 {
   std::error_code error;

@@ -1,4 +1,4 @@
-/* report_page.cpp - see report_page.h. */
+/* report_page.cpp - composes the page of a report; see report_page.h. */
 #include "tools/report/report_page.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string note_of(const Run &run)
   return fmt::format("{} on {}: {:.3g} ms per step", short_text(run.settings), run.backend, run.step_milliseconds);
 }
 
-/* Which of a solver's points its line joins: its own front; points aside would only make it zigzag. */
+/* The line of a solver joins only the points of its own front, because the others would make it zigzag. */
 ChartSeries series_of(const std::string &name, const std::vector<const Run *> &runs, Metric metric)
 {
   std::vector<Tradeoff> points;
@@ -53,7 +53,7 @@ template <class Key> std::vector<ChartSeries> series_by(const std::vector<Run> &
   return series;
 }
 
-/* All diagrams of a scene have the same axis of time, so that backends can be compared by eye. */
+/* All diagrams of a scene have the same time axis, so that backends can be compared by eye. */
 ChartAxis time_axis(const SceneReport &scene)
 {
   ChartAxis axis{"ms for 1/60 s of simulated time", AxisScale::logarithmic};
@@ -152,7 +152,7 @@ std::string truth_text(const SceneReport &scene)
   return text;
 }
 
-/* Where errors come from, and whether every other backend agrees. */
+/* On which backend errors were computed, and whether all other backends agree with it. */
 std::string equality_text(const SceneReport &scene)
 {
   size_t equal = 0, unequal = 0;
@@ -272,7 +272,7 @@ void add_rounding(Page &page, const RoundingReport &rounding)
   page.table(decisions);
 }
 
-/* The scenes, solvers and parts that the request leaves out: nothing goes missing unsaid. */
+/* The scenes, solvers and parts that the request omits, so that the page says what is missing. */
 std::vector<std::string> left_out_of(const ReportRequest &request)
 {
   std::vector<std::string> names;

@@ -1,4 +1,4 @@
-/* truth.cpp - see truth.h. */
+/* truth.cpp - runs the reference at three refinements and from a perturbed start; see truth.h. */
 #include "tools/report/truth.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::vector<PreciseBodies> run_reference(const Scene &scene, double duration, ui
   return frames;
 }
 
-/* Moves the first dynamic body aside; returns how far. */
+/* Displaces the first dynamic body; returns the distance. */
 double nudge(Scene &scene)
 {
   for (Body &body : scene.bodies) {
@@ -54,7 +54,7 @@ size_t frames_together(const Scene &scene, const std::vector<PreciseBodies> &one
   return one.size();
 }
 
-/* How many frames two runs are within `bound` of each other in the mean. */
+/* The number of frames for which two runs differ by at most `bound` in the mean. */
 size_t frames_resolved(const Scene &scene, const std::vector<PreciseBodies> &one,
                        const std::vector<PreciseBodies> &other)
 {
@@ -66,7 +66,8 @@ size_t frames_resolved(const Scene &scene, const std::vector<PreciseBodies> &one
   return one.size();
 }
 
-/* Positions and velocities as known exactly; turns stay the reference's, for a closed form need not know them. */
+/* Positions and velocities are replaced by the exact ones; orientations stay those of the reference, because a closed
+ * form need not contain them. */
 void take_closed_form(const Scene &scene, Truth &truth)
 {
   for (size_t k = 0; k < truth.frames.size(); ++k) {
@@ -80,8 +81,8 @@ void take_closed_form(const Scene &scene, Truth &truth)
   }
 }
 
-/* Of the two finest runs' errors against the exact where it is known; else from the differences of three, each of half
- * the step. */
+/* The order of convergence: from the errors of the two finest runs against the exact solution if it is known, else from
+ * the differences of three runs, each with half the step. */
 std::optional<double> order_of(const Scene &scene, const std::vector<PreciseBodies> (&runs)[3], const Truth &truth)
 {
   const double rounding = 1e-11;
@@ -106,7 +107,7 @@ Settings truth_settings(uint32_t refinement)
   settings.substeps = 1;
   settings.iterations = converged_iterations;
   settings.slop = 1e-6f;
-  settings.contact_hertz = 1e6f; /* held to a quarter of the step's rate */
+  settings.contact_hertz = 1e6f; /* limited to a quarter of the step rate */
   return settings;
 }
 

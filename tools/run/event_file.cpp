@@ -1,4 +1,5 @@
-/* event_file.cpp - see event_file.h. One event a line, so that other tools can read it by lines too. */
+/* event_file.cpp - see event_file.h. Each event is on a line of its own, so that other tools can read the file line by
+ * line. */
 #include "tools/run/event_file.h"
 
 #include <fmt/format.h>
@@ -23,8 +24,8 @@ std::string quoted(const std::string &text) { return Json(text).dump(-1, ' ', fa
 
 } // namespace
 
-/* Names one by one: a list of Json's would allocate in its destructor, and the process end there without memory, beside
- * a file half written. */
+/* Names are written one by one, because a Json list would allocate in its destructor; without memory the process would
+ * end there, with the file half written. */
 EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
     : file_(path, fmt::format("--events {}", path))
 {

@@ -1,5 +1,5 @@
-/* event_file.h - the contact events of a run as JSON, written step by step: a pile has as many in each step as it has
- * contacts. */
+/* event_file.h - writes the contact events of a run as JSON, step by step, because a pile has as many events in each
+ * step as it has contacts. */
 #pragma once
 
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace tandem {
 
 class EventFile {
 public:
-  /* InputError names --events where the file cannot be written. */
+  /* Throws InputError that names --events if the file cannot be written. */
   EventFile(const std::string &path, const std::string &scene, const World &world);
 
   void add_step(uint64_t step, World &world); /* the events of the step just made */
-  void finish();                              /* InputError where the disk did not take it all */
+  void finish();                              /* InputError if the disk is full or fails */
 
 private:
   OutputFile file_;

@@ -1,4 +1,4 @@
-/* run.cpp - `tandem run`: simulate a scene, say how long each stage took and what came out. */
+/* run.cpp - `tandem run`: simulates a scene and prints the time of each stage and the results. */
 #include <memory>
 #include <optional>
 
@@ -77,7 +77,7 @@ void check_files(const RunOptions &options, DistinctFiles &files)
   options.json.check(files);
 }
 
-/* The animation while it is recorded; nothing without --save. */
+/* The animation during recording; does nothing without --save. */
 class Recording {
 public:
   Recording(const std::string &path, World &world) : world_(world)
@@ -198,7 +198,7 @@ void print_outcome(const Outcome &outcome, World &world, const Placement &placem
   fmt::print("{}\n{}", stage_table(outcome.measurement), facts_table(outcome, world));
 }
 
-/* What a user must not miss, whatever else is printed. */
+/* Warnings are printed in any case, whatever else is. */
 void print_warnings(const Outcome &outcome, World &world, bool allow_quarantine)
 {
   for (const Quarantine &quarantine : world.quarantined())

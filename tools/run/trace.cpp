@@ -1,4 +1,4 @@
-/* trace.cpp - see trace.h. */
+/* trace.cpp - records launches and writes them as trace events; see trace.h. */
 #include "tools/run/trace.h"
 
 #include "host/runtime/interface/backend.h"

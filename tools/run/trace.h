@@ -1,7 +1,7 @@
-/* trace.h - the kernels of each step as a time line, in Chrome's trace-event JSON (chrome://tracing, Perfetto).
+/* trace.h - the kernels of each step as a timeline, in Chrome's trace-event JSON (chrome://tracing, Perfetto).
  *
- * Three tracks: steps, stages, kernels (one row per backend). To know when a launch ends the trace waits for
- * it, so a traced run is slower than a plain one.
+ * There are three tracks: steps, stages, kernels (one row per backend). The trace waits for the end of each launch to
+ * measure it, so a traced run is slower than a normal one.
  */
 #pragma once
 
@@ -17,7 +17,7 @@ namespace tandem {
 
 class Trace {
 public:
-  /* Observes `world` until destroyed, which must be before the world is. */
+  /* Observes `world` until destroyed; the world must outlive it. */
   explicit Trace(World &world);
   ~Trace();
   Trace(const Trace &) = delete;
@@ -44,7 +44,7 @@ private:
   uint64_t step_ = 0;
   std::map<std::string, uint32_t> tracks_;
   std::vector<Event> events_;
-  size_t stage_event_ = SIZE_MAX; /* the stage that is going on; SIZE_MAX: none */
+  size_t stage_event_ = SIZE_MAX; /* the current stage; SIZE_MAX: none */
 };
 
 } // namespace tandem

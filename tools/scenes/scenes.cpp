@@ -1,4 +1,4 @@
-/* scenes.cpp - `tandem scenes`: the built-in scenes and their parameters. */
+/* scenes.cpp - `tandem scenes`: lists the built-in scenes and their parameters. */
 #include <memory>
 
 #include <fmt/format.h>

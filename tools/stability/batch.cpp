@@ -1,4 +1,4 @@
-/* batch.cpp - see batch.h. */
+/* batch.cpp - orders the runs, executes them in parallel and reports progress; see batch.h. */
 #include "tools/stability/batch.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 struct Task {
   const Case *which;
   std::string solver;
-  uint64_t work; /* bodies times passes, with something for a step of few */
+  uint64_t work; /* bodies times passes, plus a constant for each step */
 };
 
 std::vector<Task> tasks_of(const Batch &batch)
@@ -33,7 +33,8 @@ std::vector<Task> tasks_of(const Batch &batch)
   return tasks;
 }
 
-/* One at a time they go as they are listed; several at once the longest first, so that none is left over at the end. */
+/* With one run at a time the order is that of the list. With several at once the longest come first, so that none is
+ * left over at the end. */
 std::vector<size_t> order_of(const std::vector<Task> &tasks, size_t at_once)
 {
   std::vector<size_t> order(tasks.size());
@@ -50,7 +51,7 @@ uint64_t total_work(const std::vector<Task> &tasks)
   return sum;
 }
 
-/* One bar for all threads. A case that is tried again with other settings is counted once. */
+/* One bar for all threads. A case that is repeated with other settings is counted once. */
 class SharedProgress {
 public:
   explicit SharedProgress(uint64_t total) : progress_("stability", total) {}

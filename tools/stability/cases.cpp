@@ -1,4 +1,4 @@
-/* cases.cpp - see cases.h. */
+/* cases.cpp - the list of all cases, scenes that several groups use, and bounds derived from rounding; see cases.h. */
 #include "tools/stability/cases.h"
 
 #include <algorithm>
@@ -111,7 +111,7 @@ void add_standing(Trial &trial, const Standing &bounds)
 
 namespace {
 
-constexpr double float_spacing = 0x1p-23; /* relative, at most */
+constexpr double float_spacing = 0x1p-23; /* the largest relative spacing of floats */
 
 const Settings &settings_used(const Trial &trial) { return trial.documented ? *trial.documented : trial.settings; }
 double substep_of(const Trial &trial) { return double(settings_used(trial).step) / settings_used(trial).substeps; }
@@ -145,7 +145,7 @@ double turn_by_rounding(const Trial &trial)
   return substeps_of(trial) * reach_of(trial.scene) * float_spacing / smallest_half_extent(trial.scene);
 }
 
-constexpr double stands = 0.05; /* rad or m: a pile that leans more does not stand, whatever made it */
+constexpr double stands = 0.05; /* rad or m: a pile that leans more does not stand, whatever the reason */
 
 } // namespace
 

@@ -1,4 +1,5 @@
-/* cases_degenerate.cpp - starts that should not happen, and geometry without a clear answer. */
+/* cases_degenerate.cpp - the group of cases with invalid initial states, such as deep overlap and lost bodies, and with
+ * ambiguous geometry. */
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,8 @@
 namespace tandem::stability {
 namespace {
 
-/* Pushing apart may lift: 20 J/kg is a heap 4 m high, lower than a thousand cubes of 1 m make without any gap. */
+/* Removing penetration may lift bodies. 20 J/kg is the energy of a heap 4 m high, which is lower than a heap of a
+ * thousand cubes of 1 m without gaps. */
 Trial one_place_trial(const Shape &shape, int n, Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 120));
@@ -17,7 +19,7 @@ Trial one_place_trial(const Shape &shape, int n, Length length)
   const int used = length == Length::brief ? 12 : length == Length::quick ? n / 5 : n;
   for (int i = 0; i < used; ++i) add_body(trial.scene, BodyType::dynamic, shape, {0, 0.5f, 0});
   trial.every = 5;
-  const double bound = length == Length::full ? 20 : 10; /* fewer have less to part */
+  const double bound = length == Length::full ? 20 : 10; /* fewer bodies have less overlap to remove */
   trial.checks.push_back(check("gain of energy", "J/kg", bound, energy_gain()));
   trial.checks.push_back(check("fastest", "m/s", bound, speed()));
   return trial;
@@ -43,7 +45,7 @@ Trial overlap_trial(Length length)
   return trial;
 }
 
-/* Free to slide for ever: a top speed says whether overlap turned into speed. */
+/* The boxes can slide forever, so the largest speed shows whether overlap was converted to speed. */
 Trial overlap_weightless_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
@@ -75,7 +77,7 @@ Trial many_on_one_trial(Length length)
   return trial;
 }
 
-/* Two layers of slabs that touch on all sides, in one plane with their neighbours. */
+/* Two layers of slabs that touch on all sides and are coplanar with their neighbours. */
 Trial coplanar_trial(Length length)
 {
   const int side = 6;
@@ -89,7 +91,7 @@ Trial coplanar_trial(Length length)
   return trial;
 }
 
-/* Over the seams of a fixed floor of tiles, without friction: nothing may slow the box or lift it. */
+/* A box slides over the seams of a fixed floor of tiles without friction; nothing may slow or lift it. */
 Trial seams_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 240, 240));
@@ -104,7 +106,7 @@ Trial seams_trial(Length length)
   return trial;
 }
 
-/* The boxes above the lost one fall by up to its size and come to rest. */
+/* The boxes above the quarantined one fall by up to its size and come to rest. */
 Trial poison_trial(Length length)
 {
   Trial trial = trial_of(load_scene("box-grid:nx=4,ny=4,nz=4"), steps_for(length, 300, 300));

@@ -1,5 +1,5 @@
-/* cases_mass_ratio.cpp - heavy on light and light on heavy: where iterations that pass impulses from body to body
- * converge worst. */
+/* cases_mass_ratio.cpp - the group of cases with large mass ratios, heavy on light and light on heavy, for which
+ * iterative solvers converge worst. */
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,8 @@
 namespace tandem::stability {
 namespace {
 
-/* Loads that springs of the stiffness in use hold beyond the slop, each against the effective mass of its contact. */
+/* The largest depth at which springs of the present stiffness hold the loads, beyond the slop, each relative to the
+ * effective mass of its contact. */
 double deepest_at_rest(const std::vector<float> &masses, const Settings &settings)
 {
   double load = 0, worst = 0;
@@ -32,7 +33,7 @@ Trial column_trial(const std::vector<float> &masses, double depth, uint32_t subs
   return trial;
 }
 
-/* depth: 0 where rounding alone bounds it. `substeps`, or `solver`: what the case needs beyond the defaults. */
+/* depth: 0 if only rounding bounds it. `substeps`, or `solver`: what the case needs beyond the defaults. */
 Case column_case(const std::string &name, const std::string &what, const std::vector<float> &masses, double depth,
                  uint32_t substeps = 0, const std::string &solver = "")
 {
@@ -56,7 +57,7 @@ void add_mass_ratio_cases(std::vector<Case> &cases)
   const double four_slops = 0.02;
   for (float ratio : {10.0f, 100.0f, 1000.0f, 10000.0f}) {
     const double depth =
-        ratio > 10 ? four_slops : deepest_at_rest({1, ratio}, {}); /* heavier ones overshoot where they rest */
+        ratio > 10 ? four_slops : deepest_at_rest({1, ratio}, {}); /* heavier bodies overshoot their rest depth */
     cases.push_back(column_case(fmt::format("heavy-on-light-{:.0f}", ratio),
                                 fmt::format("a cube of {:.0f} kg on one of 1 kg", ratio), {1, ratio}, depth,
                                 ratio > 1000  ? 64

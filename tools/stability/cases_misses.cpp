@@ -1,8 +1,8 @@
-/* cases_misses.cpp - what misses goes on, and what hits does not go through: movers past an edge, a corner, a mesh's
- * edge and a rotor.
+/* cases_misses.cpp - the group of cases of near misses and hits: movers pass an edge, a corner, a mesh's edge and a
+ * rotor. A mover that misses must go on, and one that hits must not pass through.
  *
- * Contacts are made ahead of touching, so that nothing is passed unseen within a step. A contact that is made where the
- * step would never touch acts as an endless plane: it stops what would have missed.
+ * Contacts are made speculatively, before shapes touch, so that no contact is missed within a step. A speculative
+ * contact of shapes that do not touch in the step acts as an infinite plane and stops a mover that should have missed.
  */
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ constexpr ObstacleName obstacles[] = {{Obstacle::edge, "edge", "the edge of a cu
                                       {Obstacle::mesh_edge, "mesh-edge", "the ridge of a mesh"},
                                       {Obstacle::rotor, "rotor", "the tips of a bar of 1 m that turns at 100 rad/s"}};
 
-/* Energy kept by one body of a lane, as a share of that at the start. */
+/* The energy that one body of a lane has kept, relative to its initial energy. */
 double kept(const Moment &moment, size_t body)
 {
   const Body &start = moment.scene().bodies[body];
@@ -33,7 +33,7 @@ double kept(const Moment &moment, size_t body)
   return energy > 0 ? kinetic_energy(moment.scene(), start, moment.bodies[body]) / energy : 1.0;
 }
 
-/* Over the lanes, and over both bodies of each; NaN stays. */
+/* The largest loss over the lanes and over both bodies of each; NaN is kept. */
 Figure largest_loss(const std::vector<Lane> &lanes)
 {
   return [lanes](const Moment &moment) {
@@ -47,7 +47,8 @@ Figure largest_loss(const std::vector<Lane> &lanes)
   };
 }
 
-/* One less the least change of velocity, as a share of the speed: 1 if a mover went on as if nothing were there. */
+/* One minus the smallest change of velocity relative to the speed, which is 1 if a mover went on as if nothing were
+ * there. */
 Figure least_deflected(const std::vector<Lane> &lanes)
 {
   return [lanes](const Moment &moment) {
@@ -72,8 +73,8 @@ double kinetic_energy_of(const Moment &moment, const Lane &lane, bool at_start)
   return sum;
 }
 
-/* Of one lane, both bodies together, as a share of what they had: a sum over all lanes would hide one gain behind the
- * losses. */
+/* The largest gain of one lane, of both bodies together, relative to their initial energy. A sum over all lanes would
+ * hide one gain behind the losses. */
 Figure largest_gain(const std::vector<Lane> &lanes)
 {
   return [lanes](const Moment &moment) {
@@ -86,7 +87,7 @@ Figure largest_gain(const std::vector<Lane> &lanes)
   };
 }
 
-/* Centres in front of the wall give 0. */
+/* A centre in front of the wall counts as 0. */
 Figure farthest_beyond(const std::vector<Lane> &lanes)
 {
   return [lanes](const Moment &moment) {
@@ -99,9 +100,9 @@ Figure farthest_beyond(const std::vector<Lane> &lanes)
   };
 }
 
-constexpr uint64_t steps = 40; /* the slowest are over the obstacle after 19 */
+constexpr uint64_t steps = 40; /* the slowest have passed the obstacle after 19 */
 
-/* Speeds do not change at all where there is no contact; what a user sees is a thousandth. */
+/* Without a contact the speed does not change at all; a user notices a thousandth. */
 Bound a_thousandth()
 {
   return Bound::promised(0.001, "what misses keeps 99.9% of its energy; without a contact it is all of it");
@@ -126,9 +127,9 @@ Bound gain_from_rounding()
                               "40 steps of 4 substeps, in each the spacing of floats of the energy");
 }
 
-/* Speeds at which something does not hold yet, and is not asserted: boxes at 300 m/s are carried past a wall, and past
- * an edge that they overlap by 1 cm; a box in the way of a rotor's tip is missed at 30 and 300 m/s; capsules gain
- * energy of spin at an edge. */
+/* Speeds at which a property does not hold yet and is not asserted: boxes at 300 m/s are carried past a wall, and past
+ * an edge that they overlap by 1 cm; a box in the path of a rotor's tip is missed at 30 and 300 m/s; capsules gain
+ * rotational energy at an edge. */
 struct NotYet {
   const char *name;
   std::vector<double> speeds;
@@ -148,9 +149,9 @@ std::vector<double> speeds_that_hold(const std::string &name)
   return speeds;
 }
 
-/* A graze takes what speed there is along the normal: a ball of 5 cm that overlaps an edge by 1 mm meets it at 11
- * degrees, and loses a fifth of its speed to a contact without friction and restitution. A rotor's tip leaves the way
- * of a fast mover before it has touched all of it. */
+/* A grazing contact removes the speed along the normal. A ball of 5 cm that overlaps an edge by 1 mm meets it at 11
+ * degrees, and loses a fifth of its speed to a contact without friction and restitution. The tip of a rotor leaves the
+ * path of a fast mover before the mover has passed. */
 Case graze_case(const Mover &mover, const ObstacleName &past)
 {
   const std::string name = fmt::format("graze-{}-{}", mover.name, past.name);

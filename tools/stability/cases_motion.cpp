@@ -1,4 +1,5 @@
-/* cases_motion.cpp - closed forms: flight, bounce, sliding, rolling, conservation; and speed against thin things. */
+/* cases_motion.cpp - the group of cases with closed forms (flight, bounce, sliding, rolling, conservation), and of fast
+ * bodies against thin ones. */
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -24,7 +25,7 @@ Trial flight_trial(Length length)
   return trial;
 }
 
-/* Worst relative error of the height after the first bounce, over balls of several restitutions and heights. */
+/* The worst relative error of the height after the first bounce, over balls of several restitutions and heights. */
 Figure rebound_error(const std::vector<double> &expected, double radius)
 {
   auto rebound = std::make_shared<std::vector<double>>(expected.size(), 0.0);
@@ -36,7 +37,7 @@ Figure rebound_error(const std::vector<double> &expected, double radius)
       if ((*rebound)[i] == 0 && speed > 0) (*rebound)[i] = ball.position[1] - radius + speed * speed / (2 * g);
       worst = std::max(worst, std::abs((*rebound)[i] / expected[i] - 1));
     }
-    return worst; /* 1 until all have bounced */
+    return worst; /* 1 until all balls have bounced */
   };
 }
 
@@ -71,7 +72,7 @@ Trial elastic_trial(Length length)
   return trial;
 }
 
-/* Balls and boxes thrown at one another, alone in space. */
+/* Balls and boxes thrown at one another in empty space. */
 Trial closed_system_trial(Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
@@ -91,7 +92,7 @@ Trial closed_system_trial(Length length)
   return trial;
 }
 
-/* A flat box on a ramp of its own, both turned about z. */
+/* A flat box on a ramp of its own, both rotated about z. */
 void add_incline(Scene &scene, uint32_t material, double angle, double z)
 {
   const Quat turn = turn_about({0, 0, 1}, angle);
@@ -110,7 +111,7 @@ const std::vector<double> &coefficients()
   return values;
 }
 
-/* Ramps at atan mu - 4 to + 4 degrees, a quarter apart. Slipping: the box has moved by 2 cm after 2 s. */
+/* Ramps at atan mu - 4 to + 4 degrees, a quarter degree apart. A box slips if it has moved by 2 cm after 2 s. */
 struct Cone {
   static constexpr int to_each_side = 16;
   static constexpr double finest = 0.25 * pi / 180;
@@ -151,7 +152,7 @@ Trial cone_trial(Length length)
   return trial;
 }
 
-/* Sliding down a ramp 10 degrees steeper than the cone: s = g (sin a - mu cos a) t^2 / 2. */
+/* A box slides down a ramp 10 degrees steeper than the cone: s = g (sin a - mu cos a) t^2 / 2. */
 Trial incline_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 120, 120));
@@ -176,9 +177,10 @@ Trial incline_trial(Length length)
   return trial;
 }
 
-/* Bodies in contact move by h v of the substep's end, which is what keeps them out of one another; so one that loses a
- * h of its speed each substep of h = 1/240 s falls short of v^2 / 2a by v h / 2 at most: a sum of h (v - k a h) in
- * place of its integral. That is a share of a h / v of its way, a = mu g, and 1e-4 is for rounding. */
+/* Bodies in contact move by h v with the velocity at the end of the substep, which prevents penetration. A body that
+ * loses a h of its speed in each substep of h = 1/240 s therefore stops before v^2 / 2a by at most v h / 2, because a
+ * sum of h (v - k a h) replaces the integral. Relative to the distance this is a h / v with a = mu g; 1e-4 is for
+ * rounding. */
 double stopping_error(double mu, double speed)
 {
   const Settings settings;
@@ -214,7 +216,7 @@ Trial stop_trial(Length length)
   return trial;
 }
 
-/* A ball that starts sliding rolls at 5/7 of its speed in the end. */
+/* A ball that starts sliding finally rolls at 5/7 of its speed. */
 Trial rolling_trial(Length length)
 {
   Trial trial = trial_of(empty_scene(), steps_for(length, 300, 300));
@@ -233,7 +235,7 @@ Trial rolling_trial(Length length)
   return trial;
 }
 
-/* How far the body has got past x = 0; its centre in front of the wall gives 0. */
+/* The distance of the body's centre beyond x = 0; 0 in front of the wall. */
 Figure beyond(uint32_t body, double x)
 {
   return [=](const Moment &moment) {

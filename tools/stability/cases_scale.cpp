@@ -1,4 +1,5 @@
-/* cases_scale.cpp - sizes and masses many decades apart in one scene, and scenes far from the origin. */
+/* cases_scale.cpp - the group of cases with sizes and masses many decades apart in one scene, and with scenes far from
+ * the origin. */
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -33,11 +34,11 @@ Trial sizes_trial(Length length)
   return trial;
 }
 
-/* m: how far the top of a column of five sinks, contact by contact: loads of 5 on the ground, and of 4, 3, 2, 1 on
- * effective masses of 1/2. */
+/* m: how far the top of a column of five sinks, summed over the contacts: loads of 5 on the ground, and of 4, 3, 2, 1
+ * on effective masses of 1/2. */
 double sink_of_five(const Settings &settings) { return sink_under(5 + 2 * (4 + 3 + 2 + 1), stiffest(settings)); }
 
-/* Alone, at a scale of its own: columns of five cubes. */
+/* A column of five cubes at a scale of its own. */
 Case size_case(const std::string &name, double edge, double gravity)
 {
   return {name, "scale", fmt::format("a column of five cubes of {} m", edge),
@@ -70,8 +71,8 @@ Trial masses_trial(Length length)
   return trial;
 }
 
-/* What must stand or move far away exactly as near: a column, a sliding box, a rolling ball, on a static block. All
- * places are multiples of 1/16 m, which a float still tells apart at 1,000 km. */
+/* A scene that must behave far from the origin exactly as near it: a column, a sliding box, a rolling ball, on a static
+ * block. All positions are multiples of 1/16 m, which floats represent exactly at 1,000 km. */
 Scene yard(double x)
 {
   Scene scene = empty_scene();
@@ -84,8 +85,8 @@ Scene yard(double x)
   return scene;
 }
 
-/* The yard in a world of its own at the origin, with the settings of the trial, solver's substeps and all, and stepped
- * along with it. */
+/* The yard in a world of its own at the origin, with the settings of the trial (including the solver's substeps), and
+ * stepped along with it. */
 class Twin {
 public:
   const std::vector<BodyState> &at(const Moment &moment)
@@ -122,8 +123,8 @@ double turn_between(const BodyState &far, const BodyState &near)
   return 2 * (quaternion(far.orientation) * quaternion(near.orientation).conjugate()).vec().norm();
 }
 
-/* A place is kept in two floats, x 2^-48 apart, and is rounded in every substep; and what that changes may change the
- * last bit of a velocity, 5 m/s at most, with which the body goes on to the end. */
+/* A position is stored in two floats, with a spacing of x 2^-48, and is rounded in every substep. The rounding may
+ * change the last bit of a velocity, 5 m/s at most, with which the body moves to the end. */
 Bound place_from_rounding(const Trial &trial, double x)
 {
   const double substeps = double(trial.steps) * trial.settings.substeps,

@@ -1,4 +1,5 @@
-/* cases_settings.cpp - settings and forces far from the usual: soft and stiff contacts, coarse and fine steps. */
+/* cases_settings.cpp - the group of cases with unusual settings and forces: soft and stiff contacts, coarse and fine
+ * steps. */
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,7 +14,7 @@ namespace {
 
 std::vector<float> equal(int n) { return std::vector<float>(size_t(n), 1.0f); }
 
-/* A column of five that stands, beside a ball that falls on the ground next to it from 2 m. */
+/* A standing column of five, beside a ball that falls on the ground from 2 m. */
 Scene column_and_ball()
 {
   Scene scene = column_of(equal(5));
@@ -22,7 +23,7 @@ Scene column_and_ball()
 }
 
 struct AtEnd {
-  std::optional<double> depth, gain, speed; /* m, J/kg, m/s; left out: from rounding */
+  std::optional<double> depth, gain, speed; /* m, J/kg, m/s; derived from rounding if not given */
 };
 
 void watch_ball_and_column(Trial &trial, const AtEnd &bounds)
@@ -37,19 +38,19 @@ void watch_ball_and_column(Trial &trial, const AtEnd &bounds)
   trial.checks.push_back(at_end(check("fastest at the end", "m/s", bound(bounds.speed, speed_from_rounding), speed())));
 }
 
-/* Where springs of this frequency hold a column of cubes of 1 kg, beyond the slop; the lowest contact of two cubes
- * (effective mass 1/2) carries `load` of them. */
+/* The depth, slop included, at which springs of this frequency hold a column of cubes of 1 kg; the lowest contact of
+ * two cubes (effective mass 1/2) carries `load` of them. */
 double rest_depth(double hertz, double load)
 {
   const double effective_mass = 0.5, slop = 0.005;
   return slop + sink_under(load / effective_mass, hertz);
 }
 
-/* The lower of a column of five, and a tenth more; a cube of 1 m must not pass through another whatever the springs
- * are. */
+/* The depth of the lowest contact in a column of five plus a tenth; whatever the springs, a cube of 1 m must not pass
+ * through another. */
 double depth_of_five(double hertz) { return std::min(0.9, 0.005 + 1.1 * (rest_depth(hertz, 4) - 0.005)); }
 
-/* A column of five that starts with its cubes 2 cm in one another. */
+/* A column of five whose cubes initially overlap by 2 cm. */
 Trial pressed_trial(double hertz, uint32_t substeps, Length length)
 {
   Trial trial = trial_of(column_and_ball(), steps_for(length, 300, 300));
@@ -62,7 +63,7 @@ Trial pressed_trial(double hertz, uint32_t substeps, Length length)
 
 struct Stiffness {
   double hertz;
-  uint32_t substeps; /* enough that a fifth of their rate, the stiffest contact they allow, is no less */
+  uint32_t substeps; /* enough that a fifth of their rate, the stiffest contact they allow, is not less */
   AtEnd bounds;
 };
 
@@ -89,7 +90,7 @@ Case stiffness_case(const Stiffness &stiffness)
           }};
 }
 
-/* The same in a world of its own with other contacts: largest distance of a body from its like. */
+/* The largest distance between a body and the corresponding one in a world with other contact stiffness. */
 Figure difference_with(const Scene &scene, float hertz)
 {
   auto twin = std::make_shared<std::unique_ptr<World>>();
@@ -111,7 +112,7 @@ Figure difference_with(const Scene &scene, float hertz)
   };
 }
 
-/* Stiffer than a fifth of the substep rate nothing gets: that is where the solver's own limit binds. */
+/* Contacts are never stiffer than a fifth of the substep rate, which is the solver's own limit. */
 Case clamped_case(double hertz)
 {
   return {fmt::format("stiffness-{}-clamped", hertz), "settings",
@@ -131,7 +132,8 @@ Case clamped_case(double hertz)
           }};
 }
 
-/* 5 s, or as many seconds as 3,000 steps are. At 1/10 s a ball of 25 cm moves by more than its radius in a step. */
+/* The case lasts 5 s, or 3,000 steps if these are shorter. At 1/10 s a ball of 25 cm moves by more than its radius in a
+ * step. */
 /* depth: left out where contacts at the end are as deep as floats are apart. */
 Case step_case(int rate, uint64_t steps, const AtEnd &bounds)
 {
@@ -149,7 +151,7 @@ Case step_case(int rate, uint64_t steps, const AtEnd &bounds)
               trial.documented->substeps = 8;
             }
             watch_ball_and_column(trial, bounds);
-            if (rate > 1000) trial.checks.pop_back(); /* the ball still falls */
+            if (rate > 1000) trial.checks.pop_back(); /* the ball is still falling */
             return trial;
           }};
 }
@@ -194,7 +196,7 @@ Trial heavy_trial(Length length)
 
 void add_setting_cases(std::vector<Case> &cases)
 {
-  /* At 0.6 Hz it still sinks: slower than an overdamped spring lets it fall. */
+  /* At 0.6 Hz the column is still sinking, because an overdamped spring is slow. */
   cases.push_back(stiffness_case({0.6, 4, {depth_of_five(0.6), {}, 0.5}}));
   cases.push_back(stiffness_case({6, 4, {depth_of_five(6), {}, 0.005}}));
   cases.push_back(stiffness_case({24, 4, {depth_of_five(24), 0.6, {}}}));
@@ -210,12 +212,13 @@ void add_setting_cases(std::vector<Case> &cases)
   cases.push_back(passes_case(
       "iterations-1000", "1,000 passes a substep: a column of ten cubes, which a solver that adds energy would blow up",
       4, 1000, 10, 30));
-  /* A substep of 1/60 s allows springs of a fifth of its rate; overdamped, they reach their depth and no more. */
+  /* A substep of 1/60 s allows springs of a fifth of its rate; overdamped, they reach their rest depth without
+   * overshoot. */
   cases.push_back(passes_case("substeps-1",
                               "one substep of one pass: a column of ten cubes, held by the springs of 12 Hz that it "
                               "allows: load / effective mass x g / w^2 = 3.2 cm",
                               1, 1, 10, 600,
-                              rest_depth(12, 9) + 1e-6)); /* floats of a height of 10 m are 1e-6 m apart */
+                              rest_depth(12, 9) + 1e-6)); /* floats at a height of 10 m are 1e-6 m apart */
   cases.push_back(passes_case("substeps-1000", "1,000 substeps: a column of ten cubes, 17 microseconds a substep", 1000,
                               1, 10, 30));
   cases.push_back({"gravity-0", "settings", "27 cubes that touch face to face, without gravity",

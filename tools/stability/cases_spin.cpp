@@ -1,4 +1,5 @@
-/* cases_spin.cpp - fast and unstable rotation, against conservation and the theory of the free and the heavy top. */
+/* cases_spin.cpp - the group of cases of fast and unstable rotation, compared with conservation laws and the theory of
+ * the free and the heavy top. */
 #include <cmath>
 #include <memory>
 
@@ -9,7 +10,8 @@
 namespace tandem::stability {
 namespace {
 
-/* A free rod of 1 m by 4 cm that turns mostly about body axis `axis` at `speed`, a hundredth of it about the others. */
+/* A free rod of 1 m by 4 cm that rotates mostly about body axis `axis` at `speed`, with a hundredth of it about the
+ * other axes. */
 Trial rod_trial(int axis, double speed, double energy, Length length)
 {
   Trial trial = trial_of(empty_scene({0, 0, 0}), steps_for(length, 600, 600));
@@ -20,7 +22,7 @@ Trial rod_trial(int axis, double speed, double energy, Length length)
   return trial;
 }
 
-/* A plate of three different moments that turns about the middle one: it flips over and over (Dzhanibekov). */
+/* A plate of three different moments that rotates about the middle axis and flips repeatedly (Dzhanibekov). */
 struct FlipBounds {
   double time, momentum, energy;
 };
@@ -38,7 +40,8 @@ Trial flip_trial(double speed, const FlipBounds &bounds, Length length)
   return trial;
 }
 
-/* The azimuth of the line from tip to centre, unwound, against W t; the tip is where the ground touches the corner. */
+/* The error of the azimuth of the line from tip to centre, unwrapped, against W t; the tip is where the corner touches
+ * the ground. */
 Figure precession_error(double rate)
 {
   struct Azimuth {
@@ -56,7 +59,7 @@ Figure precession_error(double rate)
   };
 }
 
-/* Lean against that at the start: steady precession keeps it. */
+/* The change of the lean since the start, which steady precession keeps constant. */
 Figure nutation(const Scene &scene)
 {
   const double start = std::acos((axes_of(scene.bodies[1].orientation) * Vector(1, 1, 1).normalized()).y());
@@ -71,7 +74,7 @@ Trial top_trial(Length length)
   trial.settings.step = 1e-3f;
   trial.every = 20;
   trial.documented = trial.settings;
-  trial.documented->slop = 1e-4f; /* sunk by 5 mm the top precesses about another point than its corner */
+  trial.documented->slop = 1e-4f; /* a top that has sunk by 5 mm precesses about another point than its corner */
   const double rate = steady_precession(0.1, 100, 0.3, 10);
   trial.checks.push_back(at_end(check("error of the precession's angle", "", 0.01, precession_error(rate))));
   trial.checks.push_back(check("change of the lean", "rad", 0.05, nutation(trial.scene)));

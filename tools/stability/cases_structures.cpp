@@ -1,4 +1,5 @@
-/* cases_structures.cpp - built things that must stand, and two that must fall as they should. */
+/* cases_structures.cpp - the group of cases of structures that must stand, and of two that must fall in the right
+ * way. */
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -20,8 +21,7 @@ Trial standing_trial(const std::string &spec, uint64_t steps, const Standing &bo
   return trial;
 }
 
-/* A pyramid of 1 m cubes: contacts may each be as deep as the slop, so that the top sinks by rows x slop and no
- * more. */
+/* A pyramid of 1 m cubes. Each contact may be as deep as the slop, so the top may sink by at most rows x slop. */
 Case pyramid_case(int rows, const Standing &bounds)
 {
   return {fmt::format("pyramid-{}", rows),
@@ -62,7 +62,7 @@ Case built_case(const std::string &name, const std::string &what, const std::str
           [spec, bounds](Length length) { return standing_trial(spec, steps_for(length, 600, 600), bounds); }};
 }
 
-/* How many of the bodies from `first` on have not turned by 45 degrees. */
+/* The number of bodies from `first` on that have not rotated by 45 degrees. */
 Figure still_upright(const Scene &scene, size_t first)
 {
   std::vector<Quat> start;
@@ -71,7 +71,7 @@ Figure still_upright(const Scene &scene, size_t first)
     int upright = 0;
     for (size_t i = first; i < moment.bodies.size(); ++i) {
       const double cosine = (axes_of(moment.bodies[i].orientation) * axes_of(start[i]).transpose()).trace();
-      upright += !((cosine - 1) / 2 < std::sqrt(0.5)); /* NaN counts */
+      upright += !((cosine - 1) / 2 < std::sqrt(0.5)); /* a NaN counts as upright */
     }
     return double(upright);
   };
@@ -87,7 +87,7 @@ Trial dominoes_trial(Length length)
   return trial;
 }
 
-/* The ball is left out: nothing stops it from rolling on. */
+/* The ball is omitted, because nothing stops it from rolling. */
 Figure fastest_brick()
 {
   return [](const Moment &moment) {
@@ -107,7 +107,7 @@ Trial wall_trial(Length length)
   trial.checks.push_back(check("gain of energy", "J/kg", energy_from_rounding(trial), energy_gain()));
   trial.checks.push_back(at_end(check("fastest brick at the end", "m/s", speed_from_rounding(trial), fastest_brick())));
   trial.checks.push_back(
-      check("farthest under the ground", "m", 0, below(0.15))); /* a brick on edge has its centre at 0.2 */
+      check("farthest under the ground", "m", 0, below(0.15))); /* a brick on its edge has its centre at 0.2 */
   trial.checks.push_back(check("deepest contact", "m", 0.2, penetration()));
   return trial;
 }

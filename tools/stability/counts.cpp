@@ -1,4 +1,4 @@
-/* counts.cpp - see counts.h. */
+/* counts.cpp - counts outcomes by kind and formats bounds; see counts.h. */
 #include "tools/stability/counts.h"
 
 #include <cmath>

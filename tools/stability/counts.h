@@ -1,5 +1,5 @@
-/* counts.h - how many cases a solver passes, apart by what it took: a case that needs a setting of its own is not one
- * passed by default. */
+/* counts.h - counts the cases that a solver passes, separately by what they needed: a case that needs a setting of its
+ * own does not count as passed by default. */
 #pragma once
 
 #include <string>
@@ -16,21 +16,21 @@ struct Counts {
 
 Counts counts_of(const Results &results, const std::string &solver);
 
-/* "59 pass by default, 11 only with a documented setting, 1 with a documented solver, 0 fail" */
+/* Text such as "59 pass by default, 11 only with a documented setting, 1 with a documented solver, 0 fail". */
 std::string text_of(const Counts &counts);
 
-/* "pass", "with substeps 16", "with solver direct", "FAIL" */
+/* "pass", "with substeps 16", "with solver direct" or "FAIL". */
 std::string verdict_of(const Outcome &outcome);
 
-/* "contact_hertz 600; by default 0.02 m (deepest contact)": what it took and what failed without; empty if it passes by
- * default. */
+/* What a case needed and which check failed without it, such as "contact_hertz 600; by default 0.02 m (deepest
+ * contact)"; empty if it passes by default. */
 std::string with_what(const Outcome &outcome);
 
-/* Figure, bound and ratio of every check of every run, a line each, in the order of the results; loose bounds are
+/* Figure, bound and ratio of every check of every run, one line each, in the order of the results; loose bounds are
  * marked. */
 std::string bounds_text(const Results &results);
 
-/* How many checks of this solver have a bound of more than ten times their figure without a derivation. */
+/* The number of checks of this solver with a bound of more than ten times their figure and without a derivation. */
 size_t loose_bounds(const Results &results, const std::string &solver);
 
 } // namespace tandem::stability

@@ -1,4 +1,4 @@
-/* figures.cpp - see figures.h. */
+/* figures.cpp - computes the figures from states of bodies; see figures.h. */
 #include "tools/stability/figures.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/* The maximum of std::max loses NaN: this one keeps it. */
+/* The maximum of two numbers. Unlike std::max it keeps NaN. */
 double larger(double a, double b) { return std::isnan(a) || std::isnan(b) ? nan : std::max(a, b); }
 
 Figure largest(std::function<double(const Moment &, size_t body)> of)
@@ -28,7 +28,7 @@ Figure largest(std::function<double(const Moment &, size_t body)> of)
   };
 }
 
-/* A difference from what the same quantity was at the first moment seen. */
+/* The difference of a quantity from its value at the first observed moment. */
 template <typename Value, typename Compare> Figure since_start(Value value, Compare compare)
 {
   using Result = decltype(value(std::declval<const Moment &>()));

@@ -1,7 +1,8 @@
-/* figures.h - the figures that stability cases are judged by, each one function of a moment.
+/* figures.h - the figures by which stability cases are judged, each a function of one moment.
  *
- * All in double precision from what World reports. Those that compare with the start take the scene. A body
- * that is not finite makes a figure NaN, which passes no bound. docs/stability.md lists them with their formulas.
+ * All are computed in double precision from the states that World reports. Figures that compare with the start take the
+ * scene. A body that is not finite makes a figure NaN, which passes no bound. docs/stability.md lists the figures with
+ * their formulas.
  */
 #pragma once
 
@@ -31,29 +32,30 @@ Vector spin_momentum(const Scene &scene, const Body &body, const BodyState &stat
 double kinetic_energy(const Scene &scene, const Body &body, const BodyState &state); /* J */
 double mechanical_energy(const Moment &moment); /* J, kinetic and of gravity (factor included), dynamic bodies */
 
-/* Largest over the dynamic bodies. */
-Figure tilt(const Scene &scene);         /* rad, angle of the turn from the start */
+/* The largest over the dynamic bodies: */
+Figure tilt(const Scene &scene);         /* rad, angle of the rotation since the start */
 Figure sideways(const Scene &scene);     /* m, from the start, across gravity's axis y */
 Figure displacement(const Scene &scene); /* m, from the start */
 Figure speed();                          /* m/s, linear */
 Figure penetration();                    /* m, over contact points */
-Figure below(double height);             /* m, how far a centre is under y = height; 0 if none is */
+Figure below(double height);             /* m, depth of a centre below y = height; 0 if none is below */
 
-/* Gain of mechanical energy over that at the start, in J per kg of moving mass; below 0 if energy went. */
+/* The gain of mechanical energy since the start, in J per kg of moving mass; negative for a loss. */
 Figure energy_gain();
-/* |E - E(0)| / |E(0)| of the kinetic energy; for free motion without gravity. */
+/* |E - E(0)| / |E(0)| of the kinetic energy, for free motion without gravity. */
 Figure kinetic_energy_drift();
-/* |p - p(0)| / sum of |m v| at the start, and the same of angular momentum about the origin. */
+/* |p - p(0)| / sum of |m v| at the start, and the same for angular momentum about the origin. */
 Figure linear_momentum_drift();
 Figure angular_momentum_drift();
-/* As above for the body alone, about its own centre. */
+/* The same for one body, about its own centre. */
 Figure spin_momentum_drift(uint32_t body);
 Figure spin_energy_drift(uint32_t body);
 
 /* |position - expected(time)| of one body. */
 Figure distance_from_path(uint32_t body, std::function<Vector(double time)> expected);
 
-/* Relative difference of the mean time between flips about body axis 1 (flip.h) from `expected`; 1 before two flips. */
+/* The relative difference between the mean time between flips about body axis 1 (flip.h) and `expected`; 1 before two
+ * flips. */
 Figure flip_error(uint32_t body, double expected);
 
 } // namespace tandem::stability

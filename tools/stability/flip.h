@@ -1,8 +1,8 @@
-/* flip.h - the flips of a body that spins about its middle axis: when theory has them, and a clock that watches for
- * them.
+/* flip.h - the flips of a body that spins about its middle axis: their interval in theory, and a clock that measures
+ * it.
  *
- * Landau and Lifshitz, Mechanics, section 37. Header only: the tests of physics use it too, also where the tools are
- * not built.
+ * The theory is that of Landau and Lifshitz, Mechanics, section 37. The file is header-only, because the physics tests
+ * use it even if the tools are not built.
  */
 #pragma once
 
@@ -26,8 +26,8 @@ inline double twice_complete_elliptic(double modulus_squared)
   return std::numbers::pi / a;
 }
 
-/* Time between two flips: from one zero of the spin about the middle axis to the next. moments ascending, spin in body
- * axes. */
+/* The time between two flips: from one zero of the spin about the middle axis to the next. `moments` must be ascending,
+ * `spin` is in body axes. */
 inline double flip_interval(const Eigen::Vector3d &moments, const Eigen::Vector3d &spin)
 {
   const double energy2 = moments.dot(spin.cwiseProduct(spin)), momentum2 = moments.cwiseProduct(spin).squaredNorm();
@@ -38,7 +38,7 @@ inline double flip_interval(const Eigen::Vector3d &moments, const Eigen::Vector3
   return twice_complete_elliptic(modulus_squared) / rate;
 }
 
-/* Mean time between sign changes of one body-axis component of the spin, each found between two moments by linear
+/* The mean time between sign changes of one body-axis component of the spin, each located between two moments by linear
  * interpolation. */
 class FlipClock {
 public:
@@ -52,7 +52,7 @@ public:
     time_ = time;
   }
   int flips() const { return flips_; }
-  double interval() const { return (last_ - first_) / (flips_ - 1); } /* of two flips at least */
+  double interval() const { return (last_ - first_) / (flips_ - 1); } /* requires two flips */
 
 private:
   double before_ = 0, time_ = 0, first_ = 0, last_ = 0;

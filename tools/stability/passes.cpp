@@ -1,4 +1,4 @@
-/* passes.cpp - see passes.h. */
+/* passes.cpp - builds the obstacles, movers and lanes; see passes.h. */
 #include "tools/stability/passes.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Shape octahedron_shape()
   return hull_shape(points, "octahedron");
 }
 
-/* A roof of two slopes, its ridge along z at the top. */
+/* A roof of two slopes, with its ridge along z at the top. */
 Shape roof_shape()
 {
   const float half = 0.5f;
@@ -35,14 +35,14 @@ Shape sheet_shape()
   return mesh_shape(vertices, triangles, "sheet");
 }
 
-/* A cube of 1 m turned so that its highest point lies over the lane's origin, at y = 0. */
+/* A cube of 1 m, rotated so that its highest point is above the lane's origin, at y = 0. */
 void add_cube_below(Scene &scene, const Quat &turn, const Vector &corner, double z)
 {
   const Vector top = axes_of(turn) * corner;
   add_body(scene, BodyType::fixed, box_shape(0.5f, 0.5f, 0.5f), {-top.x(), -top.y(), z - top.z()}).orientation = turn;
 }
 
-/* A bar that turns freely at 100 rad/s, one of its tips at the top at the moment `passes`. */
+/* A bar that rotates freely at 100 rad/s, with one of its tips at the top at the time `passes`. */
 void add_rotor(Scene &scene, double z, double passes)
 {
   const float half = 0.5f, thick = 0.02f;
@@ -65,8 +65,8 @@ void add_obstacle(Scene &scene, Obstacle obstacle, double z, double passes)
   }
 }
 
-/* Two whole steps at least and 30 cm before the lane's origin, and a part of a step that differs from lane to lane:
- * contacts are found at every distance. */
+/* At least two whole steps and 30 cm before the lane's origin, plus a fraction of a step that differs between lanes, so
+ * that contacts are found at all distances. */
 double time_to_pass(double speed, size_t row)
 {
   const size_t lane = row * all_speeds().size() +

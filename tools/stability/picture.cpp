@@ -1,4 +1,4 @@
-/* picture.cpp - see picture.h. */
+/* picture.cpp - projects outlines and draws them from far to near; see picture.h. */
 #include "tools/stability/picture.h"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ bool drawable(const BodyState &state)
          std::isfinite(state.orientation[0] + state.orientation[1] + state.orientation[2] + state.orientation[3]);
 }
 
-/* The shape's centre: not the body's where it has a pose there. */
+/* The centre of the shape, which differs from the body's if the shape has a pose of its own. */
 Vector centre_of(const Body &body, const BodyState &state, const Vector &origin)
 {
   return vector_of(state.position) + axes_of(state.orientation) * vector_of(body.shape_position) - origin;
 }
 
-/* The outline's points, projected. */
+/* The projected points of the outline. */
 std::vector<Point> points_of(const Shape &shape, const Body &body, const BodyState &state, const Vector &origin)
 {
   const Matrix axes = axes_of(state.orientation) * axes_of(body.shape_orientation);
@@ -44,7 +44,7 @@ std::vector<Point> points_of(const Shape &shape, const Body &body, const BodySta
   return points;
 }
 
-/* How far a shape reaches from its own origin. */
+/* The largest distance of a shape's points from its origin. */
 double reach_of(const Shape &shape)
 {
   if (shape.type == ShapeType::sphere) return double(shape.size[0]);
@@ -87,7 +87,7 @@ void widen(Window &window, const Shape &shape, const Body &body, const BodyState
   window.top = std::max(window.top, at.y + reach);
 }
 
-/* Metres to pixels. */
+/* Converts metres to pixels. */
 struct Frame {
   const Window &window;
   double scale = most_pixels / std::max(window.right - window.left, window.top - window.bottom);
@@ -99,7 +99,7 @@ struct Frame {
   }
 };
 
-/* Far beyond the window's edge there is nothing to see, and coordinates would fill the page. */
+/* Bodies far outside the window are omitted, because they are invisible and their coordinates would fill the page. */
 bool outside(const Frame &frame, const Point &p, double reach)
 {
   const Window &w = frame.window;
@@ -121,7 +121,7 @@ std::string drawing_of(const Shape &shape, const Body &body, const BodyState &st
   return fmt::format("<polygon class=\"{}\" points=\"{}\"/>\n", style, points);
 }
 
-/* Far bodies first. */
+/* Distant bodies are drawn first. */
 std::vector<size_t> drawing_order(const std::vector<Body> &bodies, const std::vector<BodyState> &states)
 {
   std::vector<size_t> fixed, moving;
@@ -164,7 +164,7 @@ Window window_of(const std::vector<Shape> &shapes, const std::vector<Body> &star
       std::count_if(start.begin(), start.end(), [](const Body &body) { return body.type == BodyType::dynamic; });
   const double size = std::max(tight.right - tight.left, tight.top - tight.bottom), margin = 0.05 * size,
                least_height = 0.3 * size, least_width = 0.1 * size;
-  const double most_wide = moving <= 5 ? 10 * size : size; /* few bodies travel far, seen by their own size */
+  const double most_wide = moving <= 5 ? 10 * size : size; /* a few bodies may travel far relative to their size */
   wide.left = std::max(wide.left, tight.left - most_wide) - margin;
   wide.right = std::min(wide.right, tight.right + most_wide) + margin;
   if (wide.right - wide.left < least_width) wide.left -= 0.5 * least_width, wide.right += 0.5 * least_width;

@@ -1,4 +1,4 @@
-/* results.cpp - see results.h. */
+/* results.cpp - writes the results as JSON, CSV and a page; see results.h. */
 #include "tools/stability/results.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tandem::stability {
 namespace {
 
-/* JSON has no NaN: a figure that is none is null. */
+/* JSON has no NaN, so a figure that is not finite becomes null. */
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json check_json(const CheckResult &check)
@@ -109,7 +109,7 @@ PageTable table_of(const Results &results)
   return table;
 }
 
-/* At most about 150 points: the page holds many charts. */
+/* At most about 150 points, because the page contains many charts. */
 ChartSeries series_of(const std::string &name, const std::vector<Sample> &samples)
 {
   ChartSeries series{name, {}, false};
@@ -120,8 +120,8 @@ ChartSeries series_of(const std::string &name, const std::vector<Sample> &sample
   return series;
 }
 
-/* The figure that the first solver is judged by, for all of them. Logarithmic where they differ by more than a chart
- * can show. */
+/* The figure by which the first solver is judged, for all solvers. The axis is logarithmic if the values differ too
+ * much for a linear chart. */
 Chart chart_of(const CaseResults &results)
 {
   const CheckResult &check = results.front()->outcome.headline;
@@ -204,7 +204,7 @@ svg.scene .ground { stroke: currentColor; stroke-width: 1; }
 </style>
 )";
 
-/* Where the time went: solver by solver, and the longest runs. */
+/* The time of each solver, and the longest runs. */
 void add_times(Page &page, const Results &results)
 {
   page.section("Time");

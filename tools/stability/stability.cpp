@@ -1,4 +1,5 @@
-/* stability.cpp - `tandem stability`: stiff and extreme cases, each with its figure and bound, solver by solver. */
+/* stability.cpp - `tandem stability`: runs stiff and extreme cases, each with a figure and a bound, solver by
+ * solver. */
 #include <algorithm>
 #include <filesystem>
 #include <memory>
@@ -42,7 +43,7 @@ std::vector<std::string> split(const std::string &text)
   return parts;
 }
 
-/* InputError unless each is the name of a case. */
+/* Throws InputError unless each name is that of a case. */
 std::vector<std::string> case_names_in(const char *option, const std::string &text)
 {
   std::vector<std::string> known;
@@ -79,7 +80,7 @@ std::vector<std::string> chosen_solvers(const StabilityOptions &options)
   return wanted;
 }
 
-/* The folder is made before the first case runs: a long run must not end without its results. */
+/* The folder is made before the first case runs, so that a long run does not end without its results. */
 void prepare_folder(const std::string &folder, DistinctFiles &files)
 {
   std::error_code error;
@@ -97,7 +98,8 @@ std::string verdict(const stability::Outcome &outcome)
                      headline.what, headline.bound.value, outcome.note.empty() ? "" : "; " + outcome.note);
 }
 
-/* A backend that does not exist, or solvers it cannot run, is bad use: found before the first case. */
+/* A backend that does not exist, or solvers that it cannot run, are bad use, which must be found before the first
+ * case. */
 void check_backend(const Placement &placement)
 {
   Scene scene = stability::empty_scene();
@@ -112,7 +114,7 @@ stability::Outcome run_with_progress(const Case &which, const std::string &solve
   return run_case(which, length, solver, placement, [&](uint64_t done, uint64_t) { progress.update(done); });
 }
 
-/* As it would be typed again; without the files that are written, for a table that goes into a page. */
+/* The command line that repeats the run; without the output files if the text is for a table in a page. */
 std::string command_text(const StabilityOptions &options, bool files = true)
 {
   std::string text = "tandem stability";
@@ -129,7 +131,7 @@ std::string command_text(const StabilityOptions &options, bool files = true)
   return text + (options.quick ? " --quick" : "") + (options.bounds ? " --bounds" : "");
 }
 
-/* The default solver's bounds must follow what it shows: one far above would let it get much worse unseen. */
+/* The bounds of the default solver must be close to its figures, because a bound far above would hide a regression. */
 int conclude_bounds(const stability::Results &results)
 {
   const size_t loose = stability::loose_bounds(results, results.solvers.front());
@@ -139,7 +141,7 @@ int conclude_bounds(const stability::Results &results)
   return 1;
 }
 
-/* Status 1 unless the first solver, which is the default one unless it was left out, passes every case. */
+/* The status is 1 unless the first solver, which is the default one unless it was left out, passes every case. */
 int conclude(const stability::Results &results)
 {
   std::vector<std::string> failed;
@@ -152,7 +154,7 @@ int conclude(const stability::Results &results)
   return 1;
 }
 
-/* Devices share one queue of work, and their worlds go one at a time. */
+/* On a device only one world runs at a time, because all would share one queue. */
 size_t runs_at_once(const StabilityOptions &options)
 {
   const bool device = options.on.starts_with("cl");
@@ -162,13 +164,14 @@ size_t runs_at_once(const StabilityOptions &options)
   return device ? 1 : processor_count();
 }
 
-/* Again after each case, so that a run that is cut off leaves what it has found. */
+/* Writes the file after each case, so that an interrupted run leaves its results. */
 void save(const StabilityOptions &options, const Json &json)
 {
   write_file("--out", options.out + "/stability.json", json.dump(1) + "\n");
 }
 
-/* In their fixed order: what ends before an earlier one waits for it. `told` is how many were. */
+/* Prints verdicts in their fixed order, so a run that ends before an earlier one waits for it. `told` is the number
+ * already printed. */
 void tell(const stability::Results &so_far, size_t &told)
 {
   for (; told < so_far.results.size() && so_far.results[told].place == told; ++told)
@@ -184,8 +187,8 @@ void tell_end(const StabilityOptions &options, const stability::Results &results
   fmt::print("{}/index.html\n", options.out);
 }
 
-/* Its marks are looked for before the first case runs, too; read again at the end, since a full run gives time to edit
- * it. */
+/* The marks in the page are checked before the first case runs, too. The page is read again at the end, because it may
+ * have been edited during a full run. */
 std::string page_for_table(const std::string &path)
 {
   const std::string text = read_file(path);
@@ -227,7 +230,7 @@ int run_cases(const StabilityOptions &options)
   return conclude(results) | status;
 }
 
-/* Every case, shortened, on every backend: equal bits, whether the solver copes or not. */
+/* Runs every case, shortened, on every backend and compares the bits, whether or not the solver passes. */
 int compare_backends(const StabilityOptions &options)
 {
   const std::vector<std::string> backends = split_backends(options.between);

@@ -1,4 +1,4 @@
-/* table.cpp - see table.h. */
+/* table.cpp - writes the table as Markdown and inserts it into a page; see table.h. */
 #include "tools/stability/table.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 
 const char *const begins = "<!-- table: begin -->\n", *const ends = "<!-- table: end -->\n";
 
-/* "deepest contact 0.00119 of 0.0058 m (4.9)"; the ratio is left out where it says nothing. */
+/* A cell such as "deepest contact 0.00119 of 0.0058 m (4.9)"; the ratio is omitted if it is meaningless. */
 std::string check_cell(const CheckResult &check)
 {
   const std::string figure = std::isfinite(check.figure) ? fmt::format("{:.3g}", check.figure) : "no figure";

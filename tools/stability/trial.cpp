@@ -1,4 +1,4 @@
-/* trial.cpp - see trial.h. */
+/* trial.cpp - runs a trial, evaluates its checks and repeats it with documented settings; see trial.h. */
 #include "tools/stability/trial.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double nothing_seen = -std::numeric_limits<double>::infinity();
 
-/* The value of one check so far, and how it came about. */
+/* The value of one check so far, and its history. */
 struct Record {
   const Check *check;
   double figure = nothing_seen;
@@ -27,7 +27,7 @@ struct Record {
     if (moment.time + 1e-9 < check->from) return;
     const double value = check->value(moment);
     series.push_back({moment.time, value});
-    const bool lost = std::isnan(figure); /* once not a number, for ever failed */
+    const bool lost = std::isnan(figure); /* once NaN, the check has failed for good */
     if (!lost) figure = check->over == Check::Over::last || std::isnan(value) ? value : std::max(figure, value);
   }
   CheckResult result() const
@@ -90,7 +90,7 @@ void simulate(Outcome &outcome, std::vector<Record> &records, World &world, cons
                                   static_cast<double>(std::max<uint64_t>(outcome.steps, 1));
 }
 
-/* Without a figure: no number can pass for one. */
+/* The figure of a failed run is NaN, because no number must pass for it. */
 void fail(Outcome &outcome, const Trial &trial, const std::string &why)
 {
   const Check &first = trial.checks.front();
@@ -159,7 +159,7 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
     simulate(outcome, records, world, trial, after_step);
     conclude(outcome, records, world, trial.poisoned);
   } catch (const std::bad_alloc &) {
-    throw; /* says nothing of the case */
+    throw; /* says nothing about the case */
   } catch (const OutOfMemory &) {
     throw;
   } catch (const std::exception &error) {
@@ -171,7 +171,8 @@ Outcome run_trial(const std::string &name, const Trial &trial, const std::string
 
 namespace {
 
-/* The trial as the case documents it for this solver; nothing if it does not. Its figures have seen nothing yet. */
+/* The trial with the settings that the case documents for this solver; nothing if it documents none. Its figures are
+ * new and have observed nothing. */
 std::optional<Trial> documented_trial(const Case &which, Length length, const std::string &solver)
 {
   Trial trial = which.build(length);
@@ -186,7 +187,7 @@ std::optional<Trial> documented_trial(const Case &which, Length length, const st
   return trial;
 }
 
-/* "solver direct", "substeps 16, contact_hertz 192" */
+/* For example "solver direct" or "substeps 16, contact_hertz 192". */
 std::string documented_text(const Trial &trial, const Outcome &outcome)
 {
   if (trial.documented_solver.empty()) return outcome.settings;

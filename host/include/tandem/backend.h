@@ -17,15 +17,15 @@
 
 namespace tandem {
 
-/* Which backend runs what: one for all, and exceptions by stage ("narrowphase") or kernel name. */
+/* Which backend runs which kernel: one for all, and exceptions by stage ("narrowphase") or kernel name. */
 struct Placement {
   std::string on = "tbb";
   std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
   bool allow_inexact = false;                                  /* accept a device whose results may differ in bits */
 };
 
-/* "STAGE=B,STAGE=B": a part without '=' continues the backend before it (tbb:threads=2,lanes=4 has '='
- * too, so its options are told apart by their names). InputError on unknown stages. */
+/* Parses "STAGE=B,STAGE=B". A part without '=' belongs to the backend before it; so does an option such as lanes=4 of
+ * tbb:threads=2,lanes=4, which is recognised by its name. Throws InputError if a stage is unknown. */
 TANDEM_API std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text);
 
 } // namespace tandem

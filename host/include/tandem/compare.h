@@ -1,12 +1,12 @@
-/* compare.h - one scene on several backends in lockstep, every kernel's outputs compared bit for bit; of the library
- * Tandem::verify.
+/* compare.h - runs one scene on several backends in lockstep and compares every kernel's outputs bit for bit. It
+ * belongs to the library Tandem::verify.
  *
- * Exactness is a claim about every kernel, so it is checked after every launch, not at the end: the
- * first buffer that differs names the kernel at fault. The first backend is the reference; each step it
- * runs once and leaves one hash for each buffer that each launch wrote; the others compare theirs
- * launch by launch. Only when one differs is the reference run again up to that launch, to lay the
- * two buffers side by side. Two numbers that are both NaN count as the same (host/verify/buffer_location.h): a body
- * that stops being finite is taken out at the end of the step on every backend.
+ * Exactness is a claim about every kernel, so it is checked after every launch and not only at the end: the first
+ * buffer that differs names the kernel at fault. The first backend is the reference. Each step it runs once and
+ * records one hash for each buffer that each launch wrote; the other backends compare their hashes launch by launch.
+ * Only if a hash differs does the reference run again up to that launch, so that the two buffers can be compared
+ * number by number. Two numbers that are both NaN count as the same (host/verify/buffer_location.h), because every
+ * backend takes a body that stops being finite out at the end of the step.
  */
 #pragma once
 
@@ -21,11 +21,11 @@
 
 namespace tandem {
 
-/* Changes memory after a launch on one of the worlds: how tests prove that a difference is found. */
+/* Changes memory after a launch on one of the worlds, so that tests can prove that a difference is found. */
 using FaultInjector = std::function<void(size_t world, uint64_t step, World &, const Launch &)>;
 
-/* A change of one number by the least possible, after the first launch of `kernel` in `step` on `world`.
- * `scalar` counts in scalars of the buffer. */
+/* Changes one number by the least possible amount after the first launch of `kernel` in `step` on `world`. `scalar`
+ * counts in scalars of the buffer. */
 struct InjectedFault {
   size_t world = 1; /* index into ComparisonRequest::backends */
   Kernel kernel{};
@@ -33,8 +33,8 @@ struct InjectedFault {
   Buffer buffer{};
   size_t scalar = 0;
 };
-/* `missing` is set to what stands against it as long as nothing was changed, and to nothing then; it must outlive the
- * inject_fault. */
+/* While nothing has been changed, `missing` holds the reason; it becomes empty once the fault is injected. It must
+ * outlive the returned injector. */
 TANDEM_API FaultInjector inject_fault(const InjectedFault &error, std::string *missing = nullptr);
 
 struct ComparisonRequest {
@@ -54,12 +54,12 @@ struct BufferLocation {
   std::string field; /* "separation", "linear.x"; with the part where the name alone is ambiguous */
 };
 
-/* One number as its bytes say: "0.125" / "0x3e000000", "17" / "0x00000011". */
+/* One number in decimal and as its bits: "0.125" / "0x3e000000", "17" / "0x00000011". */
 struct BufferValue {
   std::string decimal, bits;
 };
 
-/* The first difference. Without a buffer (has_buffer false) the note alone says what differed. */
+/* The first difference. If `buffer` is empty, the note alone says what differed. */
 struct Difference {
   uint64_t step = 0;   /* 0 in the first */
   uint32_t launch = 0; /* which launch of the step, 0 the first */
@@ -73,13 +73,13 @@ struct Difference {
   uint64_t differing = 0;       /* numbers of this buffer that differ */
   std::vector<uint32_t> bodies; /* of the scene: the item's body, or the two of its pair */
   std::string breakpoint;       /* for gdb on the serial backend: function and condition */
-  std::string note;             /* what else there is to say; empty if nothing */
+  std::string note;             /* further remarks; empty if none */
 };
 
 struct Comparison {
   bool equal = true;
-  Broadphase broadphase{};    /* on every backend; automatic is decided once, for the first */
-  std::string broadphase_why; /* the statistics of the scene that led there, in one line */
+  Broadphase broadphase{};    /* on every backend; `automatic` is decided once, for the first */
+  std::string broadphase_why; /* the statistics of the scene that decided it, in one line */
   uint64_t steps = 0;         /* run on every backend; the last may have differed */
   uint64_t kernels_compared = 0;
   uint64_t bytes_compared = 0;
@@ -88,10 +88,10 @@ struct Comparison {
   std::optional<BatchFault> batch_fault; /* the first on any backend; only with Settings::check */
 };
 
-/* InputError on fewer than two backends, and as World's constructor. */
+/* Throws InputError if there are fewer than two backends, and whatever World's constructor throws. */
 TANDEM_API Comparison compare_backends(const Scene &scene, const ComparisonRequest &request);
 
-/* What a launch writes, slots included, in the order of its kernel's arguments. */
+/* The buffers that a launch writes, slots included, in the order of its kernel's arguments. */
 TANDEM_API std::vector<Buffer> buffers_written(const Launch &launch);
 
 } // namespace tandem

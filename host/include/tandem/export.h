@@ -1,7 +1,8 @@
 /* export.h - marks what the shared libraries export.
  *
- * That is what the public headers declare, and what Tandem::io and Tandem::verify need of the libraries below them. All
- * else is hidden: names inside the library can neither collide with a program's nor be relied on.
+ * They export what the public headers declare, and what Tandem::io and Tandem::verify need of the libraries below them.
+ * Everything else is hidden, so that internal names cannot collide with those of a program, and no program depends on
+ * them.
  */
 #pragma once
 

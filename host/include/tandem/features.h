@@ -1,4 +1,5 @@
-/* features.h - what a scene can need, as a set: a bit for each row of shared/features.def. */
+/* features.h - the features that a scene needs, as a set: one bit for each row of shared/features.def. It stands alone
+ * so that public headers need no kernel list. */
 #pragma once
 
 #include <cstdint>

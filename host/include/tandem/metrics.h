@@ -1,8 +1,8 @@
-/* metrics.h - how wrong a simulation is, in numbers: what the report draws and the tests bound; of the library
- * Tandem::verify.
+/* metrics.h - measures the errors of a simulation: the numbers that the report draws and the tests bound. It belongs to
+ * the library Tandem::verify.
  *
- * Everything is computed in double on the host from downloaded buffers, and never inside a step: measuring cannot
- * change what is measured. docs/metrics.md states each formula, its unit and where it comes from.
+ * Everything is computed in double on the host from downloaded buffers, and never inside a step, so that measuring
+ * cannot change what is measured. docs/metrics.md states each formula, its unit and its source.
  */
 #pragma once
 
@@ -16,10 +16,10 @@ namespace tandem {
 
 using PreciseBodies = std::vector<PreciseBodyState>; /* in the order of Scene::bodies */
 
-/* The angle between two orientations, 0 .. pi rad; exact for small angles too. */
+/* The angle between two orientations, 0 .. pi rad; it is accurate for small angles too. */
 TANDEM_API double angle_between(const std::array<double, 4> &one, const std::array<double, 4> &other);
 
-/* Distances from the truth over dynamic bodies, gathered over any number of moments. */
+/* Distances between simulated and true poses over the dynamic bodies, accumulated over any number of moments. */
 class TANDEM_API TrajectoryError {
 public:
   void add(const Scene &scene, const PreciseBodies &states, const PreciseBodies &truth);
@@ -34,7 +34,8 @@ private:
   size_t count_ = 0;
 };
 
-/* Sums over dynamic bodies. Potential: -m g . x, 0 at the origin. Angular momentum: about the origin. */
+/* Sums over the dynamic bodies. The potential energy is -m g . x, which is 0 at the origin; the angular momentum is
+ * about the origin. */
 struct Conserved {
   double kinetic = 0, potential = 0;                    /* J */
   std::array<double, 3> momentum{}, angular_momentum{}; /* kg m/s, kg m^2/s */
@@ -43,11 +44,12 @@ struct Conserved {
 };
 TANDEM_API Conserved conserved_quantities(const Scene &scene, const PreciseBodies &states);
 
-/* Mean height (against gravity; y without gravity) of the dynamic bodies, m. */
+/* The mean height of the dynamic bodies in metres, against gravity, or along y if there is no gravity. */
 TANDEM_API double mean_height(const Scene &scene, const PreciseBodies &states);
 
-/* How far the impulses and velocities at the end of the last step are from solving its contact problem. All relative:
- * to the Euclidean norm of the impulses, the violation to the largest limit of friction. 0 without contacts. */
+/* How far the impulses and velocities at the end of the last step are from solving its contact problem. All are
+ * relative: the first two to the Euclidean norm of the impulses, the violation to the largest friction limit. All are 0
+ * without contacts. */
 struct StepResiduals {
   double natural_map = 0;
   double fischer_burmeister = 0;
@@ -55,8 +57,8 @@ struct StepResiduals {
 };
 TANDEM_API StepResiduals step_residuals(World &world);
 
-/* One contact of a problem in impulses: normal p >= 0 and speed u, complementary. Both in N s: `mass_speed` is
- * effective mass x speed. */
+/* The residual of one contact, a complementarity problem of impulse p >= 0 and relative speed u. Both arguments are in
+ * N s: `mass_speed` is effective mass times speed. */
 TANDEM_API double natural_map_of(double impulse, double mass_speed);
 TANDEM_API double fischer_burmeister_of(double impulse, double mass_speed);
 

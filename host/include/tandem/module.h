@@ -1,9 +1,11 @@
-/* module.h - kernels of your own, in the step or between steps; docs/your-own-kernel.md is the way in.
+/* module.h - lets a program run kernels of its own within a step or between steps; docs/your-own-kernel.md is the
+ * introduction.
  *
- * A module is a list of kernels and a list of buffers, written like the pipeline's: one C99 function a kernel, which
- * then runs on every backend with the same bits, is placed, profiled, stepped in gdb and compared like ours. The CMake
- * function tandem_add_module() makes a library of it, whose header names the module, its kernels and its buffers. An
- * Extension in Settings::extensions brings it into a world and says at which points of the step it launches what.
+ * A module is a list of kernels and a list of buffers, written like those of the pipeline. Each kernel is one C99
+ * function; it runs on every backend with the same bits, and is placed, profiled, debugged in gdb and compared like the
+ * pipeline's. The CMake function tandem_add_module() makes a library of the module; its generated header names the
+ * module, its kernels and its buffers. An Extension in Settings::extensions adds the module to a world and says what it
+ * launches at which points of the step.
  */
 #pragma once
 
@@ -24,42 +26,45 @@ class Module;
 class World;
 struct Settings;
 
-/* By the name in its list, the pipeline's too: buffers for World::read and for slots. InputError if there is none. */
+/* Finds a kernel or a buffer by its name in its list, the pipeline's lists included; buffers are for World::read and
+ * for slots. Throws InputError if there is none. */
 TANDEM_API Kernel kernel_named(const std::string &name);
 TANDEM_API Buffer buffer_named(const std::string &name);
 
-/* Where in a step an extension may launch, in the order of the step. A step that overflows runs again from its begin.
- * Inside a step, therefore, kernels write SCRATCH alone (the pipeline's solver_ and manifold_ buffers are), or KEPT,
- * which decides no bit. What lasts is written at the commit, over COMMIT_ items: an attempt that runs again has none.
+/* Where in a step an extension may launch, in the order of the step. A step that overflows runs again from `begin`, so
+ * inside a step kernels may write only SCRATCH buffers (the pipeline's solver_ and manifold_ buffers are SCRATCH) or
+ * KEPT ones, which change no bit of a result. Lasting state is written at `commit`, over COMMIT_ items: an attempt that
+ * will run again has none.
  */
 enum class StepPoint : uint8_t {
-  begin,       /* bodies are prepared: solver_velocity and solver_inertia are as the last step left the bodies */
+  begin,       /* bodies are prepared: solver_velocity and solver_inertia hold the result of the last step */
   pairs,       /* pair_a and pair_b list the pairs that may touch, sorted */
   contacts,    /* manifolds are final: a kernel may drop or change them before they become constraints */
   constraints, /* constraints stand in the order of their colours */
-  forces,      /* in each substep, before gravity: what is added to solver_velocity is pushed along */
+  forces,      /* in each substep, before gravity: what is added to solver_velocity takes part in the solve */
   solved,      /* solver_velocity and solver_delta_pose are the step's result, not checked yet */
-  commit       /* STATE and CACHE buffers of the module are written, all items, from their previous_ sides; what no
-                  kernel writes in a step stays as it was */
+  commit       /* STATE and CACHE buffers of the module are written here, all items, from their previous_ sides; a
+                  buffer that no kernel writes in a step keeps its contents */
 };
 
-/* What an extension is given at a point of the step. */
+/* The interface through which an extension launches kernels at a point of the step. */
 class Launches {
 public:
   virtual ~Launches() = default;
-  /* A kernel of the extension's modules over the items of its row; nothing if it is for a feature that the scene lacks.
-   * values, slots: for the VALUE and SLOT_ arguments of the row, in its order. InputError says what does not fit: a
-   * kernel of no extension, other numbers of arguments, a slot of another type or with room for fewer items, a buffer
-   * of capacity NOTHING before it is written, what may not be written here. */
+  /* Launches a kernel of the extension's modules over the items of its row; does nothing if the kernel is for a feature
+   * that the scene lacks. `values` and `slots` fill the VALUE and SLOT_ arguments of the row, in its order. Throws
+   * InputError if the kernel belongs to no extension, the number of arguments is wrong, a slot has another type or
+   * capacity for fewer items, a buffer of capacity NOTHING has not been written yet, or a buffer may not be written at
+   * this point. */
   virtual void run(Kernel kernel, std::span<const uint32_t> values = {}, std::span<const Buffer> slots = {}) = 0;
   virtual const Settings &settings() const = 0;
 };
 
 struct Extension {
-  const Module *module = nullptr; /* as its header gives it; each at most once in a world */
-  /* Once, when the world is made: fills the module's buffers (World::write). Empty: they begin as zeros. */
+  const Module *module = nullptr; /* from the module's generated header; each at most once in a world */
+  /* Runs once, when the world is made, to fill the module's buffers (World::write). Without it they start as zeros. */
   std::function<void(World &)> prepare;
-  /* A step may be launched several times, and is once launched without running: these only launch. */
+  /* These functions may only launch: a step may be launched several times, and is recorded once without running. */
   std::vector<std::pair<StepPoint, std::function<void(Launches &)>>> launches;
 };
 

@@ -1,9 +1,9 @@
-/* queries.h - what a World can be asked between two steps: rays, boxes and shape casts, by the batch; see
- * World::cast_rays and those after it.
+/* queries.h - queries of a World between two steps: rays, boxes and shape casts, in batches; see World::cast_rays and
+ * the functions after it.
  *
- * Which structure of the broadphase answers changes no bit of an answer. Of bodies hit at one place the one of the
- * lower index counts as nearest. A query and a body must accept each other's groups, as two bodies must. Quarantined
- * bodies are not found.
+ * The broadphase structure that answers a query changes no bit of the answer. If several bodies are hit at the same
+ * fraction, the one with the lowest index counts as nearest. A query and a body must accept each other's groups, as two
+ * bodies must. Quarantined bodies are not found.
  */
 #pragma once
 
@@ -15,13 +15,13 @@ namespace tandem {
 
 struct QueryFilter {
   uint32_t group = 0xffffffffu; /* bit set of the groups the query is in */
-  uint32_t mask = 0xffffffffu;  /* groups it finds */
+  uint32_t mask = 0xffffffffu;  /* groups that it finds */
 };
 
 struct Ray {
   Point origin{0, 0, 0};
-  Vec3 direction{0, 0, 0}; /* of any length; hits are given as fractions of it */
-  float reach = 1;         /* the largest fraction looked at, >= 0; infinity: without an end */
+  Vec3 direction{0, 0, 0}; /* of any length; fractions of hits refer to it */
+  float reach = 1;         /* the largest fraction that is searched, >= 0; may be infinity */
   QueryFilter filter;
 };
 
@@ -35,26 +35,26 @@ constexpr uint32_t no_body = 0xffffffffu;
 struct QueryHit {
   uint32_t body = no_body; /* index into Scene::bodies; the rest is 0 where nothing is hit */
   float fraction = 0;      /* of the direction or displacement */
-  Point point{0, 0, 0};    /* of the body's surface; where the query starts inside of a body: its start */
-  Vec3 normal{0, 0, 0}; /* of the body's surface there, unit, outward; from the inside against the direction (a sweep of
-                           length 0 then has none) */
+  Point point{0, 0, 0};    /* on the body's surface; the start of the query if that lies inside the body */
+  Vec3 normal{0, 0, 0}; /* outward unit normal of the surface there; against the direction if the query starts inside (0
+                           for a shape cast of length 0) */
 };
 
 using RayHit = QueryHit;
 using ShapeCastHit = QueryHit;
 
-/* A box along the axes of the world, and where it goes. */
+/* A box aligned with the axes of the world, and the displacement along which it is cast. */
 struct QueryBox {
   Point center{0, 0, 0};
   Vec3 half_extents{0, 0, 0}; /* m, >= 0 */
-  Vec3 displacement{0, 0, 0}; /* m; 0: where it stands */
+  Vec3 displacement{0, 0, 0}; /* m; 0: the box does not move */
   QueryFilter filter;
 };
 
-/* A body whose own box the query's box touches. Half-spaces, which have none, always count as touched. */
+/* A body whose AABB the query's box touches. Half-spaces have no AABB and always count as touched. */
 struct BoxHit {
   uint32_t body = no_body;
-  float fraction = 0; /* of the displacement, as the boxes first touch */
+  float fraction = 0; /* of the displacement, where the boxes first touch */
 };
 
 } // namespace tandem

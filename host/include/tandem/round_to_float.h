@@ -1,18 +1,18 @@
-/* round_to_float.h - a double becomes a float here and nowhere else in host/.
+/* round_to_float.h - the only place in host/ where a double becomes a float.
  *
- * Scenes are built in double and simulated in float, and what was rounded is often widened again: positions are doubles
- * that hold floats, and a coordinate is a float and a second one that holds what the first left over. All of it hangs
- * on the rounding being done. GCC 12 leaves it out from -O2 on: its vectorizer of straight-line code makes two
- * conversions of vectors of double -> float -> double, and its simplifier takes them for one that changes nothing. (It
- * compares how many numbers a vector holds instead of how wide they are.) The value goes through an empty assembler
- * statement instead, of which a compiler knows only that it may change the float: nothing can be folded over it, at any
- * level of optimisation. docs/exactness.md tells the story.
+ * Scenes are built in double and simulated in float, and a rounded number is often widened again: positions are doubles
+ * that hold floats, and a coordinate is a float and a second one that holds the remainder of the first. All of this
+ * depends on the rounding being carried out. GCC 12 omits it from -O2 on: its vectorizer of straight-line code turns
+ * double -> float -> double into two conversions of vectors, and its simplifier takes these for the identity, because
+ * it compares the numbers of elements instead of their widths. The value therefore passes through an empty assembler
+ * statement, which the compiler must assume to change the float, so that nothing can be folded across it at any level
+ * of optimisation. docs/exactness.md has the details.
  */
 #pragma once
 
 namespace tandem {
 
-/* To the nearest float, of two equally near the even one; infinite beyond the largest. */
+/* Rounds to the nearest float, to the even one of two equally near; beyond the largest float the result is infinite. */
 inline float round_to_float(double x)
 {
   float rounded = static_cast<float>(x);
@@ -20,7 +20,7 @@ inline float round_to_float(double x)
   return rounded;
 }
 
-/* Of numbers of other types there is nothing to round, or it is not a double that is rounded. */
+/* Other types are refused: an integer or a float needs no rounding here, and hides that no double is rounded. */
 template <class Number> float round_to_float(Number) = delete;
 
 } // namespace tandem

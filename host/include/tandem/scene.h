@@ -1,8 +1,8 @@
 /* scene.h - what a user describes: shapes, materials, bodies, gravity.
  *
- * The first station of the pipeline. Loaders (scene files) and generators (built-in scenes)
- * produce a Scene; specialise and World consume it. Nothing here computes physics; units are
- * SI (metre, kilogram, second, radian), coordinates right-handed.
+ * It is the first stage of the pipeline: loaders (scene files) and generators (built-in scenes) produce a Scene,
+ * specialise and World consume it. Nothing here computes physics. Units are SI (metre, kilogram, second, radian),
+ * coordinates right-handed.
  */
 #pragma once
 
@@ -16,9 +16,8 @@
 
 namespace tandem {
 
-/* How the values of two materials become one. Of two different rules the first in this order
- * wins, except that geometric_mean (our default) yields to any other. After
- * KHR_physics_rigid_bodies. */
+/* How the values of two materials are combined. If the two rules differ, the first in this order wins, except that
+ * geometric_mean (the default) yields to any other. The rules follow KHR_physics_rigid_bodies. */
 enum class Combine : uint32_t { average = 0, minimum = 1, maximum = 2, multiply = 3, geometric_mean = 4 };
 
 struct Material {
@@ -34,20 +33,20 @@ struct Material {
 
 enum class BodyType : uint32_t {
   fixed = 0,     /* never moves */
-  kinematic = 1, /* moves with its given velocities, infinitely heavy */
+  kinematic = 1, /* moves with its given velocities, as if infinitely heavy */
   dynamic = 2
 };
 
 struct Body {
   std::string name;
   BodyType type = BodyType::dynamic;
-  bool trigger = false;         /* is touched and reported (World::contact_events), but neither pushes nor is pushed */
+  bool trigger = false;         /* contacts are reported (World::contact_events), but exert no forces */
   uint32_t shape = 0;           /* index into Scene::shapes */
   uint32_t material = 0;        /* index into Scene::materials */
   Point position{0, 0, 0};      /* centre of mass */
   Quat orientation{0, 0, 0, 1}; /* of the principal axes of inertia */
   Vec3 shape_position{
-      0, 0, 0}; /* of the shape's frame in the body's: not 0 where the shape's origin is not the centre of mass */
+      0, 0, 0}; /* of the shape's frame in the body's; not 0 if the shape's origin is not the centre of mass */
   Quat shape_orientation{0, 0, 0, 1};
   Vec3 linear_velocity{0, 0, 0};  /* world axes */
   Vec3 angular_velocity{0, 0, 0}; /* world axes */
@@ -59,9 +58,9 @@ struct Body {
   float linear_damping = 0.0f;        /* 1/s, >= 0 */
   float angular_damping = 0.0f;       /* 1/s, >= 0 */
   uint32_t filter_group = 1;          /* bit set of the groups this body is in */
-  uint32_t filter_mask = 0xffffffffu; /* groups it collides with; both bodies must agree */
+  uint32_t filter_mask = 0xffffffffu; /* groups it collides with; both bodies must accept each other */
   bool continuous =
-      false; /* collides along its way through a step, so that thin walls hold at any speed; not for half-spaces */
+      false; /* continuous collision detection: thin walls stop the body at any speed; not for half-spaces */
 };
 
 struct Scene {
@@ -72,22 +71,21 @@ struct Scene {
   std::vector<Body> bodies;
 };
 
-/* Throws InputError naming the first body, shape or material that cannot be simulated:
- * non-finite or non-positive sizes and masses, NaN or infinite poses, zero quaternions,
- * indices out of range, dynamic half-spaces. `where` prefixes the message (a file name). */
+/* Throws InputError that names the first body, shape or material that cannot be simulated: non-finite or non-positive
+ * sizes and masses, NaN or infinite poses, quaternions that are not of unit length, indices out of range, dynamic
+ * half-spaces. `where` prefixes the message (a file name). */
 TANDEM_API void validate(const Scene &scene, const std::string &where);
 
-/* One line for each body that can be simulated, but hardly as meant: moving meshes that are not closed, whose volume is
- * a guess. */
+/* One line for each body that can be simulated, but probably not as intended: a moving mesh that is not closed has only
+ * an estimated volume. */
 TANDEM_API std::vector<std::string> warnings_of(const Scene &scene, const std::string &where);
 
-/* Principal moments of inertia of a solid shape of uniform density about its centre of mass, in the order of the axes
- * that take_mass_properties gives its body. */
+/* Principal moments of inertia, in kg m^2, of a solid shape of uniform density about its centre of mass, in the order
+ * of the axes that take_mass_properties gives its body. */
 TANDEM_API Vec3 inertia_of(const Shape &shape, float mass);
 
-/* For a body whose position, orientation and shape pose place its shape: makes the shape's centre of mass and principal
- * axes (of uniform density) the body's own, and leaves the shape where it is in the world. Nothing to do for shapes
- * that are symmetric. */
+/* Makes the shape's centre of mass and principal axes (of uniform density) the body's frame, and leaves the shape where
+ * the body's position, orientation and shape pose have placed it in the world. A symmetric shape needs no change. */
 TANDEM_API void take_mass_properties(const Scene &scene, Body &body);
 
 } // namespace tandem

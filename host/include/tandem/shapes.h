@@ -1,7 +1,7 @@
-/* shapes.h - what bodies are made of: vectors, shapes and how they are built.
+/* shapes.h - vectors, shapes and the functions that build shapes; scene.h makes bodies of them.
  *
- * Units are SI, coordinates right-handed. Each shape is described in a frame of its own; a body or a compound places
- * it.
+ * Units are SI, coordinates right-handed. Each shape is described in a frame of its own, which a body or a compound
+ * places.
  */
 #pragma once
 
@@ -18,7 +18,8 @@
 namespace tandem {
 
 using Vec3 = std::array<float, 3>;
-using Point = std::array<double, 3>; /* of the world, m: a float is 6 cm apart from the next 1,000 km away */
+using Point = std::array<double, 3>; /* world coordinates, m: 1,000 km from the origin, neighbouring floats are 6 cm
+                                        apart */
 using Quat = std::array<float, 4>;   /* x y z w, unit length */
 
 enum class ShapeType : uint32_t {
@@ -36,7 +37,7 @@ struct ConvexHull;   /* host/geometry/convex_hull.h */
 struct TriangleMesh; /* host/geometry/triangle_mesh.h */
 struct Compound;
 
-/* In the shape's own frame:
+/* Each is described in its own frame; sizes are in metres:
  *   sphere      size[0]: radius
  *   box         size: half extents
  *   half_space  all points with y <= 0 (its outward normal is +Y); size is ignored; never dynamic, without a pose of
@@ -46,19 +47,19 @@ struct Compound;
  *   cylinder    along Y, between -size[1] and +size[1]; size[0]: radius of the lower end, size[2]: of the upper. One
  *               may be 0: a cone
  *   hull        `hull`; size is ignored
- *   mesh        the surface `mesh`, solid on the side from which its triangles are seen clockwise: contacts push out on
- *               the other. Size is ignored. A dynamic one should be closed (warnings_of): else its mass is that of a
- *               solid that it is not
+ *   mesh        the surface `mesh`; its triangles are counter-clockwise seen from outside, and contacts push outward.
+ *               Size is ignored. A dynamic mesh should be closed (warnings_of), because its mass is computed as
+ *               that of a closed solid
  *   compound    `compound`; size is ignored */
 struct Shape {
   ShapeType type = ShapeType::box;
   Vec3 size{0.5f, 0.5f, 0.5f};
-  std::shared_ptr<const ConvexHull> hull = nullptr; /* these are shared by the copies of a shape */
+  std::shared_ptr<const ConvexHull> hull = nullptr; /* pointers: copies of a shape share these */
   std::shared_ptr<const TriangleMesh> mesh = nullptr;
   std::shared_ptr<const Compound> compound = nullptr;
 };
 
-/* A shape in a compound; not a half-space, nor another compound. What it leaves open is as its body says. */
+/* A shape in a compound; neither a half-space nor another compound. Fields that are not set are taken from the body. */
 struct Child {
   Shape shape;
   Vec3 position{0, 0, 0}; /* in the compound's frame */
@@ -85,15 +86,16 @@ inline Shape cylinder_shape(float radius, float half_height)
 inline Shape cone_shape(float radius, float half_height)
 {
   return {ShapeType::cylinder, {radius, half_height, 0}};
-} /* apex up */
-/* InputError as convex_hull of host/geometry/convex_hull.h. */
+} /* apex at +Y */
+/* The convex hull of the points. Throws InputError as convex_hull of host/geometry/convex_hull.h does. */
 TANDEM_API Shape hull_shape(std::span<const Vec3> points, const std::string &where);
-/* InputError as triangle_mesh of host/geometry/triangle_mesh.h. Indices: three a triangle, counter-clockwise seen from
- * outside. */
+/* A mesh of triangles, three indices each, counter-clockwise seen from outside. Throws InputError as triangle_mesh of
+ * host/geometry/triangle_mesh.h does. */
 TANDEM_API Shape mesh_shape(std::span<const Vec3> vertices, std::span<const uint32_t> indices,
                             const std::string &where);
-/* A mesh of heights over a grid: heights[z * columns + x] at (x * spacing_x, height, z * spacing_z), centred on the
- * origin across. columns and rows: at least 2 each. InputError otherwise, and for heights that are not finite. */
+/* A height field as a mesh: heights[z * columns + x] is at (x * spacing_x, height, z * spacing_z), with the grid
+ * centred on the origin in x and z. Throws InputError if columns or rows are fewer than 2, or a height is not
+ * finite. */
 TANDEM_API Shape height_field_shape(std::span<const float> heights, uint32_t columns, float spacing_x, float spacing_z,
                                     const std::string &where);
 TANDEM_API Shape compound_shape(std::vector<Child> children);

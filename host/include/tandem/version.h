@@ -1,8 +1,9 @@
-/* version.h - which Tandem this is, for the preprocessor and at run time.
+/* version.h - the version of Tandem, for the preprocessor and at run time.
  *
  * A program that builds with version a.b.c builds with every later a.b.x, and a shared library of a.b.x serves it; the
- * file names and `find_package(Tandem a.b)` say so. Another minor version may change the interface as long as the major
- * one is 0. Hashes of states may change with every version that is not a patch: they compare backends of one version.
+ * file names and `find_package(Tandem a.b)` follow this rule. Another minor version may change the interface as long as
+ * the major one is 0. Hashes of states may change with every version that is not a patch: they compare backends of one
+ * version.
  */
 #pragma once
 
@@ -18,7 +19,7 @@
 
 namespace tandem {
 
-/* "0.1.0", of the library that is linked, which may be a later one than the headers'. */
+/* The version of the library that is linked, such as "0.1.0"; it may be later than that of the headers. */
 TANDEM_API const char *version();
 
 } // namespace tandem

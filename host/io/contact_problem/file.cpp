@@ -1,4 +1,4 @@
-/* file.cpp - reads contact problems; every complaint names the line. */
+/* file.cpp - reads contact problems; see file.h. Every error message names the line. */
 #include "host/io/contact_problem/file.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 
 constexpr uint64_t most_contacts = 1'000'000, most_dense_contacts = 5'000;
 
-/* The numbers of a file in order, with the line each stands in. */
+/* The numbers of a file in order, with the line of each. */
 class Numbers {
 public:
   explicit Numbers(const std::string &path) : path_(path), text_(read_file(path)) {}
@@ -117,8 +117,8 @@ void read_block_rows(Numbers &numbers, ContactProblem &problem)
   }
 }
 
-/* Each contact's own block first, then ascending columns; the order in which a row is summed must not depend on the
- * file. */
+/* Sorts each contact's own block first, then ascending columns, because the order in which a row is summed must not
+ * depend on the file. */
 void order_rows(const Numbers &numbers, ContactProblem &problem)
 {
   std::vector<uint32_t> order(problem.column.size());
@@ -168,7 +168,7 @@ ContactProblem read_contact_problem(const std::string &path)
     if (problem.friction.back() < 0)
       numbers.refuse(fmt::format("the friction coefficient of contact {} is negative", i));
   }
-  /* Some writers end with a flag. */
+  /* Some writers append a flag. */
   if (!numbers.at_end()) numbers.whole("what follows the last friction coefficient", 0, 1);
   if (!numbers.at_end()) numbers.refuse("the problem has ended; nothing may follow the friction coefficients");
   return problem;

@@ -1,7 +1,7 @@
 /* file.h - frictional contact problems as text, in the format of Siconos's collections (FCLIB).
  *
- * One problem of a time step, cut out of its simulation: velocities u = W r + q at nc contacts, impulses r in Coulomb's
- * cones.
+ * A file contains the problem of one time step, extracted from its simulation: velocities u = W r + q at nc contacts,
+ * impulses r in Coulomb's cones.
  *
  *   3                      dimension
  *   nc                     contacts
@@ -27,7 +27,7 @@ namespace tandem {
 
 struct ContactProblem {
   uint32_t contacts = 0;
-  /* W in rows of 3x3 blocks: those of contact i are start[i] .. start[i + 1], its own (column i) first, the others
+  /* W in rows of 3x3 blocks: those of contact i are start[i] .. start[i + 1] - 1, its own (column i) first, the others
    * ascending. */
   std::vector<uint32_t> start, column;
   std::vector<std::array<double, 9>> blocks; /* row by row; s, m/s per N */
@@ -35,8 +35,8 @@ struct ContactProblem {
   std::vector<double> friction; /* >= 0 */
 };
 
-/* InputError with file and line for anything that is not such a problem: NaN, a negative coefficient, a missing block,
- * .. */
+/* Throws InputError with file and line for anything that is not such a problem: NaN, a negative coefficient, a missing
+ * block, ... */
 ContactProblem read_contact_problem(const std::string &path);
 
 } // namespace tandem

@@ -1,12 +1,12 @@
-/* animation.cpp - writes GLB: header, JSON chunk, binary chunk (Khronos, glTF 2.0 specification, chapter 4).
+/* animation.cpp - writes GLB: header, JSON chunk, binary chunk (Khronos, glTF 2.0 specification, chapter 4); see
+ * animation.h.
  *
- * The JSON goes straight to the file and its length is filled in afterwards: with a million bodies
- * the text is hundreds of megabytes. The binary chunk:
+ * The JSON is written directly to the file, because with a million bodies its text is hundreds of megabytes. The binary
+ * chunk:
  *
  *   | meshes: positions, normals, indices | times | body: translations, rotations | next body … |
  *
- * A body whose shape has a pose of its own in it has two nodes: the one that moves, and below it one that has the
- * mesh. */
+ * A body whose shape has a pose of its own has two nodes: one that moves, and a child that has the mesh. */
 #include "host/io/glb/animation.h"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ struct Recording {
 namespace {
 
 constexpr uint64_t most_bytes = 0xffffffffu; /* GLB lengths are 32 bits wide */
-constexpr uint64_t block_bytes = 64u << 20;  /* memory for turning frames into bodies */
+constexpr uint64_t block_bytes = 64u << 20;  /* memory for the transposition from frames to bodies */
 constexpr uint32_t float_type = 5126, uint16_type = 5123, uint32_type = 5125, vertex_target = 34962,
                    index_target = 34963;
 
@@ -84,7 +84,7 @@ bool finite(const Vec3 &p, const Quat &q)
   return std::isfinite(p[0] + p[1] + p[2]) && std::isfinite(q[0] + q[1] + q[2] + q[3]);
 }
 
-/* The file asks for unit length, more exactly than a long simulation keeps it. */
+/* The file format requires unit length more exactly than a long simulation keeps it. */
 Quat normalized(const Quat &q)
 {
   double length = std::sqrt(double(q[0]) * q[0] + double(q[1]) * q[1] + double(q[2]) * q[2] + double(q[3]) * q[3]);
@@ -95,7 +95,7 @@ Quat normalized(const Quat &q)
 
 std::string text(std::span<const float> values) { return fmt::format("[{}]", fmt::join(values, ",")); }
 
-/* Comma-separated items of a JSON array or object; only counted where there is no file. */
+/* Writes comma-separated items of a JSON array or object; without a file it only counts their bytes. */
 class JsonStream {
 public:
   explicit JsonStream(OutputFile *file) : file_(file) {}
@@ -124,7 +124,7 @@ struct View {
   uint32_t target; /* 0: none */
 };
 
-/* What tells two meshes apart: the type alone where all shapes of it share one. */
+/* What distinguishes two meshes: the type alone if all shapes of that type share one. */
 using MeshKey = std::tuple<ShapeType, Vec3, const ConvexHull *>;
 
 MeshKey mesh_key(const Shape &shape)
@@ -134,10 +134,10 @@ MeshKey mesh_key(const Shape &shape)
           shape.type == ShapeType::hull ? shape.hull.get() : nullptr};
 }
 
-/* Vertices that 16 bits can number; most meshes are that small. 0xffff itself is no index in glTF. */
+/* 16 bits can index so many vertices, which is enough for most meshes. glTF does not allow 0xffff as an index. */
 constexpr size_t most_short_vertices = 0xffff;
 
-/* The meshes of the shapes in use, behind each other, each part on a multiple of 4 bytes. */
+/* The meshes of the shapes in use, one after the other, with each part aligned to 4 bytes. */
 struct Geometry {
   std::map<MeshKey, size_t> places;
   std::vector<DisplayMesh> meshes;
@@ -174,7 +174,7 @@ std::string vec3_accessor(size_t view, const std::vector<Vec3> &values, bool bou
                      values.size(), extra);
 }
 
-/* How far the quad of a half space reaches: twice as far as the farthest body. */
+/* The half extent of a half space's quad: twice the distance of the farthest body. */
 float half_space_reach(const Scene &scene)
 {
   float reach = 25;
@@ -202,7 +202,7 @@ uint32_t color_of(const Scene &scene, size_t index)
   if (body.type == BodyType::fixed) return 0;
   if (body.type == BodyType::kinematic) return 1;
   constexpr auto moving_colors = uint32_t(palette.size()) - first_moving_color;
-  /* By material where there are several; otherwise by number, so that neighbours differ. */
+  /* Colours follow the material if there are several, otherwise the index, so that neighbours differ. */
   uint32_t key = scene.materials.size() > 1 ? body.material : uint32_t(index);
   return first_moving_color + key % moving_colors;
 }
@@ -231,8 +231,8 @@ void collect_bodies(const Scene &scene, Recording &r)
 
 /* --- the JSON chunk ------------------------------------------------------------------------------ */
 
-/* Views and accessors have the same numbers up to the times: three per mesh, then the times. One
- * more view holds all poses, with two accessors per animated body. */
+/* Views and accessors have the same indices up to the times: three per mesh, then the times. One more view holds all
+ * poses, with two accessors per animated body. */
 struct Layout {
   Geometry geometry;
   std::vector<uint32_t> animated; /* indices into Recording::moving of the bodies that moved */
@@ -257,7 +257,7 @@ Layout layout_of(const Recording &r)
 
 constexpr FramePose no_pose{{0, 0, 0}, {0, 0, 0, 1}};
 
-/* The nodes of bodies have their numbers; those of shapes with a pose come after them. */
+/* The nodes of bodies have the bodies' indices; those of shapes with a pose come after them. */
 void write_nodes(JsonStream &json, const Recording &r)
 {
   json.raw(R"(,"scene":0,"scenes":[{"nodes":[)");
@@ -368,7 +368,8 @@ uint64_t write_json(const Recording &r, const Layout &layout, OutputFile *file)
   return json.bytes();
 }
 
-/* The length comes first, so the text is made twice: a pipe has no way back, and the text may be too large to keep. */
+/* The length precedes the text, so the text is generated twice: a pipe cannot seek back, and the text may be too large
+ * to keep in memory. */
 void write_json_chunk(Recording &r, const Layout &layout)
 {
   const uint64_t length = write_json(r, layout, nullptr), padding = (4 - length % 4) % 4;
@@ -385,7 +386,7 @@ void write_json_chunk(Recording &r, const Layout &layout)
 
 /* --- the poses ----------------------------------------------------------------------------------- */
 
-/* q and -q are the same rotation; interpolation takes the short way only between near ones. */
+/* q and -q are the same rotation; interpolation takes the short way only if the signs agree. */
 Quat nearer_sign(Quat q, const Quat &before)
 {
   if (q[0] * before[0] + q[1] * before[1] + q[2] * before[2] + q[3] * before[3] < 0)
@@ -393,7 +394,7 @@ Quat nearer_sign(Quat q, const Quat &before)
   return q;
 }
 
-/* The poses of one frame of the bodies moving[low] … */
+/* Reads the poses of one frame of the bodies from moving[low] on. */
 void read_row(const Recording &r, size_t frame, size_t low, std::vector<FramePose> &row)
 {
   errno = 0;
@@ -403,7 +404,7 @@ void read_row(const Recording &r, size_t frame, size_t low, std::vector<FramePos
     r.fail("cannot read back the recorded frames");
 }
 
-/* Turns frames of bodies into bodies of frames, as many bodies at a time as fit into a block. */
+/* Transposes frames of bodies to bodies of frames, as many bodies at a time as fit into a block. */
 void write_poses(Recording &r, const Layout &layout)
 {
   const std::vector<uint32_t> &animated = layout.animated;
@@ -468,7 +469,7 @@ void AnimationWriter::add_frame(double time, std::span<const Vec3> positions, st
         fmt::format("{}: frame {} at {} s does not come after the one before", r.path, r.times.size(), time));
   bool first = r.times.empty();
   r.times.push_back(round_to_float(time));
-  /* Half is left to the JSON, whose size is not known before the end. */
+  /* Half of the bytes are reserved for the JSON, whose size is not known before the end. */
   if (r.pose_bytes(r.moving.size()) > most_bytes / 2)
     throw InputError(
         fmt::format("{}: {} frames of {} moving bodies do not fit into the 4 GiB of a .glb; keep fewer frames", r.path,

@@ -1,4 +1,4 @@
-/* geometry.cpp - see geometry.h. */
+/* geometry.cpp - tessellates shapes for display; see geometry.h. */
 #include "host/io/glb/geometry.h"
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 namespace tandem {
 namespace {
 
-/* Half extents of a unit mesh. Normals of stretched balls and boxes stay as they are: their sizes are alike, or their
- * faces square. */
+/* Scales a unit mesh by the half extents. Normals stay unchanged, because balls are scaled evenly and the faces of
+ * boxes are perpendicular to the axes. */
 void stretch(DisplayMesh &mesh, const Vec3 &size)
 {
   for (Vec3 &p : mesh.positions)
@@ -57,7 +57,7 @@ DisplayMesh box_mesh()
       const float signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
       for (size_t i = 0; i < 4; ++i) {
         corners[i][axis] = side;
-        corners[i][u] = side * signs[i][0]; /* mirrored on the far side, which turns the winding round */
+        corners[i][u] = side * signs[i][0]; /* mirrored on the opposite side, which reverses the winding */
         corners[i][v] = signs[i][1];
       }
       add_quad(mesh, corners, normal);
@@ -92,8 +92,8 @@ DisplayMesh sphere_mesh()
 /* --- solids of revolution ------------------------------------------------------------------------
  *
  *   y ^  _          Rings along the profile from the top down, each with the normal there: (across, along Y).
- *     | / \         A ring of radius 0 is a pole. Where the profile has a corner, as a cylinder at its rim, a ring
- *     ||   |        stands twice, with a normal each, and nothing is drawn between the two.
+ *     | / \         A ring of radius 0 is a pole. At a corner of the profile, such as the rim of a cylinder, there
+ *     ||   |        are two rings with a normal each, and no triangles between them.
  *     | \_/
  */
 struct Ring {
@@ -137,7 +137,7 @@ DisplayMesh cylinder_mesh(const Vec3 &size)
   return revolved(rings);
 }
 
-/* Rings on a sphere from one polar angle to another; poles are exactly on the axis. */
+/* Appends rings on a sphere from one polar angle to another; poles are exactly on the axis. */
 void append_cap(std::vector<Ring> &rings, double radius, double y, double from, double to)
 {
   const int steps = std::max(1, int(std::ceil((to - from) / (pi / 12) - 1e-9)));
@@ -175,7 +175,7 @@ DisplayMesh hull_mesh(const ConvexHull &hull)
   return mesh;
 }
 
-/* Flat triangles: a mesh need not be smooth anywhere. */
+/* Triangles are shaded flat, because a mesh need not be smooth anywhere. */
 DisplayMesh surface_mesh(const TriangleMesh &surface)
 {
   DisplayMesh mesh;
@@ -191,7 +191,7 @@ DisplayMesh surface_mesh(const TriangleMesh &surface)
   return mesh;
 }
 
-/* The child as it stands in its compound; a child with a unit mesh is stretched here. */
+/* Appends a child at its pose in the compound; a child with a unit mesh is scaled here. */
 void append_child(DisplayMesh &mesh, const Child &child)
 {
   DisplayMesh own = display_mesh(child.shape);

@@ -1,5 +1,4 @@
-/* geometry.h - triangle meshes of the shapes, and the colours, for host/io/glb/animation.cpp; outlines for
- * pictures. */
+/* geometry.h - triangle meshes of the shapes and a palette for host/io/glb/animation.cpp, and outlines for pictures. */
 #pragma once
 
 #include <array>
@@ -11,18 +10,19 @@
 namespace tandem {
 
 struct DisplayMesh {
-  std::vector<Vec3> positions, normals; /* same count; a vertex stands once per normal it has */
+  std::vector<Vec3> positions, normals; /* same count; a vertex is repeated for each of its normals */
   std::vector<uint32_t> indices;        /* three per triangle, counter-clockwise seen from outside */
 };
 
-/* Spheres, boxes and half-spaces are all one mesh, stretched; the others have one for each shape. */
+/* Spheres, boxes and half-spaces share one scaled mesh for each type; other shapes have one mesh each. */
 bool has_unit_mesh(ShapeType type);
 
-/* Of those: half extent or radius 1; the half space is a quad of half extent 1 in y = 0 that faces +Y. Of the others,
- * the shape itself in its own frame: round ones with corners on their surface, hulls with flat faces. */
+/* A unit mesh has half extent or radius 1; that of the half space is a quad of half extent 1 in y = 0 that faces +Y.
+ * The mesh of another shape is in the shape's own frame: round shapes with vertices on their surface, hulls with flat
+ * faces. */
 DisplayMesh display_mesh(const Shape &shape);
 
-/* Points whose convex hull is the shape, of round ones nearly; in the shape's frame. Of a half-space, none. */
+/* Points whose convex hull is the shape, approximately for round ones, in the shape's frame; none for a half-space. */
 std::vector<Vec3> outline_points(const Shape &shape);
 
 /* Linear RGB. The first is for bodies that never move, the second for kinematic ones. */

@@ -1,4 +1,4 @@
-/* body.cpp - see body.h. */
+/* body.cpp - reads colliders, finds shared shapes and places them in bodies; see body.h. */
 #include "host/io/gltf/body.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ template <class Value> void append_bytes(std::string &key, const Value &value)
   key.append(reinterpret_cast<const char *>(&value), sizeof(Value));
 }
 
-/* Equal for shapes that are the same: bodies alike share theirs, and its tables. */
+/* A key that is equal for equal shapes, so that equal bodies share one shape and its tables. */
 std::string identity_of(const Shape &shape)
 {
   std::string key;
@@ -99,7 +99,7 @@ GltfBodies::Collider GltfBodies::read_collider(const PlacedNode &at, bool trigge
   return collider;
 }
 
-/* The shape where its node is, the body's frame where the node with the motion is. */
+/* The shape is at its own node, the body's frame at the node with the motion. */
 void GltfBodies::place_alone(const BodyNodes &nodes, Body &body)
 {
   const PlacedNode &at = nodes.colliders.front();
@@ -118,7 +118,7 @@ void GltfBodies::place_alone(const BodyNodes &nodes, Body &body)
     move_frame(body, frame.position, frame.orientation);
 }
 
-/* Children stand in the frame of the node with the motion; its scale went into their places and sizes. */
+/* Children are placed in the frame of the node with the motion; its scale is applied to their positions and sizes. */
 void GltfBodies::place_together(const BodyNodes &nodes, Body &body)
 {
   const RigidPlace frame = rigid_place(document_, nodes.body.node, nodes.body.world);

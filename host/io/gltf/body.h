@@ -1,13 +1,13 @@
 /* body.h - from the nodes of one rigid body to a body of the scene.
  *
  *   colliders                     the body's shape
- *   one                           it, where its node is
- *   several                       a compound of them: each a child, with material and filter of its own
- *   none                          a ball that meets nothing: the motion goes on
+ *   one                           that collider, at its node
+ *   several                       a compound of them: each is a child with a material and a filter of its own
+ *   none                          a ball that collides with nothing, so that the motion is kept
  *
- * Triggers likewise, which have no material.
+ * Triggers are treated alike, but have no material.
  *
- * Not a public header.
+ * This is not a public header.
  */
 #pragma once
 
@@ -38,7 +38,7 @@ public:
   Scene take() { return std::move(scene_); }
 
 private:
-  /* What a collider says, and where it stands in the world. */
+  /* The contents of a collider, and its pose in the world. */
   struct Collider {
     Shape shape;
     Point position{};

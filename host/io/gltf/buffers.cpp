@@ -1,4 +1,5 @@
-/* buffers.cpp - see buffers.h; after the glTF 2.0 specification, chapter 3.6. */
+/* buffers.cpp - reads accessors, views and buffers; see buffers.h. It follows the glTF 2.0 specification, chapter
+ * 3.6. */
 #include "host/io/gltf/buffers.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ double number_of(int component_type, const char *bytes)
   }
 }
 
-/* What the largest whole number of the type stands for 1. */
+/* The largest integer of the type, which stands for 1. */
 double largest_of(int component_type)
 {
   switch (component_type) {
@@ -101,7 +102,7 @@ int digit_of(char c)
   return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* Names of files stand as URIs: %20 is a blank. */
+/* File names are URIs, in which %20 is a blank. */
 std::string percent_decoded(const std::string &text)
 {
   std::string result;
@@ -114,8 +115,8 @@ std::string percent_decoded(const std::string &text)
   return result;
 }
 
-/* Groups of four characters, the last filled up with one = or two, or cut short. The library would end at the first
- * =. */
+/* True if the text consists of groups of four characters, with the last padded by one = or two, or cut short. The
+ * library would stop at the first =. */
 bool is_base64(const std::string &text)
 {
   const size_t digits = std::min(text.find('='), text.size()), filled = text.size() - digits;
@@ -140,7 +141,7 @@ double GltfElements::at(size_t element, size_t component) const
   return accessor.normalized ? std::max(number / largest_of(accessor.componentType), -1.0) : number;
 }
 
-/* A buffer may be longer than it says, but not shorter. */
+/* A buffer may be longer than its byteLength, but not shorter. */
 std::string GltfBuffers::read_buffer(const JsonValue &json, size_t index, const JsonValue &view) const
 {
   static constexpr const char *keys[] = {"uri", "byteLength", "name", "extras", "extensions"};

@@ -1,5 +1,5 @@
-/* buffers.h - the numbers that glTF accessors stand for. Buffers are read when a collider asks for them:
- * what only renders may be missing. Not a public header. */
+/* buffers.h - the numbers of glTF accessors. Buffers are read only when a collider needs them, so that those which are
+ * only rendered may be missing. This is not a public header. */
 #pragma once
 
 #include <tiny_gltf.h>
@@ -14,7 +14,7 @@ struct GltfElements {
   const char *bytes = nullptr;
   size_t count = 0, stride = 0;
 
-  /* Whole numbers of normalized accessors stand for 0 … 1 or -1 … 1 (KHR_mesh_quantization). */
+  /* Integers of normalized accessors are converted to 0 … 1 or -1 … 1 (KHR_mesh_quantization). */
   double at(size_t element, size_t component = 0) const;
 };
 
@@ -23,7 +23,7 @@ public:
   explicit GltfBuffers(const GltfDocument &document) : document_(document) {}
   GltfBuffers(const GltfBuffers &) = delete;
 
-  /* `asks`, a geometry of a collider, begins the complaints. */
+  /* Error messages begin with `asks`, a geometry of a collider. */
   GltfElements elements_of(uint32_t accessor, const JsonValue &asks);
 
 private:
@@ -34,7 +34,8 @@ private:
   std::map<size_t, std::string> buffers_;
 };
 
-/* An item of one of the document's lists; complaints about it begin with `where`, the place of what asks for it. */
+/* An item of one of the document's lists; error messages about it begin with `where`, the place of the item that refers
+ * to it. */
 JsonValue gltf_item(const GltfDocument &document, const char *list, size_t index, const std::string &where);
 
 } // namespace tandem

@@ -1,5 +1,5 @@
-/* document.cpp - see document.h; after the glTF 2.0 specification, chapters 3.5 (nodes) and 4
- * (binary files). */
+/* document.cpp - reads files, nodes, scenes and animations; see document.h. It follows the glTF 2.0 specification,
+ * chapters 3.5 (nodes) and 4 (binary files). */
 #include "host/io/gltf/document.h"
 
 #include <algorithm>
@@ -23,12 +23,14 @@ uint32_t number_at(const std::string &bytes, size_t at)
   return number;
 }
 
-/* Chunks follow one another: length, type, bytes. The first is the JSON, the second, if there is one, the buffer. */
+/* The chunks of a binary file, each with length, type and bytes. The first is the JSON, the optional second one the
+ * buffer. */
 struct Chunks {
   std::string json, binary;
 };
 
-/* Chunks are filled up to four bytes: this one with blanks, but some writers take zeros, as the other has them. */
+/* Chunks are padded to four bytes. The JSON chunk must be padded with blanks, but some writers use zeros, as for the
+ * other chunk. */
 std::string without_padding(std::string json)
 {
   for (int i = 0; i < 3 && json.ends_with('\0'); ++i) json.pop_back();
@@ -58,7 +60,7 @@ Chunks chunks_of(const std::string &bytes, const std::string &where)
   return chunks;
 }
 
-/* Of "2.1" the 1. */
+/* The minor version, which is 1 for "2.1". */
 uint32_t minor_version(const JsonValue &json)
 {
   const std::string text = json.text();
@@ -74,7 +76,7 @@ uint32_t minor_version(const JsonValue &json)
 void check_version(const JsonValue &root)
 {
   const JsonValue asset = root.member("asset"), version = asset.member("version");
-  minor_version(version); /* what a later one adds may be passed over, unless the file says that it may not */
+  minor_version(version); /* additions of a later version may be ignored, unless the file forbids it */
   if (const auto least = asset.find("minVersion"); least && minor_version(*least) > 0)
     least->fail(
         fmt::format("is {}; glTF 2.0 is read, and a reader of 2.0 must refuse what asks for more", least->text()));
@@ -97,7 +99,7 @@ std::vector<int> read_indices(const JsonValue &list, const char *what, size_t co
 const char *const node_keys[] = {"camera", "children",    "skin",    "matrix", "mesh",   "rotation",
                                  "scale",  "translation", "weights", "name",   "extras", "extensions"};
 
-/* A matrix stands for the three others. */
+/* A matrix replaces translation, rotation and scale. */
 void check_transform(const JsonValue &json, const GltfNode &node)
 {
   for (const auto &[key, size] : {std::pair{"matrix", 16}, {"translation", 3}, {"rotation", 4}, {"scale", 3}})
@@ -132,7 +134,7 @@ size_t count_of(const JsonValue &root, const char *list)
   return found ? found->array_size() : 0;
 }
 
-/* Every complaint about a node begins with its name. */
+/* Every error message about a node begins with its name. */
 void read_nodes(GltfDocument &document)
 {
   const JsonValue root = document.root();
@@ -177,7 +179,7 @@ void read_scenes(GltfDocument &document)
   }
 }
 
-/* KHR_animation_pointer names what it moves by a path: /nodes/3/translation. */
+/* KHR_animation_pointer names its target by a path such as /nodes/3/translation. */
 void read_pointer(const JsonValue &pointer, GltfDocument &document)
 {
   const std::string path = pointer.member("pointer").text(), nodes = "/nodes/";
@@ -194,7 +196,7 @@ void read_pointer(const JsonValue &pointer, GltfDocument &document)
   document.animated.insert(int(index));
 }
 
-/* Which nodes move; how is none of our business yet. */
+/* Records which nodes are animated, but not how. */
 void read_animation(const JsonValue &animation, GltfDocument &document)
 {
   const JsonValue channels = animation.member("channels");

@@ -1,8 +1,8 @@
-/* document.h - a glTF file as far as physics reads it, for the readers of its parts beside it.
+/* document.h - the parts of a glTF file that physics needs, for the other readers in this folder.
  *
- * tinygltf's parser passes over values of wrong types and loads pictures that physics never looks at, so its structures
- * are filled here, through the same strict reader as our own format: nodes and scenes at once, meshes when a collider
- * asks (mesh.h). Whatever only renders is not even looked at. Not a public header.
+ * tinygltf's parser ignores values of wrong types and loads images that physics does not need. Its structures are
+ * therefore filled here, through the same strict reader as Tandem's own format: nodes and scenes at once, meshes when a
+ * collider refers to them (mesh.h). Parts that are only rendered are not read. This is not a public header.
  */
 #pragma once
 
@@ -41,19 +41,19 @@ struct GltfDocument {
   [[noreturn]] void refuse(int node, const std::string &what) const; /* InputError: file: node 'Cup': what */
   std::optional<JsonValue> physics_of(int node) const;
   JsonValue root() const { return {file.value(), where, "", JsonFloats::numbers}; }
-  /* Of the document; an empty object where it has none. Complaints about it begin with `place`, that of what asks for
-   * it. */
+  /* The document's extension, or an empty object if it has none. Error messages begin with `place`, that of the item
+   * that refers to it. */
   JsonValue extension(const char *name, const std::string &place) const;
   bool uses(const std::string &extension) const;
 };
 
-/* InputError where the file cannot be read, has a mistake, or requires an extension that might change the motion. */
+/* Throws InputError if the file cannot be read, has an error, or requires an extension that might change the motion. */
 GltfDocument read_gltf_document(const std::string &path, OutsideFiles outside);
 
-/* The extension of that name of a node, a mesh, a buffer, …; nothing where there is none. */
+/* The extension of that name of a node, a mesh, a buffer, …; nothing if there is none. */
 std::optional<JsonValue> gltf_extension_of(const JsonValue &owner, const char *name);
 
-/* The index of something of which the file has `count`. */
+/* Reads the index of an item of which the file has `count`. */
 int gltf_index(const JsonValue &json, const char *what, size_t count);
 
 } // namespace tandem

@@ -1,4 +1,4 @@
-/* extensions.cpp - see extensions.h; after the registry of glTF extensions (Khronos). */
+/* extensions.cpp - the lists of extensions; see extensions.h. They follow the registry of glTF extensions (Khronos). */
 #include "host/io/gltf/extensions.h"
 
 #include <algorithm>
@@ -14,17 +14,17 @@ namespace {
 constexpr std::string_view understood[] = {shapes_extension, bodies_extension, "KHR_mesh_quantization",
                                            "KHR_animation_pointer"};
 
-/* Vertices that are packed, or drawn many times over. */
+/* Extensions that compress or instance vertices. */
 constexpr std::string_view judged_by_use[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                               "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"};
 
-/* Families: how surfaces look, pictures on them, light, sound. */
+/* Families of extensions for materials, textures, light, sound and metadata. */
 constexpr std::string_view families_without_meaning[] = {
     "KHR_materials_", "EXT_materials_", "ADOBE_materials_",      "KHR_texture_", "EXT_texture_",
     "MSFT_texture_",  "KHR_lights_",    "EXT_lights_",           "KHR_audio_",   "MSFT_audio_",
     "MSFT_packing_",  "KHR_xmp",        "KHR_gaussian_splatting"};
-/* Visibility and levels of detail of what is drawn, outlines, techniques, data about parts of a mesh, a promise about
- * its surface. */
+/* Extensions for visibility, levels of detail, outlines, techniques and metadata of parts of a mesh, and one that
+ * asserts a property of its surface. */
 constexpr std::string_view without_meaning[] = {
     "KHR_node_visibility",     "KHR_techniques_webgl",     "MSFT_lod",
     "MSFT_screencoverage",     "CESIUM_primitive_outline", "EXT_mesh_features",
@@ -49,7 +49,7 @@ bool may_be_passed_over(const std::string &name)
 void check_required_extensions(const JsonValue &root)
 {
   const std::optional<JsonValue> required = root.find("extensionsRequired"), used = root.find("extensionsUsed");
-  for (size_t i = 0; used && i < used->array_size(); ++i) used->element(i).text(); /* which refuses all but names */
+  for (size_t i = 0; used && i < used->array_size(); ++i) used->element(i).text(); /* refuses everything but names */
   for (size_t i = 0; required && i < required->array_size(); ++i)
     if (const std::string name = required->element(i).text(); !may_be_passed_over(name))
       required->element(i).fail(fmt::format("required extension {} is not supported yet, and might change the motion; "

@@ -1,9 +1,9 @@
-/* extensions.h - which required extensions of a glTF file a simulation may pass over. Not a public header.
+/* extensions.h - which required extensions of a glTF file a simulation may ignore. This is not a public header.
  *
  *   understood        the two of physics, KHR_mesh_quantization, KHR_animation_pointer
- *   judged by use     compressed and instanced meshes: refused where a collider reads one (mesh.h)
- *   without meaning   what is seen, heard, or said about the file
- *   all others        refused: nobody knows whether they would change the motion
+ *   judged by use     compressed and instanced meshes: refused if a collider reads one (mesh.h)
+ *   without meaning   what is seen or heard, and metadata of the file
+ *   all others        refused, because they might change the motion
  */
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace tandem {
 
-/* InputError names the extension. */
+/* Throws InputError that names the extension. */
 void check_required_extensions(const JsonValue &root);
 
 } // namespace tandem

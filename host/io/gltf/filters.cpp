@@ -1,4 +1,4 @@
-/* filters.cpp - see filters.h. */
+/* filters.cpp - reads collision filters and converts combinations of systems to bits; see filters.h. */
 #include "host/io/gltf/filters.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ struct FilterText {
   Systems member_of, listed;
   enum { collides_with_all, only_with_listed, not_with_listed } rule = collides_with_all;
 
-  /* Does a collider that is in `systems` pass this filter? One in no system is in no list. */
+  /* Whether a collider that is in `systems` passes this filter. One that is in no system is in no list. */
   bool accepts(const Systems &systems) const
   {
     bool all_listed = !systems.empty() && std::includes(listed.begin(), listed.end(), systems.begin(), systems.end());

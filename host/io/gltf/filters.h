@@ -1,7 +1,8 @@
 /* filters.h - the collision filters of KHR_physics_rigid_bodies as bits of groups and masks.
  *
- * The extension asks whether ALL systems of a collider are listed; bits can only ask for ANY. So each combination of
- * systems that occurs gets a bit of its own, which is exact. Bit 0: in no system. Not a public header.
+ * The extension tests whether ALL systems of a collider are listed, whereas bits can only test for ANY. Each
+ * combination of systems that occurs therefore gets a bit of its own, which is exact. Bit 0 is for colliders in no
+ * system. This is not a public header.
  */
 #pragma once
 

@@ -1,11 +1,11 @@
-/* materials.cpp - see materials.h. */
+/* materials.cpp - reads friction, restitution and their combine rules; see materials.h. */
 #include "host/io/gltf/materials.h"
 
 namespace tandem {
 namespace {
 
-/* The extension's rule for two materials takes "average" before "minimum" and so on; a material that
- * names no rule yields to one that does, as our geometric mean does. */
+/* For two materials the extension's rule takes "average" before "minimum" and so on. A material that names no rule
+ * yields to one that does, as the geometric mean does here. */
 Combine read_combine(const JsonValue &material, const char *key)
 {
   static constexpr const char *names[] = {"average", "minimum", "maximum", "multiply"};

@@ -1,4 +1,4 @@
-/* mesh.cpp - see mesh.h; accessors after the glTF 2.0 specification, chapter 3.6. */
+/* mesh.cpp - assembles meshes from primitives; see mesh.h. Accessors follow the glTF 2.0 specification, chapter 3.6. */
 #include "host/io/gltf/mesh.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::vector<uint32_t> all_of(size_t vertices)
   return indices;
 }
 
-/* Of the places 0 to count - 1 nothing may be left over. */
+/* Throws if the vertices 0 to count - 1 do not make whole triangles. */
 void check_count(uint32_t mode, size_t count, const JsonValue &asks)
 {
   if (mode < TINYGLTF_MODE_TRIANGLES) return;
@@ -45,7 +45,8 @@ void check_count(uint32_t mode, size_t count, const JsonValue &asks)
   if (count < 3) asks.fail(fmt::format("a strip or fan of the mesh has {} corners; at least 3 are needed", count));
 }
 
-/* Of the places 0 to count - 1: a list, a strip (every second one turned round) or a fan; none of points and lines. */
+/* The triangles of the vertices 0 to count - 1: a list, a strip (every second triangle reversed) or a fan; none for
+ * points and lines. */
 std::vector<Triangle> triangles_of(uint32_t mode, uint32_t count)
 {
   std::vector<Triangle> triangles;
@@ -58,7 +59,8 @@ std::vector<Triangle> triangles_of(uint32_t mode, uint32_t count)
   return triangles;
 }
 
-/* Three floats each, or the whole numbers of KHR_mesh_quantization, which the node's scale makes metres. */
+/* Positions are three floats each, or the integers of KHR_mesh_quantization, which the node's scale converts to
+ * metres. */
 void check_positions(const GltfElements &points, const GltfDocument &document, const JsonValue &asks)
 {
   const int type = points.accessor.componentType;
@@ -71,7 +73,7 @@ void check_positions(const GltfElements &points, const GltfDocument &document, c
     asks.fail("positions of the mesh are floats; only whole numbers can be normalized");
 }
 
-/* Only vertices that the indices name belong to the mesh: primitives may share one accessor. */
+/* Only vertices that the indices name belong to the mesh, because primitives may share one accessor. */
 void append_vertices(const GltfElements &points, const std::vector<uint32_t> &indices, const Transform &place,
                      const JsonValue &asks, GltfMesh &mesh)
 {
@@ -109,7 +111,7 @@ bool is_deformed(const JsonValue &mesh)
 
 } // namespace
 
-/* A packed primitive may have the plain numbers beside, for readers that know no packing. */
+/* A compressed primitive may also contain the uncompressed data, for readers that do not support the compression. */
 void GltfMeshes::check_packing(const JsonValue &primitive, uint32_t accessor, const JsonValue &asks) const
 {
   if (!gltf_extension_of(primitive, "KHR_draco_mesh_compression")) return;
@@ -126,7 +128,7 @@ void GltfMeshes::append_primitive(const JsonValue &primitive, const Transform &p
   primitive.only_keys(keys);
   const std::optional<JsonValue> position = primitive.member("attributes").find("POSITION"),
                                  chosen = primitive.find("indices");
-  if (!position) return; /* nothing to see, says the specification */
+  if (!position) return; /* the specification says that nothing is rendered */
   for (const std::optional<JsonValue> &accessor : {position, chosen})
     if (accessor) check_packing(primitive, accessor->unsigned_integer(), asks);
   const GltfElements points = buffers_.elements_of(position->unsigned_integer(), asks);

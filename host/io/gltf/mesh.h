@@ -1,4 +1,4 @@
-/* mesh.h - the vertices and triangles of glTF meshes, from accessors and buffers. Not a public header. */
+/* mesh.h - the vertices and triangles of glTF meshes, from accessors and buffers. This is not a public header. */
 #pragma once
 
 #include "host/geometry/geometry.h"
@@ -8,7 +8,7 @@
 namespace tandem {
 
 struct GltfMesh {
-  std::vector<Double3> vertices; /* of points and lines too: a hull has them */
+  std::vector<Double3> vertices; /* including those of points and lines, which a hull uses */
   std::vector<Triangle> triangles;
 };
 
@@ -16,10 +16,10 @@ class GltfMeshes {
 public:
   explicit GltfMeshes(const GltfDocument &document) : document_(document), buffers_(document) {}
 
-  /* `asks`, a geometry of a collider, begins the complaints. */
+  /* Error messages begin with `asks`, a geometry of a collider. */
   GltfMesh of_mesh(uint32_t mesh, const JsonValue &asks);
-  /* The meshes of the node and of all below it, in the node's own space: its own transform places the node, not the
-   * mesh. */
+  /* The meshes of the node and of all nodes below it, in the node's own space: the transform of the node itself is not
+   * applied. */
   GltfMesh of_node(uint32_t node, const JsonValue &asks);
 
 private:

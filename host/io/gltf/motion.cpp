@@ -1,4 +1,4 @@
-/* motion.cpp - see motion.h. */
+/* motion.cpp - reads masses, centres of mass, inertia and velocities; see motion.h. */
 #include "host/io/gltf/motion.h"
 
 #include <cmath>
@@ -22,8 +22,8 @@ bool read_flag(const JsonValue &motion, const char *key)
   return flag && flag->boolean();
 }
 
-/* Given in node space: turned, but not scaled, to world axes. In a mirrored node a velocity is mirrored with it; a
- * spin, whose vector is the axis of a turn, the other way. */
+/* Converts a vector from node space to world axes: it is rotated, but not scaled. In a mirrored node a velocity is
+ * mirrored too; a spin is a pseudovector and changes its sign in addition. */
 Vec3 turned_to_world(const Transform &world, const Vec3 &local, bool spin)
 {
   double turned[3] = {0, 0, 0};
@@ -44,8 +44,8 @@ void read_velocities(const JsonValue &motion, const Transform &world, Body &body
     body.angular_velocity = turned_to_world(world, angular->vec3(), true);
 }
 
-/* From the axes of inertia to those of the body's frame, which in a mirrored node is that of the node with its X turned
- * round: the axes, being lines, are mirrored along it. */
+/* The rotation from the axes of inertia to those of the body's frame. In a mirrored node that frame is the node's with
+ * X reversed, so the axes, which are lines, are mirrored along X. */
 std::optional<Rotation> read_axes(const JsonValue &motion, const Transform &world)
 {
   std::optional<JsonValue> json = motion.find("inertiaOrientation");
@@ -60,7 +60,7 @@ std::optional<Rotation> read_axes(const JsonValue &motion, const Transform &worl
   return Rotation{q[0] / length, mirror * q[1] / length, mirror * q[2] / length, q[3] / length};
 }
 
-/* Zeros stand for infinity, about one axis or all. */
+/* A zero stands for infinity, about one axis or all. */
 void read_inertia(const JsonValue &motion, Body &body)
 {
   std::optional<JsonValue> diagonal = motion.find("inertiaDiagonal");
@@ -69,7 +69,7 @@ void read_inertia(const JsonValue &motion, Body &body)
   body.infinite_inertia = body.inertia == Vec3{0, 0, 0};
 }
 
-/* A place of node space, which the node's scale moves as it moves everything there. */
+/* A position in node space, to which the node's scale applies as to every other position there. */
 std::optional<Double3> read_center(const JsonValue &motion, const Transform &world, bool plane)
 {
   std::optional<JsonValue> json = motion.find("centerOfMass");
@@ -79,7 +79,7 @@ std::optional<Double3> read_center(const JsonValue &motion, const Transform &wor
   return transformed(world, {center[0], center[1], center[2]});
 }
 
-/* Of a shape without volume, there is nothing to calculate. */
+/* Throws if the shape has no volume from which the value could be computed. */
 template <class Calculate> void require_volume(const JsonValue &motion, const Calculate &calculate)
 {
   try {
@@ -90,7 +90,7 @@ template <class Calculate> void require_volume(const JsonValue &motion, const Ca
   }
 }
 
-/* To the given centre and axes; where one is missing, to the shape's. */
+/* Moves the frame to the given centre and axes; one that is missing is that of the shape. */
 void move_to_mass(const Scene &scene, const std::optional<Double3> &center, const std::optional<Rotation> &axes,
                   Body &body)
 {
@@ -106,7 +106,7 @@ void move_to_mass(const Scene &scene, const std::optional<Double3> &center, cons
   move_frame(body, center.value_or(uniform.position), axes.value_or(Rotation{q[0], q[1], q[2], q[3]}));
 }
 
-/* Zero stands for infinity. */
+/* A mass of zero stands for infinity. */
 bool is_infinite(const JsonValue &motion, const Body &body)
 {
   std::optional<JsonValue> mass = motion.find("mass");

@@ -1,9 +1,8 @@
-/* motion.h - the motion of a glTF node: what moves a body, its mass, and where its centre and axes of
- * inertia lie.
+/* motion.h - the motion of a glTF node: velocities, mass, and the centre and axes of inertia.
  *
- * What the file leaves away is the shape's, of uniform density (the extension: "calculated by the simulation engine");
- * each of mass, centre of mass and moments may be given or not. A centre that is given moves no moments: they are about
- * the centre, wherever it is. Not a public header.
+ * Mass, centre of mass and moments may each be given or not. What the file omits is that of the shape with uniform
+ * density (the extension: "calculated by the simulation engine"). Given moments are about the centre of mass, and a
+ * given centre does not change them. This is not a public header.
  */
 #pragma once
 
@@ -11,8 +10,8 @@
 
 namespace tandem {
 
-/* `world` is the transform of the node that has the motion. `body` has its shape, and stands with its frame in that
- * node's place. */
+/* `world` is the transform of the node that has the motion. `body` must have its shape, and its frame must be at that
+ * node. */
 void read_gltf_motion(const JsonValue &motion, const Transform &world, const Scene &scene, Body &body);
 
 } // namespace tandem

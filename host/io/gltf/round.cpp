@@ -1,4 +1,4 @@
-/* round.cpp - see round.h. */
+/* round.cpp - places points on circles and spheres and makes their hull; see round.h. */
 #include "host/io/gltf/round.h"
 
 #include <numbers>

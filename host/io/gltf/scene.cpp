@@ -1,17 +1,17 @@
-/* scene.cpp - from a glTF node tree to a flat list of bodies.
+/* scene.cpp - from a glTF node tree to a flat list of bodies; see scene.h.
  *
  * The tree is walked once, depth first. A node with a motion becomes a body, and so does one with a collider that has
  * no motion above it; a collider below a motion belongs to that body:
  *
- *   node (motion)           -> body, frame in the node's place
- *     node                  ->   decoration
+ *   node (motion)           -> body, frame at the node
+ *     node                  ->   no effect
  *       node (collider)     ->   the body's shape, or one of several; its pose in the body is that of this node
  *       node (motion) ...   -> a body of its own
  *
- * A trigger becomes a body as a collider does; one that lists nodes has its parts in these.
+ * A trigger becomes a body as a collider does; one that lists nodes consists of the triggers of these nodes.
  *
- * The parts are read by the files beside it, after the extension texts KHR_implicit_shapes and KHR_physics_rigid_bodies
- * (Khronos, drafts). */
+ * The other files of this folder read the parts, following the extension texts KHR_implicit_shapes and
+ * KHR_physics_rigid_bodies (Khronos, drafts). */
 #include "host/io/gltf/scene.h"
 
 #include <map>
@@ -48,7 +48,7 @@ private:
   std::set<int> visited_;
   std::vector<Visit> pending_;
   std::vector<BodyNodes> bodies_;
-  std::map<int, size_t> parts_; /* listed by a trigger and not met yet: which body they belong to */
+  std::map<int, size_t> parts_; /* listed by a trigger and not visited yet: the body they belong to */
 };
 
 /* `below` has the world transform of the node itself. */
@@ -68,7 +68,7 @@ void Walk::add(const JsonValue &physics, Visit &below)
   }
   if (has_trigger) add_trigger(physics.member("trigger"), below);
   if (!has_collider || (!has_motion && is_scaled_to_nothing(here.world)))
-    return; /* so scaled, the extension calls it disabled */
+    return; /* the extension calls a collider of this scale disabled */
   if (below.body == none) bodies_.push_back({here, false, false, {here}});
   else bodies_[below.body].colliders.push_back(here);
 }
@@ -89,7 +89,7 @@ void Walk::add_trigger(const JsonValue &trigger, Visit &at)
   else bodies_.push_back({here, false, true, {here}});
 }
 
-/* Its parts come later in the walk, for they are below it. */
+/* The parts of the trigger come later in the walk, because they are below it. */
 void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
 {
   for (const char *key : {"geometry", "collisionFilter"})
@@ -105,7 +105,7 @@ void Walk::add_trigger_list(const JsonValue &trigger, Visit &at)
   bodies_.push_back({{at.node, at.parent}, false, true});
 }
 
-/* A motion without a collider is the trigger's own; with one, the trigger would have to follow another body. */
+/* A motion without a collider is the trigger's own; with a collider, the trigger would have to follow another body. */
 void Walk::settle_triggers()
 {
   if (!parts_.empty()) {

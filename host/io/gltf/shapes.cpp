@@ -1,4 +1,4 @@
-/* shapes.cpp - see shapes.h. */
+/* shapes.cpp - reads implicit shapes and meshes, and finds meshes that are convex; see shapes.h. */
 #include "host/io/gltf/shapes.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace tandem {
 namespace {
 
-/* Of the hull's volume: what a mesh may lack of it by the roundings of its vertices, and still be the same solid. */
+/* Relative to the hull's volume: a mesh that lacks at most this much, by the rounding of its vertices, is the same
+ * solid. */
 constexpr double same_volume = 1e-4;
 
 bool even(float a, float b) { return std::max(a, b) <= std::min(a, b) * 1.0001f; }
@@ -30,7 +31,7 @@ float number_or(const JsonValue &json, const char *key, float otherwise)
   return found ? found->number() : otherwise;
 }
 
-/* Seen counter-clockwise from above, and from below too where it has two sides. */
+/* The triangles are counter-clockwise seen from above, and also seen from below if it is double-sided. */
 Shape rectangle(float size_x, float size_z, bool double_sided, const std::string &where)
 {
   const float x = 0.5f * size_x, z = 0.5f * size_z;
@@ -75,7 +76,7 @@ Shape read_box(const JsonValue &json, const Vec3 &scale)
   return box_shape(0.5f * edges[0] * scale[0], 0.5f * edges[1] * scale[1], 0.5f * edges[2] * scale[2]);
 }
 
-/* Radius below, half the height, radius above: of the extension's two shapes along Y. */
+/* Radius of the bottom, half the height, radius of the top of the extension's two shapes along Y. */
 Vec3 read_round(const JsonValue &json, const Vec3 &scale)
 {
   static constexpr const char *keys[] = {"height", "radiusBottom", "radiusTop", "extras", "extensions"};
@@ -90,7 +91,7 @@ Shape read_cylinder(const JsonValue &json, const Vec3 &scale)
   return round_hull(ShapeType::cylinder, read_round(json, {1, 1, 1}), scale, json.place());
 }
 
-/* Where one sphere holds the other, the hull of both is the larger: `offset` then is its height. */
+/* If one sphere contains the other, the hull of both is the larger sphere; `offset` is then its height. */
 Shape read_capsule(const JsonValue &json, const Vec3 &scale, double &offset)
 {
   const Vec3 own = read_round(json, {1, 1, 1}), size = read_round(json, scale);

@@ -1,7 +1,7 @@
 /* shapes.h - from the geometry of a collider to a shape: KHR_implicit_shapes, and meshes.
  *
- * A mesh becomes its convex hull where the file says so ("convexHull"), and where it is the same solid without: a
- * closed surface without dents. All others stay meshes. Not a public header.
+ * A mesh becomes its convex hull if the file says so ("convexHull") or if it is the same solid as its hull, a closed
+ * convex surface. All others stay meshes. This is not a public header.
  */
 #pragma once
 
@@ -11,15 +11,15 @@ namespace tandem {
 
 struct GltfShape {
   Shape shape;
-  double offset = 0; /* along Y, of the shape's frame in the collider's: a capsule that is a sphere really */
+  double offset = 0; /* along Y, of the shape's frame in the collider's; not 0 for a capsule that is really a sphere */
 };
 
 class GltfShapes {
 public:
   explicit GltfShapes(const GltfDocument &document) : document_(document), meshes_(document) {}
 
-  /* `scale`, along the axes of the collider, goes into the sizes; a mirroring one has its sign at X alone. The same
-   * geometry in the same scale gives the same shape: hull and mesh are shared. */
+  /* `scale`, along the axes of the collider, is applied to the sizes; that of a mirrored collider is negative only at
+   * X. The same geometry with the same scale gives the same shape, so that hulls and meshes are shared. */
   GltfShape read(const JsonValue &geometry, const std::array<double, 3> &scale);
 
 private:

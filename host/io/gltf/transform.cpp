@@ -1,4 +1,4 @@
-/* transform.cpp - see transform.h. */
+/* transform.cpp - composes and decomposes node transforms; see transform.h. */
 #include "host/io/gltf/transform.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ void rotation_columns(const std::vector<double> &quaternion, Transform &t)
   std::copy(&columns[0][0], &columns[0][0] + 9, &t.column[0][0]);
 }
 
-/* Of a rotation matrix; the largest component is computed first, so that nothing is divided by a small number. */
+/* The quaternion of a rotation matrix; the largest component is computed first, so that no division is by a small
+ * number. */
 std::array<double, 4> quaternion_of(const double m[3][3])
 {
   double trace = m[0][0] + m[1][1] + m[2][2], q[4];
@@ -97,7 +98,7 @@ Transform local_transform(const GltfDocument &document, int index)
   return local;
 }
 
-/* By the numbers themselves: the square of a small one is 0. */
+/* Tests the numbers themselves, because the square of a small one is 0. */
 bool is_scaled_to_nothing(const Transform &t)
 {
   return std::all_of(&t.column[0][0], &t.column[0][0] + 9, [](double x) { return x == 0; });

@@ -1,10 +1,10 @@
-/* transform.h - transforms of glTF nodes, and what a rigid body can take of them.
+/* transform.h - transforms of glTF nodes, and their decomposition into a rigid pose and a scale.
  *
  *   node matrices  M = parent · T · R · S   -> position   = last column
  *                                           -> scale      = lengths of the columns  -> sizes of the shape
  *                                           -> orientation = columns / lengths      (shear is refused)
  *
- * Not a public header.
+ * This is not a public header.
  */
 #pragma once
 
@@ -21,11 +21,11 @@ Transform operator*(const Transform &a, const Transform &b);
 Point transformed(const Transform &t, const Point &p);
 bool is_mirrored(const Transform &t);
 
-/* InputError where the node's numbers are no transform. */
+/* Throws InputError if the node's numbers are not a transform. */
 Transform local_transform(const GltfDocument &document, int node);
 
-/* What is left of a transform when its scale went into the shape. A mirroring scale is a mirroring along X, of which
- * `scale` keeps the sign, before a rotation: the implicit shapes are symmetric to it. */
+/* The rigid pose and the scale of a transform. A mirroring transform is decomposed into a mirroring along X (the sign
+ * of scale[0]) and then a rotation, because the implicit shapes are symmetric to that mirroring. */
 struct RigidPlace {
   Point position{0, 0, 0};
   std::array<double, 4> orientation{0, 0, 0, 1}; /* x y z w */
@@ -33,7 +33,7 @@ struct RigidPlace {
 };
 
 bool is_scaled_to_nothing(const Transform &t);
-/* InputError for shear, and for a scale of zero. */
+/* Throws InputError for shear, and for a scale of zero. */
 RigidPlace rigid_place(const GltfDocument &document, int node, const Transform &world);
 
 } // namespace tandem

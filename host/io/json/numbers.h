@@ -1,4 +1,5 @@
-/* numbers.h - numbers written so that reading them gives the same bits: floats in hexadecimal. */
+/* numbers.h - writes numbers so that reading them gives the same bits: floats in hexadecimal. The scene writer uses
+ * it. */
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ template <class Real, size_t n> std::string written(const std::array<Real, n> &v
   return text + "]";
 }
 
-/* Floats by their bits: -0 is not the default 0. */
+/* Compares floats by their bits, because -0 differs from the default 0. */
 inline bool same(const std::string &a, const std::string &b) { return a == b; }
 template <typename T> bool same(const T &a, const T &b) { return std::memcmp(&a, &b, sizeof(T)) == 0; }
 

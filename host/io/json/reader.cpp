@@ -1,4 +1,4 @@
-/* reader.cpp - see reader.h. */
+/* reader.cpp - parses JSON with limits on depth and duplicate keys, and converts values; see reader.h. */
 #include "host/io/json/reader.h"
 
 #include <algorithm>
@@ -20,14 +20,14 @@ std::string joined(std::span<const char *const> names)
   return text;
 }
 
-/* The value as it stands in the file, shortened, for messages. */
+/* The value as it is in the file, shortened, for messages. */
 std::string shown(const nlohmann::json &value)
 {
   std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return text.size() > 60 ? text.substr(0, 57) + "..." : text;
 }
 
-/* std::from_chars takes hexadecimal digits without the 0x that strtof and printf("%a") have. */
+/* std::from_chars accepts hexadecimal digits only without the 0x that strtof and printf("%a") use. */
 template <class Real> std::optional<Real> parse_hex_float(const std::string &text)
 {
   size_t start = !text.empty() && text[0] == '-' ? 1 : 0;
@@ -49,7 +49,7 @@ std::string line_and_column(const std::string &text, size_t byte)
   return fmt::format("{}:{}", line, start == std::string::npos ? end + 1 : end - start);
 }
 
-/* Without the library's own prefix and position. */
+/* The library's message without its prefix and position. */
 std::string plain_reason(const std::string &what)
 {
   size_t column = what.find("column ");
@@ -59,7 +59,7 @@ std::string plain_reason(const std::string &what)
   return bracket == std::string::npos ? what : what.substr(bracket + 2);
 }
 
-/* What is too small for a double is the least one, so that it is told from 0 later. */
+/* A number too small for a double becomes the smallest one, so that it differs from 0 later. */
 double zero_or_least(const std::string &text)
 {
   const std::string digits = text.substr(0, text.find_first_of("eE"));
@@ -68,8 +68,8 @@ double zero_or_least(const std::string &text)
   return text.starts_with("-") ? -least : least;
 }
 
-/* Builds a document as it is parsed: what an exception leaves half built is a JsonDocument, too. Duplicate keys would
- * silently lose a value; depth would end in a full stack. */
+/* Builds a document during parsing, so that a document that an exception leaves incomplete is a JsonDocument too.
+ * Duplicate keys would silently lose a value, and unlimited depth would overflow the stack. */
 class Builder : public nlohmann::json_sax<nlohmann::json> {
 public:
   Builder(const std::string &text, const std::string &where) : text_(text), where_(where) {}
@@ -109,7 +109,7 @@ private:
 
   const std::string &text_, &where_;
   std::vector<nlohmann::json *> open_; /* arrays and objects that have not ended, the innermost last */
-  nlohmann::json *member_ = nullptr;   /* what the last key names */
+  nlohmann::json *member_ = nullptr;   /* the value that the last key names */
 };
 
 nlohmann::json &Builder::place(nlohmann::json &&value)
@@ -149,7 +149,7 @@ bool Builder::parse_error(size_t position, const std::string &, const nlohmann::
   throw InputError(fmt::format("{}:{}: malformed JSON: {}", where_, where, plain_reason(error.what())));
 }
 
-/* Levels are few (most_json_levels), so that recursion is safe. */
+/* The number of levels is limited (most_json_levels), so recursion is safe. */
 void take_apart(nlohmann::json &value)
 {
   for (nlohmann::json &part : value)
@@ -281,7 +281,7 @@ JsonDocument::~JsonDocument() { take_apart(value_); }
 
 JsonDocument parse_json(const std::string &text, const std::string &where)
 {
-  if (const size_t zero = text.find('\0'); zero != std::string::npos) /* at which the library would end, in silence */
+  if (const size_t zero = text.find('\0'); zero != std::string::npos) /* the library would stop there silently */
     throw InputError(fmt::format("{}:{}: malformed JSON: a byte of 0; it stands in no text", where,
                                  line_and_column(text, zero + 1)));
   Builder builder(text, where);

@@ -1,4 +1,5 @@
-/* scene.cpp - one list of fields per record, from which both the reader and the writer follow. */
+/* scene.cpp - the scene file format: one list of fields per record, from which both the reader and the writer follow;
+ * see scene.h. */
 #include "host/io/json/scene.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 namespace tandem {
 namespace {
 
-using tandem::written; /* beside those of this file */
+using tandem::written; /* beside the overloads of this file */
 
 constexpr const char *motion_names[] = {"fixed", "kinematic", "dynamic"};
 constexpr const char *combine_names[] = {"average", "minimum", "maximum", "multiply", "geometric_mean"};
@@ -73,7 +74,7 @@ template <typename Enum>
 requires std::is_enum_v<Enum>
 void read_value(const JsonValue &json, Enum &value) { value = Enum(json.choice(names_of(value))); }
 
-/* What a file may say of a record that is none of its fields. */
+/* Keys of a record in a file that are none of its fields. */
 template <typename Record> std::vector<const char *> further_keys(const Record *) { return {}; }
 std::vector<const char *> further_keys(const Body *) { return {"density"}; } /* take_densities */
 
@@ -102,7 +103,8 @@ void read_shapes(const JsonValue &json, OutsideFiles outside, std::vector<Shape>
   for (size_t i = 0; i < json.array_size(); ++i) shapes.push_back(read_shape(json.element(i), outside));
 }
 
-/* With a density, mass, centre of mass and principal axes come from the shape, and the body's frame moves there. */
+/* With a density, mass, centre of mass and principal axes are computed from the shape, and the body's frame is moved
+ * accordingly. */
 void take_density(const JsonValue &json, Scene &scene, Body &body)
 {
   static constexpr const char *replaced[] = {"mass", "inertia"};
@@ -115,7 +117,7 @@ void take_density(const JsonValue &json, Scene &scene, Body &body)
   try {
     take_mass_properties(scene, body);
     body.mass = round_to_float(double(density.number()) * mass_properties_of(shape).mass);
-  } catch (const InputError &error) { /* a mesh without volume */
+  } catch (const InputError &error) { /* the mesh has no volume */
     density.fail(error.what());
   }
 }
@@ -127,13 +129,13 @@ void take_densities(const JsonValue &bodies, Scene &scene, const std::string &wh
     if (bodies.element(i).find("density")) given.push_back(i);
   if (given.empty()) return;
   Scene sound =
-      scene; /* of the shapes and places that masses are taken from; the masses are judged when they are known */
+      scene; /* the shapes and poses that masses are computed from are validated first, the masses once known */
   for (size_t i : given) sound.bodies[i].type = std::min(sound.bodies[i].type, BodyType::kinematic);
   validate(sound, where);
   for (size_t i : given) take_density(bodies.element(i), scene, scene.bodies[i]);
 }
 
-/* Of moments 0 stands for one without end, or for those of the shape. */
+/* A moment of 0 stands for an infinite one, or for that of the shape. */
 void take_moments(const JsonValue &bodies, Scene &scene)
 {
   for (size_t i = 0; i < scene.bodies.size(); ++i)
@@ -166,7 +168,7 @@ requires std::is_enum_v<Enum> std::string written(Enum value)
 {
   return fmt::format("\"{}\"", names_of(value)[size_t(value)]);
 }
-/* Fields that have their default are left out, except those always given. */
+/* Fields that have their default value are omitted, except those that are always written. */
 template <typename Record> std::string written_record(const Record &record, std::string text)
 {
   static const Record defaults;

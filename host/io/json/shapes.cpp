@@ -1,4 +1,4 @@
-/* shapes.cpp - see shapes.h. One reader and one writer a type. */
+/* shapes.cpp - one reader and one writer for each type of shape; see shapes.h. */
 #include "host/io/json/shapes.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace tandem {
 namespace {
 
-using tandem::written; /* beside those of this file */
+using tandem::written; /* beside the overloads of this file */
 
-/* The first stand for the ShapeType of the same place in `types`. A cone is a cylinder and a field of heights a mesh,
- * and written as such. */
+/* The first names stand for the ShapeType at the same index in `types`. A cone is a cylinder and a height field is a
+ * mesh, and they are written as such. */
 enum Name { sphere, box, half_space, capsule, cylinder, hull, mesh, compound, cone, height_field };
 constexpr const char *names[] = {"sphere", "box",  "half_space", "capsule", "cylinder",
                                  "hull",   "mesh", "compound",   "cone",    "height_field"};
@@ -39,7 +39,7 @@ std::vector<const char *> keys_of(Name name)
   return {};
 }
 
-/* "size" gives the three numbers of the record as they are. */
+/* The keys that "size", which gives the three numbers of the record directly, replaces. */
 std::vector<const char *> replaced_by_size(Name name)
 {
   if (name == sphere) return {"radius"};
@@ -54,7 +54,7 @@ void only_one(const JsonValue &json, const char *first, const char *second)
     json.fail(fmt::format("\"{}\" and \"{}\" exclude each other", first, second));
 }
 
-/* "radius" for both ends, or one for each. */
+/* Reads "radius" for both ends, or one radius for each. */
 void read_radii(const JsonValue &json, Shape &shape)
 {
   std::optional<JsonValue> radius = json.find("radius");
@@ -90,7 +90,7 @@ ObjMesh read_obj(const JsonValue &json, OutsideFiles outside)
   return parse_obj(text, fmt::format("{}: {}", json.place(), json.text()));
 }
 
-/* A mirrored mesh is turned inside out by it, and back here. */
+/* A mirroring scale turns a mesh inside out, so its triangles are reversed here. */
 void take_scale(const JsonValue &json, std::vector<Vec3> &points, std::vector<Triangle> &triangles)
 {
   const std::optional<JsonValue> given = json.find("scale");
@@ -207,7 +207,7 @@ std::string written(const std::vector<Child> &children)
   return text + "]";
 }
 
-/* The three numbers of a shape that says all it has without them. */
+/* The "size" of a shape, or nothing if it is the expected one, which follows from the other keys. */
 std::string written_size(const Shape &shape, const Vec3 &expected)
 {
   return same(shape.size, expected) ? "" : ", \"size\": " + written(shape.size);

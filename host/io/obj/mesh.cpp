@@ -1,4 +1,4 @@
-/* mesh.cpp - see mesh.h. */
+/* mesh.cpp - reads vertices and faces line by line and triangulates the faces; see mesh.h. */
 #include "host/io/obj/mesh.h"
 
 #include <algorithm>
@@ -17,15 +17,15 @@
 namespace tandem {
 namespace {
 
-/* Said about a surface or beside it, without being one. */
+/* Statements that do not define a surface. */
 constexpr std::string_view passed_over[] = {
     "vt",     "vn",     "vp",     "p",          "l",         "o",     "g",        "s",        "mg", "usemtl",
     "mtllib", "usemap", "maplib", "shadow_obj", "trace_obj", "bevel", "c_interp", "d_interp", "lod"};
 
-/* The time to cut a face grows with the square of its corners. One of so many takes some tenths of a second, and so may
- * all of a file together. */
+/* The time to triangulate a face grows with the square of its number of corners. A face with most_corners takes some
+ * tenths of a second, which is also the limit for all faces of a file together. */
 constexpr size_t most_corners = 10'000, most_squares = most_corners * most_corners;
-constexpr size_t many_corners = 100; /* faces of fewer are cut as fast as they are read */
+constexpr size_t many_corners = 100; /* faces with fewer are triangulated as fast as they are read */
 
 struct ObjFace {
   std::vector<int64_t> corners; /* from 0 */
@@ -95,7 +95,7 @@ float ObjReader::number(std::string_view word) const
   const char *start = word.data() + (word.starts_with("+") && !word.starts_with("+-") ? 1 : 0);
   const auto [stop, error] = std::from_chars(start, end, value);
   if (error == std::errc::result_out_of_range &&
-      stop == end) { /* too small for a float is none; too large is a mistake */
+      stop == end) { /* too small for a float becomes 0 or denormal; too large is an error */
     double wide = 0;
     const auto [wide_stop, wide_error] = std::from_chars(start, end, wide);
     if (wide_error == std::errc{} && wide_stop == end && std::abs(wide) < 1) return round_to_float(wide);
@@ -105,7 +105,7 @@ float ObjReader::number(std::string_view word) const
   return value;
 }
 
-/* v x y z, after which a weight or a colour may stand. */
+/* A vertex is v x y z, optionally followed by a weight or a colour. */
 void ObjReader::read_vertex(const std::vector<std::string_view> &words)
 {
   const size_t numbers = words.size() - 1;
@@ -116,8 +116,8 @@ void ObjReader::read_vertex(const std::vector<std::string_view> &words)
   vertices.push_back({number(words[1]), number(words[2]), number(words[3])});
 }
 
-/* "7", "7/2", "7//3" or "7/2/3": of these the first says where the corner is; the others must be numbers all the same.
- * Negative ones count back from the vertex before. */
+/* "7", "7/2", "7//3" or "7/2/3": the first number is the vertex, and the others must be numbers too. Negative numbers
+ * count back from the last vertex. */
 int64_t ObjReader::corner(std::string_view word) const
 {
   int64_t first = 0;
@@ -136,7 +136,7 @@ int64_t ObjReader::corner(std::string_view word) const
   }
   if (first > 0) return first - 1;
   const auto before = static_cast<int64_t>(vertices.size());
-  if (first < -before) /* the least of all has no opposite */
+  if (first < -before) /* the smallest int64 has no positive counterpart */
     fail(fmt::format("a face counts back {} vertices before the first", -(uint64_t(first) + uint64_t(before))), line_);
   return before + first;
 }
@@ -172,7 +172,7 @@ void ObjReader::read()
   }
 }
 
-/* Faces may stand before their vertices. */
+/* Faces may precede their vertices in the file. */
 void ObjReader::check_corners() const
 {
   for (const ObjFace &face : faces)
@@ -189,7 +189,7 @@ std::vector<Vec3> ObjReader::corners_of(const ObjFace &face) const
   return corners;
 }
 
-/* Quads would be cut all the same, into triangles that overlap. */
+/* Self-crossing quads would be triangulated too, into triangles that overlap. */
 void ObjReader::check_crossings() const
 {
   for (const ObjFace &face : faces)
@@ -197,7 +197,7 @@ void ObjReader::check_crossings() const
       fail("a polygon crosses itself; give its corners in order, or triangles", face.line);
 }
 
-/* The same vertices and faces, and nothing that could be read in another way. */
+/* The same vertices and faces as text that has only one interpretation. */
 std::string plain_text(const std::vector<Vec3> &vertices, const std::vector<ObjFace> &faces)
 {
   std::string text;
@@ -210,7 +210,7 @@ std::string plain_text(const std::vector<Vec3> &vertices, const std::vector<ObjF
   return text;
 }
 
-/* Fewer than the corners tell where a face cannot be cut. */
+/* Returns too few triangles if a face cannot be triangulated. */
 std::vector<Triangle> cut(const std::vector<Vec3> &vertices, const std::vector<ObjFace> &faces)
 {
   tinyobj::ObjReader reader;

@@ -1,8 +1,8 @@
-/* mesh.h - the vertices and triangles of a Wavefront OBJ file: objects and groups are one mesh, everything that is no
- * surface (normals, textures, materials, lines, points) is passed over.
+/* mesh.h - the vertices and triangles of a Wavefront OBJ file. Objects and groups become one mesh; normals, textures,
+ * materials, lines and points are ignored.
  *
- * tinyobjloader cuts polygons into triangles, but takes any text for a number and drops faces that it cannot make; so
- * each line is read here, and it is given what was found to be right. */
+ * tinyobjloader triangulates polygons, but accepts any text as a number and drops faces that it cannot make. Each line
+ * is therefore read here first, and tinyobjloader receives only what was found to be valid. */
 #pragma once
 
 #include "host/geometry/geometry.h"
@@ -14,8 +14,8 @@ struct ObjMesh {
   std::vector<Triangle> triangles;
 };
 
-/* Throws InputError, one line with the file's name and the number of the line in it, for what is no OBJ file or names
- * vertices that it has not. Without faces it is a cloud of points, good for a hull. */
+/* Throws InputError, one line with the file's name and the line number, if the file is not an OBJ file or names
+ * vertices that it does not have. A file without faces is a point cloud, from which a hull can be made. */
 ObjMesh load_obj(const std::string &file);
 ObjMesh parse_obj(const std::string &text, const std::string &where);
 

@@ -1,4 +1,4 @@
-/* batcher.cpp - the rows of the batchers, and what they share; see batcher.h. */
+/* batcher.cpp - the table of the batchers, and the launches they share; see batcher.h. */
 #include "host/pipeline/batching/batcher.h"
 
 #include <algorithm>

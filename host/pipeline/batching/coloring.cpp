@@ -1,4 +1,5 @@
-/* coloring.cpp - deterministic parallel graph colouring, kept from step to step (shared/batching/coloring.h). */
+/* coloring.cpp - the default batcher: deterministic parallel graph colouring, with colours kept from step to step
+ * (shared/batching/coloring.h). */
 #include "host/pipeline/batching/batcher.h"
 
 namespace tandem {

@@ -1,4 +1,5 @@
-/* iterative.cpp - the talks' iterative batching: batch after batch, a few rounds each (shared/batching/iterative.h). */
+/* iterative.cpp - the talks' iterative batching, which fills batch after batch in a few rounds each
+ * (shared/batching/iterative.h). */
 #include <algorithm>
 
 #include "host/pipeline/batching/batcher.h"

@@ -1,4 +1,5 @@
-/* sequential.cpp - one item, in the order of the list: the oracle of the others (shared/batching/coloring.h). */
+/* sequential.cpp - greedy colouring by one item in the order of the list, the reference for tests of the other batchers
+ * (shared/batching/coloring.h). */
 #include "host/pipeline/batching/batcher.h"
 
 namespace tandem {

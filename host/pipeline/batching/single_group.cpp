@@ -1,4 +1,4 @@
-/* single_group.cpp - the talks' naive batching: one work-group, the batches of the oracle
+/* single_group.cpp - the talks' naive batching: one work-group computes the same batches as sequential.cpp
  * (shared/batching/single_group.h). */
 #include "host/pipeline/batching/batcher.h"
 

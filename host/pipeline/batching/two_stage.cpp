@@ -1,5 +1,5 @@
-/* two_stage.cpp - the talks' two-stage batching: cells of space, then the contacts of each
- * (shared/batching/cells.h). */
+/* two_stage.cpp - the talks' two-stage batching: contacts are grouped by cells of space, and then batched within each
+ * cell (shared/batching/cells.h). */
 #include <bit>
 
 #include "host/pipeline/batching/batcher.h"

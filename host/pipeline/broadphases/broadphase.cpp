@@ -1,4 +1,4 @@
-/* broadphase.cpp - the list of broadphases, and what they share; see broadphase.h. */
+/* broadphase.cpp - the table of broadphases, and the launches they share; see broadphase.h. */
 #include "host/pipeline/broadphases/broadphase.h"
 
 #include <bit>

@@ -1,8 +1,9 @@
-/* broadphase.h - the ways to find bodies whose bounds overlap, one small file each: what `--broadphase NAME` picks.
+/* broadphase.h - the ways to find bodies whose bounds overlap, one small file each, of which `--broadphase NAME`
+ * selects one.
  *
- * A broadphase finds `bounds` filled. It leaves the pairs that may meet (shared/broadphase/overlap.h) in pair_a and
- * pair_b, sorted by (a, b) with a > b, where those of each body start in pair_start, and COUNT_PAIRS. Every one yields
- * the same list, hence the same bits in all that comes after: they differ in time alone.
+ * A broadphase reads `bounds`. It writes the pairs that may collide (shared/broadphase/overlap.h) to pair_a and pair_b,
+ * sorted by (a, b) with a > b, the start of each body's pairs to pair_start, and COUNT_PAIRS. All of them produce the
+ * same list, and therefore the same bits in every later stage; they differ only in time.
  */
 #pragma once
 
@@ -18,19 +19,19 @@ struct BroadphaseRow {
   const char *name;
   const char *what; /* for --help and `tandem plan` */
   void (*launch)(StepLaunches &step);
-  uint32_t queries = QUERY_HIERARCHY; /* the structure that queries between its steps walk: its own where it has one,
-                                         QUERY_ of body_codes.h */
+  uint32_t queries = QUERY_HIERARCHY; /* QUERY_ of body_codes.h: the structure that queries between steps traverse, the
+                                         broadphase's own if it has one */
 };
 
-/* In the order of the enum; all but automatic, the last, launch kernels. */
+/* In the order of the enum. All but automatic, the last, launch kernels. */
 std::span<const BroadphaseRow> broadphase_rows();
 std::span<const BroadphaseRow> broadphases(); /* without automatic */
 const BroadphaseRow &row_of(Broadphase broadphase);
 
-/* What is kept from the last launch no longer holds. */
+/* Invalidates what broadphases kept from the last launch. */
 void forget_kept(Memory &memory);
 
-/* Each in the file of its kind. */
+/* Each is defined in the file of its kind. */
 void find_pairs_by_brute_force(StepLaunches &step);
 void find_pairs_in_grid(StepLaunches &step);
 void find_pairs_in_bitonic_grid(StepLaunches &step);
@@ -45,20 +46,19 @@ void find_pairs_by_stack(StepLaunches &step);
 void find_pairs_by_history(StepLaunches &step);
 void find_pairs_in_trees(StepLaunches &step);
 
-/* What several of them share: where the small bodies are, for the grid, the axis of the sweep and the frame of the
- * curve. */
+/* Finds the extent of the small bodies, which the grid, the axis of the sweep and the frame of the curve need. */
 void find_extent(StepLaunches &step, bool hybrid = false);
-/* The small bodies, sorted by cells of their own extent: for the grid, and for queries. */
+/* Sorts the small bodies by cells of their own extent, for the grid and for queries. */
 void sort_into_cells(StepLaunches &step, bool bitonic = false);
-/* Sorts as many keys of pairs as the entry of counts says. */
+/* Sorts as many keys of pairs as counts[length] says. */
 void sort_pair_keys(StepLaunches &step, Buffer keys, Buffer other_keys, uint32_t length, uint32_t capacity);
-/* The list from pair_key, in any order. */
+/* Makes the list of pairs from pair_key, whose entries may be in any order. */
 void pairs_from_keys(StepLaunches &step);
-/* The hierarchy of boxes over all bounds: for the broadphase, and for queries. keep: whether its order may be, and
- * becomes, a kept one. */
+/* Builds the hierarchy of boxes over all bounds, for the broadphase and for queries. keep: its order may be kept from
+ * the last step, and is kept for the next one. */
 void build_hierarchy(StepLaunches &step, bool keep);
-/* The order and the links of its leaves, once they are sorted, and the boxes of its nodes. boxes: those that it is of;
- * the ranges of the leaves and of the nodes are entries of counts. */
+/* Links the nodes of a hierarchy to its sorted leaves, and computes the boxes of its nodes. boxes: the boxes of the
+ * leaves; the ranges of the leaves and of the nodes are entries of counts. */
 void link_leaves(StepLaunches &step, Buffer boxes);
 void raise_boxes(StepLaunches &step, Buffer boxes, uint32_t leaves = COUNT_LEAVES, uint32_t nodes = COUNT_HIERARCHY);
 

@@ -1,4 +1,5 @@
-/* brute_force.cpp - every body against every one before it (shared/broadphase/brute_force.h). */
+/* brute_force.cpp - tests every body against every one before it; the reference for tests of the other broadphases
+ * (shared/broadphase/brute_force.h). */
 #include "host/pipeline/broadphases/broadphase.h"
 
 namespace tandem {

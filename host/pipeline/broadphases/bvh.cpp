@@ -1,6 +1,6 @@
-/* bvh.cpp - a hierarchy of boxes over the bodies along a curve, walked by every body (shared/broadphase/hierarchy.h).
- * Its order is kept from step to step and its boxes are made anew, until too many bodies have left the places they were
- * inserted with. */
+/* bvh.cpp - a hierarchy of boxes over the bodies sorted along a space-filling curve, which every body traverses
+ * (shared/broadphase/hierarchy.h). Its order is kept from step to step and its boxes are recomputed, until too many
+ * bodies have left the places at which they were inserted. */
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/layout.h"
 #include "shared/body_codes.h"

@@ -1,4 +1,4 @@
-/* choice.cpp - see choice.h. The limits are those at which the curves of `tandem bench broadphase` cross
+/* choice.cpp - see choice.h. The thresholds are where the curves of `tandem bench broadphase` cross
  * (docs/results/2026-11-22-h200-broadphase). */
 #include "host/pipeline/broadphases/choice.h"
 

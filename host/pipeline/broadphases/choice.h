@@ -1,5 +1,5 @@
-/* choice.h - which broadphase suits a scene and the kind of backend that runs it: what Broadphase::automatic means, and
- * why. The bits are those of every other choice. */
+/* choice.h - chooses the broadphase that suits a scene and the kind of backend that runs it: the meaning of
+ * Broadphase::automatic. The choice changes no bit of a result. */
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 namespace tandem {
 
 struct BroadphaseChoice {
-  Broadphase broadphase; /* not automatic */
+  Broadphase broadphase; /* the statistics of the scene that decided it, in one line */
   std::string why;       /* the statistics of the scene that led there, in one line */
 };
 

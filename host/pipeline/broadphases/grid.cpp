@@ -1,4 +1,5 @@
-/* grid.cpp - small bodies sorted by cell, large ones against all (shared/broadphase/grid.h, grid_symmetric.h). */
+/* grid.cpp - small bodies sorted by grid cell, large ones tested against all others (shared/broadphase/grid.h,
+ * grid_symmetric.h). */
 #include <bit>
 
 #include "host/pipeline/broadphases/broadphase.h"

@@ -1,5 +1,5 @@
-/* sap.cpp - 1-axis sort, sweep and prune: as the talk starts with it (shared/broadphase/sweep_and_prune.h) and as it
- * ends (sweep_window.h). */
+/* sap.cpp - sort, sweep and prune along one axis, in the variant with which the talk starts
+ * (shared/broadphase/sweep_and_prune.h) and in the one with which it ends (sweep_window.h). */
 #include "host/pipeline/broadphases/broadphase.h"
 
 namespace tandem {

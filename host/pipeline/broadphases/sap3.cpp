@@ -31,7 +31,8 @@ void merge_with_kept_pairs(StepLaunches &step)
   step.run(Kernel::merge_write);
 }
 
-/* Not at the commit: what is kept belongs to the bounds of this launch, whether the step is run again or not. */
+/* This does not belong to the commit: what is kept describes the bounds of this launch, whether the step runs again or
+ * not. */
 void keep_for_next_launch(StepLaunches &step)
 {
   step.run(Kernel::keep_ends);

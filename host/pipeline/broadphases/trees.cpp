@@ -1,8 +1,8 @@
-/* trees.cpp - a dynamic and a static tree of fat boxes, and the pairs of those that are kept
+/* trees.cpp - a dynamic and a static tree of fat AABBs, and the pairs of those, which are kept from step to step
  * (shared/broadphase/fat_aabbs.h, candidate_pairs.h).
  *
- * Where no body left its box, the kernels between plan_trees and the filter have next to nothing to run over: the
- * device knows, the host need not ask.
+ * If no body left its fat AABB, the kernels between plan_trees and the filter have hardly any items. Their ranges are
+ * entries of counts on the device, so the host launches them without asking.
  */
 #include <bit>
 

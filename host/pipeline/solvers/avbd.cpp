@@ -1,4 +1,4 @@
-/* avbd.cpp - augmented vertex block descent, coloured by bodies; see shared/solve/avbd.h. */
+/* avbd.cpp - the solver `avbd`: augmented vertex block descent, with bodies coloured; see shared/solve/avbd.h. */
 #include <algorithm>
 
 #include "host/pipeline/body_constraints.h"
@@ -8,7 +8,7 @@
 namespace tandem {
 namespace {
 
-/* Where the host knows no body colours yet. */
+/* Used as long as the host knows no number of body colours. */
 constexpr uint32_t first_guess = 32;
 
 void color_bodies(StepLaunches &step)
@@ -21,8 +21,8 @@ void color_bodies(StepLaunches &step)
   step.run(Kernel::body_color_starts);
 }
 
-/* Colours of the last step and one more; what lies behind them is solved in order by avbd_rest, with the same
- * result. */
+/* The number of body colours to launch: those of the last step and one more. Bodies of later colours are solved in
+ * order by avbd_rest, with the same result. */
 uint32_t body_colors(const StepPlan &plan)
 {
   uint32_t colors = 0;

@@ -1,7 +1,7 @@
-/* direct.cpp - the soft step with each small island solved to convergence after every pass of its rows.
+/* direct.cpp - the solver `direct`: the soft step, with each small island solved to convergence after every pass.
  *
- * The iterative rows run over all constraints: they are what large islands get, and the first guess of small ones,
- * which solve_islands (host/pipeline/solvers/islands.h) then brings to the solution in double on the CPU. */
+ * The iterative pass runs over all constraints. Large islands keep its result; for small ones it is the first guess,
+ * which solve_islands (host/pipeline/solvers/islands.h) then improves to the solution in double on the CPU. */
 #include "host/pipeline/solvers/islands.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"

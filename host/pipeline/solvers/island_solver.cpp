@@ -1,9 +1,9 @@
-/* island_solver.cpp - see island_solver.h. The one file of the simulation that uses Eigen; beside it
- * host/verify/metrics.cpp, which only measures.
+/* island_solver.cpp - see island_solver.h. It is the only file of the simulation that uses Eigen;
+ * host/verify/metrics.cpp uses it too, but only measures.
  *
- * Results must be the same on every processor. Eigen's blocked products and factorisations cut their sums by the size
- * of the caches, so only its vectors are used, and elimination goes row by row. Manifolds come in an order in which
- * neighbours are near each other, so rows are short: a stack costs n b^2 instead of n^3.
+ * Results must be the same on every processor. Eigen's blocked products and factorisations split their sums by the size
+ * of the caches, so only its vectors are used, and elimination goes row by row. Manifolds are ordered so that
+ * neighbours are near each other; the matrix then has a small bandwidth b, and a stack costs n b^2 instead of n^3.
  */
 #include "host/pipeline/solvers/island_solver.h"
 
@@ -18,19 +18,20 @@ namespace {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/* Four points of a face carry one load in many ways, and floats have rounded each a little differently, so that no way
- * fits exactly. A compliance, relative to each row's own, chooses the way nearest to the guess: at rest, where the
- * guess is the answer, it gives no speed away. Much smaller, and rounding alone would decide which points bear. */
+/* Four points of a face can carry one load in many ways, and each float is rounded a little differently, so that none
+ * of these ways fits exactly. A compliance, relative to each row's own response, selects the solution nearest to the
+ * guess; at rest, where the guess is the solution, it has no effect. With a much smaller compliance, rounding
+ * alone would decide which points carry the load. */
 constexpr double compliance = 1e-6;
 constexpr double tolerance = 1e-9;
-constexpr double rounding = 1e-13; /* of the sums that make a speed */
+constexpr double rounding = 1e-13; /* relative to the sums that make a speed */
 constexpr int rounds = 4, newton_limit = 16, first_iterations = 32;
-/* Where plain Newton stalls: much compliance about what is known, which is easy, then less and less (proximal point
- * method). */
+/* Used if plain Newton stalls (proximal point method): a large compliance about the present iterate, with which the
+ * problem is easy, and then smaller ones. */
 constexpr double softened[] = {1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 
-/* Gaussian elimination with row pivots on rows that end early: [0, ends[i]). The solution replaces `right`; false:
- * singular. */
+/* Gaussian elimination with partial pivoting on rows that are non-zero only in [0, ends[i]). The solution replaces
+ * `right`; returns false if the matrix is singular. */
 bool eliminate(Matrix &a, Vector &right)
 {
   const Eigen::Index n = a.rows();
@@ -105,7 +106,7 @@ public:
   }
 
 private:
-  /* Where a row of the matrix is not zero. */
+  /* The range of columns in which a row of the matrix is not zero. */
   struct Reach {
     Eigen::Index first, last;
   };
@@ -114,7 +115,7 @@ private:
   static Eigen::Index tangent(const ManifoldRows &m) { return m.first + m.normals; }
   static Eigen::Index twist(const ManifoldRows &m) { return tangent(m) + (m.slides ? 2 : 0); }
 
-  /* Rows give way by the share of their own response to what x differs from `about`. */
+  /* Makes rows compliant by a share of their own response to the difference of x from `about`. */
   void yield(double share, const Vector &about)
   {
     for (Eigen::Index i = 0; i < n_; ++i) {
@@ -140,7 +141,8 @@ private:
     yield(compliance, guess_);
   }
 
-  /* One step for both, or projecting on a circle would not be a projection: 1 / largest eigenvalue. */
+  /* One step for both tangents, because the projection on a circle would otherwise not be a projection: 1 / largest
+   * eigenvalue. */
   double tangent_step(Eigen::Index t) const
   {
     const double a = matrix_(t, t), b = matrix_(t + 1, t + 1), mixed = matrix_(t, t + 1);
@@ -163,7 +165,7 @@ private:
     }
   }
 
-  /* What the laws allow nearest to y, into y. */
+  /* Projects y, in place, to the nearest point that the contact laws allow. */
   static void project_tangent(double radius, double &first, double &second)
   {
     const double length = std::sqrt(first * first + second * second);
@@ -182,7 +184,7 @@ private:
     }
   }
 
-  /* map = x - projection(x - step * speed): zero at a solution. */
+  /* map = x - projection(x - step * speed), which is zero at a solution. */
   void evaluate_map(const Vector &x)
   {
     evaluate_speeds(x);
@@ -223,7 +225,8 @@ private:
     return tolerance * largest + rounding * sums;
   }
 
-  /* Judges what is inside the laws: that is what the bodies get. True once it is good enough. */
+  /* Evaluates the projection of x, because its result is what the bodies receive. Returns true once it is accurate
+   * enough. */
   bool keep_if_better(const Vector &x)
   {
     Vector inside = x;
@@ -237,7 +240,7 @@ private:
     return result_.converged;
   }
 
-  /* Rows of the derivative of the map at x, whose speeds and map are evaluated. */
+  /* Computes the rows of the derivative of the map at x, whose speeds and map must have been evaluated. */
   void linearise(const Vector &x)
   {
     derivative_.setZero(n_, n_);
@@ -253,7 +256,7 @@ private:
     }
   }
 
-  /* On the cone: x - radius(x) * direction(x - step * speed). */
+  /* On the cone the map is x - radius(x) * direction(x - step * speed). */
   void linearise_tangent(const ManifoldRows &m, double radius, const Vector &x)
   {
     const Eigen::Index t = tangent(m);
@@ -298,7 +301,8 @@ private:
     return true;
   }
 
-  /* Rows that are at rest (x = 0 and nothing else) are solved at sight; the others, scaled alike, by elimination. */
+  /* Rows that are at rest (the derivative is x = 0 alone) are solved directly; the others are scaled alike and solved
+   * by elimination. */
   bool newton_change(Vector &change) const
   {
     change = -map_;
@@ -331,8 +335,8 @@ private:
     return true;
   }
 
-  /* Careful: no step may make the map larger. At a kink none can; there whole steps, however large, often find the
-   * way. */
+  /* If `careful`, no step may increase the map. At a kink every step may do so; whole steps, however large, then often
+   * converge. */
   void newton(Vector &x, bool careful)
   {
     Vector change;
@@ -349,7 +353,7 @@ private:
     keep_if_better(x);
   }
 
-  /* Halves the change until it makes the map smaller. */
+  /* Halves the change until it decreases the map. */
   bool search(Vector &x, const Vector &change, double before)
   {
     for (double share = 1; share > 1.0 / 100; share *= 0.5) {
@@ -395,7 +399,7 @@ private:
     for (int k = 0; k < count; ++k) {
       if (k % 16 == 0) {
         if (keep_if_better(x)) return;
-        evaluate_speeds(x); /* anew: changes would add up their rounding */
+        evaluate_speeds(x); /* computed afresh, because updates would accumulate their rounding errors */
       }
       for (const ManifoldRows &m : problem_.manifolds) solve_manifold(m, x);
       ++result_.iterations;

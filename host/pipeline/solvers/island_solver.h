@@ -1,4 +1,5 @@
-/* island_solver.h - one dense contact problem with friction, solved to convergence in double.
+/* island_solver.h - one dense contact problem with friction, solved to convergence in double; islands.h makes the
+ * problems.
  *
  *   w = W x + offset          W: Delassus operator, x: impulses, w: speeds of the rows
  *
@@ -6,8 +7,9 @@
  *   tangent  |x_t| <= friction * (sum of the manifold's normals), opposed to w_t where it slips
  *   twist    |x| <= friction * twist_radius * (the same sum), opposed to w where it slips
  *
- * Semismooth Newton on the natural map (Alart and Curnier, 1991; survey: Acary, Bremond and Huber, "On solving contact
- * problems with Coulomb friction", 2018), and passes of nonsmooth Gauss-Seidel (Jean, 1999) where it stalls.
+ * The method is semismooth Newton on the natural map (Alart and Curnier, 1991; survey: Acary, Bremond and Huber, "On
+ * solving contact problems with Coulomb friction", 2018). Where it stalls, passes of nonsmooth Gauss-Seidel (Jean,
+ * 1999) follow.
  */
 #pragma once
 
@@ -16,7 +18,7 @@
 
 namespace tandem {
 
-/* Rows of one manifold: `normals` of them from `first`, then two tangents if `slides`, then a twist if `twists`. */
+/* The rows of one manifold: `normals` of them from `first`, then two tangents if `slides`, then a twist if `twists`. */
 struct ManifoldRows {
   uint32_t first = 0, normals = 0;
   bool slides = false, twists = false;
@@ -29,18 +31,18 @@ struct IslandProblem {
   std::vector<double> matrix; /* W, rows x rows, symmetric, diagonal > 0 */
   std::vector<double> offset; /* m/s, rad/s for twists */
   std::vector<ManifoldRows> manifolds;
-  std::vector<double> impulse; /* N s: a guess on the way in, the solution on the way out */
+  std::vector<double> impulse; /* N s: a guess on input, the solution on output */
 };
 
 struct IslandResult {
   bool converged = false;
-  double residual = 0; /* m/s: largest speed by which a row misses its law (natural map over its step) */
+  double residual = 0; /* m/s: the largest speed by which a row violates its law (natural map over its step) */
   uint32_t newton_steps = 0, iterations = 0;
 };
 
-/* Rows yield by a millionth of their own response to what their impulse differs from the guess. Converged: the residual
- * is at most 1e-9 of the largest speed of the problem. If neither method gets there, the impulses are the best seen,
- * the guess among them. Always finite if the problem is. */
+/* Each row has a compliance of a millionth of its own response, applied to the difference of its impulse from the
+ * guess. The result has converged if the residual is at most 1e-9 of the largest speed of the problem. If neither
+ * method converges, the impulses are the best ones found, including the guess. They are finite if the problem is. */
 IslandResult solve_island(IslandProblem &problem);
 
 } // namespace tandem

@@ -1,6 +1,6 @@
-/* islands.cpp - finds islands, writes each as a dense problem, and puts the solution back; see islands.h.
+/* islands.cpp - finds islands, writes each as a dense problem, and stores the solution; see islands.h.
  *
- * The shared headers are read here in double, so that the rows are those of the iterative solver, to the letter. */
+ * The shared headers are included here in double, so that the rows are exactly those of the iterative solver. */
 #include "host/pipeline/solvers/islands.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void write_rows(Memory &memory, Buffer buffer, const std::vector<float4> &rows, 
   memory.write_reals(buffer, reinterpret_cast<const double *>(rows.data()), 4 * rows.size(), 4 * first);
 }
 
-/* Planes `stride` apart on the device, `count` apart here. */
+/* Reads planes that are `stride` apart on the device and `count` apart here. */
 std::vector<float4> read_planes(Memory &memory, Buffer buffer, size_t planes, size_t count, size_t stride)
 {
   std::vector<float4> all;
@@ -64,7 +64,7 @@ Parameters read_parameters(Memory &memory)
   return parameters;
 }
 
-/* All that the stage reads, in double; what it writes is written back from here. */
+/* Everything that the stage reads, in double; its results are written back from here. */
 struct Rows {
   Rows(Memory &memory, const std::vector<uint32_t> &counts)
       : count(counts[COUNT_CONSTRAINTS]), stride(counts[CAPACITY_PAIRS]), parameters(read_parameters(memory)),
@@ -99,7 +99,7 @@ struct Rows {
   Parameters parameters;
   std::vector<uint32_t> a, b;
   std::vector<float4> normal, points, center, normal_impulse, friction_impulse, velocity, inertia, delta, restitution;
-  std::vector<double> slop; /* or that it is deep: slop_or_deep */
+  std::vector<double> slop; /* or the flag for a deep contact: slop_or_deep */
 };
 
 uint32_t points_of(const Rows &rows, uint32_t constraint)
@@ -117,7 +117,7 @@ uint32_t root_of(std::vector<uint32_t> &parent, uint32_t body)
   return body;
 }
 
-/* Constraints of each island, in the order of the constraints; islands by their first constraint. */
+/* The constraints of each island, in the order of the constraints; islands are ordered by their first constraint. */
 std::vector<std::vector<uint32_t>> find_islands(const Rows &rows)
 {
   std::vector<uint32_t> parent(rows.bodies());
@@ -140,7 +140,7 @@ std::vector<std::vector<uint32_t>> find_islands(const Rows &rows)
   return islands;
 }
 
-/* Constraints by their distance from `start` over shared moving bodies, breadth first. */
+/* The constraints by their distance from `start` over shared moving bodies, breadth first. */
 std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &constraints, size_t start)
 {
   const auto touch = [&](uint32_t one, uint32_t other) {
@@ -160,8 +160,8 @@ std::vector<uint32_t> walk_from(const Rows &rows, const std::vector<uint32_t> &c
   return order;
 }
 
-/* Neighbours near each other, so that the matrix is narrow (Cuthill and McKee, 1969): from the far end of a first
- * walk. */
+/* Orders neighbours near each other, so that the matrix has a small bandwidth (Cuthill and McKee, 1969): a search from
+ * the last constraint of a first search. */
 std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32_t> &constraints)
 {
   const uint32_t end = walk_from(rows, constraints, 0).back();
@@ -175,7 +175,7 @@ std::vector<uint32_t> in_narrow_order(const Rows &rows, const std::vector<uint32
 struct Row {
   uint32_t a, b;
   vec3 direction, r_cross_n_a, r_cross_n_b;
-  double *impulse; /* where it is kept */
+  double *impulse; /* where it is stored */
 };
 
 class Island {
@@ -196,7 +196,7 @@ public:
            std::all_of(problem_.impulse.begin(), problem_.impulse.end(), finite);
   }
 
-  /* False if the solver stalled. */
+  /* Returns false if the solver stalled. */
   bool solve()
   {
     if (problem_.rows == 0) return true;
@@ -258,8 +258,8 @@ void Island::add_constraint(uint32_t i)
   problem_.manifolds.push_back(manifold);
 }
 
-/* The law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid; false: it takes no
- * part. */
+/* The complementarity law of one point in this pass, as in normal_impulse() of shared/solve/contact.h but rigid;
+ * returns false if the point takes no part. */
 bool Island::normal_row(uint32_t i, uint32_t k, double separation, double rate, double &bias) const
 {
   const Parameters &p = rows_.parameters;
@@ -313,7 +313,7 @@ double Island::speed_of(const Row &r) const
          dot3(r.r_cross_n_a, one.angular);
 }
 
-/* W and the speeds without any impulse: those of now less what the present impulses give. */
+/* Computes W and the speeds without any impulse: the present speeds minus the effect of the present impulses. */
 void Island::assemble()
 {
   const size_t n = problem_.rows;
@@ -360,7 +360,7 @@ void Island::apply()
   }
 }
 
-/* Points that were pressed in any pass may bounce. */
+/* Only points that carried an impulse in some pass may get restitution. */
 void Island::note_highest()
 {
   for (uint32_t i : constraints_)

@@ -1,7 +1,7 @@
-/* jacobi.cpp - all constraints at once, on bodies split into parts; see shared/solve/mass_split.h.
+/* jacobi.cpp - the solver `jacobi`: all constraints at once, on bodies split into parts; see shared/solve/mass_split.h.
  *
- * The substeps of the soft step, with iterations in place of colours: two launches an iteration, however many colours
- * the scene would take. */
+ * It has the substeps of the soft step, with iterations in place of colours: two launches an iteration, however many
+ * colours the scene would need. */
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"

@@ -1,4 +1,4 @@
-/* mass_split.cpp - see mass_split.h. */
+/* mass_split.cpp - the launches of the split bodies' passes; see mass_split.h. */
 #include "host/pipeline/solvers/mass_split.h"
 
 #include "host/pipeline/body_constraints.h"
@@ -51,7 +51,7 @@ void MassSplit::run_rows(Kernel kernel, const Values &values)
   step_.run_range(kernel, COLOR_START + first_color_, COUNT_CONSTRAINTS, values);
 }
 
-/* A body of more constraints than there are colours has overflow constraints. */
+/* Overflow constraints exist only if some body has more constraints than there are colours. */
 void MassSplit::join_parts()
 {
   const bool trees = step_.plan().colors > COLOR_LIMIT;

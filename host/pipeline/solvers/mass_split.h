@@ -1,9 +1,9 @@
 /* mass_split.h - passes over constraints that are solved all at once; see shared/solve/mass_split.h.
  *
- * The solver `jacobi` solves every constraint so, the others their overflow constraints, after the last colour of each
- * pass:
+ * The solver `jacobi` solves every constraint in this way; the other solvers solve their overflow constraints so, after
+ * the last colour of each pass:
  *
- *   MassSplit overflow = MassSplit::overflow_of(step);   nothing is launched where every constraint has a colour
+ *   MassSplit overflow = MassSplit::overflow_of(step);   nothing is launched if every constraint has a colour
  *   overflow.prepare();                              once a step
  *   step.for_each_color(Kernel::warm_start);
  *   overflow.warm_start();
@@ -14,7 +14,7 @@
 
 namespace tandem {
 
-/* Passes over the overflow constraints after each over the colours. */
+/* The number of passes over the overflow constraints after each pass over the colours. */
 constexpr uint32_t overflow_iterations = 4;
 
 class MassSplit {
@@ -22,17 +22,17 @@ public:
   static MassSplit all_of(StepLaunches &step) { return {step, 0, true}; }
   static MassSplit overflow_of(StepLaunches &step) { return {step, COLOR_OVERFLOW, step.plan().colors > COLOR_LIMIT}; }
 
-  /* How often colours and overflow constraints shall take turns in an iteration. What rests on a body of many contacts
-   * is spread over both, and one turn leaves them at odds: 200 kg of boxes on a slab of 20 kg then jitter for ever, at
-   * twice the depth. */
+  /* How often colours and overflow constraints alternate in an iteration. The load on a body with many contacts is
+   * distributed over both, and after one turn they disagree: 200 kg of boxes on a slab of 20 kg then jitter forever, at
+   * twice the penetration. */
   uint32_t turns() const { return launched_ ? 2 : 1; }
 
-  /* Lists and masses; before any other pass. */
+  /* Makes the lists and masses; must precede all passes. */
   void prepare();
   void warm_start();
   /* pass: of shared/solve/pass.h. */
   void solve(uint32_t pass, uint32_t iterations);
-  /* In rounds: a bouncing part is stopped by the others of its body. */
+  /* Runs in rounds, because a part with restitution is slowed by the other parts of its body. */
   void apply_restitution();
 
 private:

@@ -1,4 +1,4 @@
-/* nncg.cpp - conjugate gradients over the passes of pgs; see shared/solve/nncg.h. */
+/* nncg.cpp - the solver `nncg`: conjugate gradients over the passes of pgs; see shared/solve/nncg.h. */
 #include "host/pipeline/primitives.h"
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
@@ -7,7 +7,7 @@
 namespace tandem {
 namespace {
 
-/* Of constraints that have a colour: overflow constraints are accelerated in a way of their own
+/* The end of the constraints that have a colour; overflow constraints have an acceleration of their own
  * (shared/solve/mass_split.h). */
 constexpr uint32_t colored = COLOR_START + COLOR_OVERFLOW;
 
@@ -20,7 +20,7 @@ void go_on_along_direction(StepLaunches &step, bool first)
   step.for_each_color(Kernel::nncg_advance);
 }
 
-/* The last pass is not followed by a direction, so the impulses end within their cones. */
+/* No direction step follows the last pass, so the impulses end within their cones. */
 void launch_passes(StepLaunches &step, MassSplit &overflow, uint32_t pass)
 {
   const uint32_t iterations = step.settings().iterations;

@@ -1,4 +1,4 @@
-/* pgs.cpp - projected Gauss-Seidel, rows in the order of the talks; see shared/solve/pgs.h. */
+/* pgs.cpp - the solver `pgs`: projected Gauss-Seidel, with rows in the order of the talks; see shared/solve/pgs.h. */
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"

@@ -1,4 +1,5 @@
-/* rolling.cpp - rolling and spinning friction for any solver: rows that follow its own; see shared/solve/rolling.h. */
+/* rolling.cpp - rolling and spinning friction for any solver, as rows that follow the solver's own; see
+ * shared/solve/rolling.h. */
 #include "host/pipeline/solvers/solvers.h"
 
 namespace tandem {

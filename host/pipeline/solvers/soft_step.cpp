@@ -1,5 +1,5 @@
-/* soft_step.cpp - the default solver: small substeps, each solved softly, moved, and relaxed; see
- * shared/solve/contact.h. */
+/* soft_step.cpp - the default solver: small substeps, in each of which soft constraints are solved, bodies moved and
+ * the constraints relaxed; see shared/solve/contact.h. */
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 #include "shared/solve/pass.h"
@@ -14,15 +14,15 @@ void solve(StepLaunches &step, MassSplit &overflow, uint32_t pass)
   solve_rolling(step);
 }
 
-/* The first substep starts from the impulses that the last step's contacts carried, and is solved once more for that:
- * it takes a quarter off the penetration of a pile, at an eighth of what another substep costs (docs/departures.md). */
+/* The first substep starts from the impulses of the last step's contacts and therefore gets one more pass. That reduces
+ * the penetration of a pile by a quarter, for an eighth of the cost of another substep (docs/departures.md). */
 uint32_t passes_of(const StepLaunches &step, const MassSplit &overflow, uint32_t substep)
 {
   return (step.settings().iterations + (substep == 0 ? 1 : 0)) * overflow.turns();
 }
 
-/* Later substeps find the impulses of the colours in warm_start_impulse; the overflow constraints add their own each
- * time. */
+/* Later substeps read the impulses of the colours from warm_start_impulse; the overflow constraints apply their own in
+ * each substep. */
 void launch_soft_step_substep(StepLaunches &step, MassSplit &overflow, uint32_t substep)
 {
   step.begin_substep(substep);

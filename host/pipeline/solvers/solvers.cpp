@@ -1,4 +1,4 @@
-/* solvers.cpp - see solvers.h. */
+/* solvers.cpp - the table of the solvers; see solvers.h. */
 #include "host/pipeline/solvers/solvers.h"
 
 #include "host/pipeline/setting_rows.h"
@@ -32,7 +32,7 @@ const SolverRow &row_of(Solver solver) { return row_in(solvers(), solver); }
 
 Settings settings_for(Solver solver)
 {
-  name_of(solver); /* InputError where there is none of this number */
+  name_of(solver); /* InputError if there is no solver of this number */
   Settings settings;
   settings.solver = solver;
   settings.substeps = row_of(solver).substeps;

@@ -1,8 +1,8 @@
-/* solvers.h - the list of solvers: a choice, its name, what it is, its own substeps and iterations, and the launches it
- * makes.
+/* solvers.h - the list of solvers: for each its choice, name, description, default substeps and iterations, and the
+ * function that launches it.
  *
- * A solver runs between prepare_contacts, which makes the constraints, and check_bodies, and leaves solver_velocity,
- * solver_delta_pose and solver_orientation at the end of the step and the impulses in constraint_normal_impulse and
+ * A solver runs between prepare_contacts, which makes the constraints, and check_bodies. It leaves solver_velocity,
+ * solver_delta_pose and solver_orientation at the end of the step, and the impulses in constraint_normal_impulse and
  * constraint_friction_impulse, for the next step's warm start. Each is one small file here over row kernels of
  * shared/solve/. */
 #pragma once
@@ -16,10 +16,10 @@ namespace tandem {
 struct SolverRow {
   Solver choice;
   const char *name, *what;
-  uint32_t substeps, iterations; /* where the user names none */
+  uint32_t substeps, iterations; /* defaults */
   void (*launch)(StepLaunches &step);
   void (*commit)(StepLaunches &step) =
-      nullptr; /* what it keeps for the next step, once the step is known to be whole */
+      nullptr; /* stores what the solver keeps for the next step, once the step has succeeded */
 };
 
 std::span<const SolverRow> solvers(); /* in the order of the enum */
@@ -37,9 +37,9 @@ void launch_direct(StepLaunches &step);
 
 class MassSplit;
 
-/* What several solvers launch: the impulses of the last step or substep, applied once more; one pass of pgs, friction
- * after all normals (pass: of shared/solve/pass.h); restitution and the torques of rolling friction, nothing in a scene
- * without. */
+/* Launches that several solvers share: the impulses of the last step or substep, applied once more; one pass of pgs,
+ * with friction after all normals (pass: of shared/solve/pass.h); restitution; and the torques of rolling friction,
+ * which launch nothing in a scene without it. */
 void warm_start_contacts(StepLaunches &step, MassSplit &overflow);
 void launch_pgs_pass(StepLaunches &step, MassSplit &overflow, uint32_t pass);
 void apply_restitution(StepLaunches &step, MassSplit &overflow);

@@ -1,14 +1,14 @@
-/* xpbd.cpp - positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
+/* xpbd.cpp - the solver `xpbd`: positions first, then velocities, in small substeps; see shared/solve/xpbd.h. */
 #include "host/pipeline/solvers/mass_split.h"
 #include "host/pipeline/solvers/solvers.h"
 
 namespace tandem {
 namespace {
 
-/* One pass takes out what positions were pushed apart with, but for M / (M + m) of it where a mass m bears M; what is
- * left flies on and is pushed against in the next substep: 200 kg of boxes on a slab of 20 kg trembled with 0.4 J for
- * ever, at rest. Eight bring 450 kg on 20 kg to rest. A body of more contacts than there are colours is taken to bear
- * as much; others keep the one pass of the paper. */
+/* One velocity pass removes the velocity that the position correction added, except a share M / (M + m) of it if a mass
+ * m carries M. The rest moves the bodies and is corrected in the next substep: 200 kg of boxes on a slab of 20 kg
+ * trembled with 0.4 J forever. Eight passes bring 450 kg on 20 kg to rest. A body with more contacts than there are
+ * colours is assumed to carry such a load; other scenes keep the one pass of the paper. */
 uint32_t velocity_passes(const StepLaunches &step) { return step.plan().colors > COLOR_LIMIT ? 8 : 1; }
 
 void launch_xpbd_substep(StepLaunches &step, uint32_t substep)

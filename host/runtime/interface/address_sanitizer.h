@@ -1,7 +1,6 @@
-/* address_sanitizer.h - makes an access to the bytes by which an allocation is longer than what it holds an error, as
- * one beyond the allocation is: buffers are rounded up to whole pages, which would hide an overrun. No code in other
- * builds.
- */
+/* address_sanitizer.h - marks the padding of an allocation as inaccessible. Buffers are rounded up to whole pages,
+ * which would hide an overrun; with AddressSanitizer an access to the padding is an error, as one beyond the allocation
+ * is. Other builds contain no code of it. */
 #pragma once
 
 #include <cstddef>
@@ -17,7 +16,7 @@ extern "C" void __asan_poison_memory_region(const volatile void *address, size_t
 
 namespace tandem {
 
-/* Of memory from std::aligned_alloc, which std::free takes as it is. */
+/* The memory must be from std::aligned_alloc; std::free accepts it without unpoisoning. */
 inline void forbid_access([[maybe_unused]] void *memory, [[maybe_unused]] size_t first, [[maybe_unused]] size_t last)
 {
 #if defined(__SANITIZE_ADDRESS__)

@@ -1,4 +1,4 @@
-/* backend.cpp - what most backends do not have. */
+/* backend.cpp - defaults for operations that most backends do not support. */
 #include "host/runtime/interface/backend.h"
 
 #include <stdexcept>

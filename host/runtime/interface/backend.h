@@ -1,6 +1,6 @@
-/* backend.h - something that runs kernels: MiniCL (serial, tbb) or an OpenCL device.
+/* backend.h - the interface of what runs kernels: MiniCL (serial, tbb) or an OpenCL device.
  *
- * step.cpp decides what runs; placement decides on which backend; a backend knows nothing of physics.
+ * step.cpp decides which kernels run, placement decides on which backend, and a backend contains no physics.
  */
 #pragma once
 
@@ -25,10 +25,11 @@ struct Launch {
   Values values;
   uint32_t first = COUNT_ZERO; /* entries of counts: the range is [counts[first], counts[last]) */
   uint32_t last = COUNT_ZERO;
-  uint32_t expected = 0; /* about how many items: sizes a device's launch, never its result. GROUP: at least as many */
+  uint32_t expected = 0; /* estimate of the number of items, which sizes a device's launch but never changes its result.
+                            GROUP: at least as many */
 };
 
-/* Arguments in the order of the kernel's row: a handle of the backend's storage, or a value. */
+/* One argument, in the order of the kernel's row: a handle of the backend's storage, or a value. */
 struct BoundArgument {
   void *handle = nullptr;
   uint32_t value = 0;
@@ -39,19 +40,19 @@ public:
   virtual ~Backend() = default;
   virtual const std::string &name() const = 0; /* as given to --on: "tbb:threads=2,lanes=8" */
   virtual Storage &storage() = 0;
-  /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. Called before run. */
+  /* Builds or looks up what the kernels of a scene need; features: FEATURE_ bits. It is called before run. */
   virtual void prepare(Features features, const std::vector<Kernel> &kernels) = 0;
-  /* counts: the handle of Buffer::counts in this backend's storage. May return before the work is done. */
+  /* counts: the handle of Buffer::counts in this backend's storage. The call may return before the work is done. */
   virtual void run(const Launch &launch, const std::vector<BoundArgument> &arguments, void *counts) = 0;
-  /* The same for a kernel of execution HOST, which takes its buffers itself. Only the backend of
-   * host/pipeline/cpu_kernels.h has them. */
+  /* Runs a kernel of execution HOST, which accesses its buffers itself. Only the backend of host/pipeline/cpu_kernels.h
+   * supports it. */
   virtual void run_cpu_kernel(const Launch &launch, Memory &memory);
   virtual void finish() = 0; /* waits for all work given so far */
 
   /* Work-item order of the CPU backends, for tests. */
   enum class Order { forward, backward, shuffled };
 
-  /* Time spent in each kernel since the last call, indexed by Kernel; all 0 unless profiling is on. */
+  /* The time spent in each kernel since the last call, indexed by Kernel; all 0 unless profiling is on. */
   struct Time {
     double nanoseconds = 0;
     uint64_t launches = 0;

@@ -1,6 +1,7 @@
-/* buffer_sides.h - a list of buffers by their sides: what STATE and CACHE hold is there twice (shared/buffers.def).
+/* buffer_sides.h - expands a list of buffers into their sides: STATE and CACHE buffers exist twice
+ * (shared/buffers.def).
  *
- * Who wants the sides defines SIDE(name, element, capacity, per_item, feature, lifetime, fields) and BUFFER as
+ * An includer defines SIDE(name, element, capacity, per_item, feature, lifetime, fields), defines BUFFER as
  * BUFFER_SIDES, includes the list and undefines both.
  */
 #pragma once

@@ -1,4 +1,4 @@
-/* debug.cpp - see debug.h. */
+/* debug.cpp - the variable of debug.h that conditions of breakpoints read. */
 #include "host/runtime/interface/debug.h"
 
 namespace tandem {

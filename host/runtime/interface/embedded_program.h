@@ -1,6 +1,6 @@
-/* embedded_program.h - an OpenCL program that a library carries as text: one per stage, with every include expanded.
+/* embedded_program.h - an OpenCL program that a library contains as text: one per stage, with every include expanded.
  *
- * tools/embed writes the text at build time, of the pipeline's stages as of those of other modules.
+ * tools/embed writes the text at build time, for the pipeline's stages and for those of other modules.
  */
 #pragma once
 
@@ -16,7 +16,7 @@ struct EmbeddedEntry {
 struct EmbeddedProgram {
   const char *name;                   /* "solve" for cl/solve.cl */
   const char *headers;                /* OpenCL C before the entries */
-  std::vector<EmbeddedEntry> entries; /* a program of any of them is complete */
+  std::vector<EmbeddedEntry> entries; /* any subset of them makes a complete program */
 };
 
 } // namespace tandem

@@ -1,9 +1,9 @@
-/* faults.h - where tests let something fail that fails on a full machine alone: the n-th allocation, build, launch or
- * move of bytes.
+/* faults.h - places where tests simulate failures that otherwise occur only on a full machine: of the n-th allocation,
+ * build, launch or transfer.
  *
- * After the out-of-memory tests of SQLite. Each place asks strikes() before it does its work, and fails as if the
- * machine had refused; tests/host/runtime/interface/faults_test.cpp lets them fail one by one. Without a hook that is
- * one look at a pointer.
+ * It follows the out-of-memory tests of SQLite. Each place calls strikes() before it does its work, and fails as if the
+ * machine had refused; tests/host/runtime/interface/faults_test.cpp makes the places fail one by one. Without a hook
+ * the cost is one load of a pointer.
  */
 #pragma once
 

@@ -1,4 +1,5 @@
-/* features.h - the rows of features.def as sets of one, FEATURE_TREES, which the host tests and unites. */
+/* features.h - the rows of features.def as sets of one feature, such as FEATURE_TREES, which the host tests and
+ * unites. */
 #pragma once
 
 #include <limits>

@@ -1,7 +1,7 @@
 /* floating_point.h - one floating-point environment for every worker.
  *
- * Round to nearest, denormals kept, exceptions masked: an application, or a library it loads, may have
- * set flush-to-zero on any thread, which would change bits (docs/exactness.md).
+ * The environment is round to nearest with denormals kept and exceptions masked. An application, or a library that it
+ * loads, may have set flush-to-zero on any thread, which would change bits (docs/exactness.md).
  */
 #pragma once
 

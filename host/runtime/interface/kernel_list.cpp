@@ -1,4 +1,4 @@
-/* kernel_list.cpp - the rows of kernels.def and buffers.def, expanded. */
+/* kernel_list.cpp - the tables of kernels.def and buffers.def, and the names and sizes of their rows. */
 #include "host/runtime/interface/kernel_list.h"
 
 #include <iterator>
@@ -14,7 +14,7 @@ namespace {
 
 using enum Buffer;
 
-/* A group (shared/argument_groups.h) and buffers.def agree about types, or this does not compile. */
+/* Checks at compile time that a group (shared/argument_groups.h) and buffers.def agree about the type of a buffer. */
 template <class Rows> constexpr Buffer of_element(const Rows &rows, Buffer buffer, Element element)
 {
   return rows[index_of(buffer)].element == element ? buffer : throw "the group names another type";

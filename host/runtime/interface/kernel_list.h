@@ -1,7 +1,7 @@
 /* kernel_list.h - kernels.def, buffers.def and stages.def as enums and tables: the pipeline as the host sees it.
  *
- * The pipeline is the first module of kernels and buffers; those of other modules have numbers behind its own
- * (host/runtime/interface/module.h), and row_of() knows all of them.
+ * The pipeline is the first module of kernels and buffers. Those of other modules have numbers after its own
+ * (host/runtime/interface/module.h), and row_of() finds the rows of all of them.
  */
 #pragma once
 
@@ -58,7 +58,8 @@ constexpr size_t stage_count = 0
 #undef STAGE
     ;
 
-/* What sizes a buffer; buffers.def names them, and items_of in host/pipeline/layout.cpp says how many items each is. */
+/* The quantity that sizes a buffer. buffers.def names it, and items_of in host/pipeline/layout.cpp gives the number of
+ * items. */
 enum class Capacity : uint8_t {
   NOTHING,
   ONE,
@@ -95,7 +96,7 @@ enum class Capacity : uint8_t {
 
 enum class Element : uint8_t { float4, real, uint, ulong, Parameters };
 
-/* How long the contents of a buffer matter: buffers.def says what each word means. */
+/* How long the contents of a buffer are needed; buffers.def defines each word. */
 enum class Lifetime : uint8_t { SCENE, STATE, CACHE, KEPT, SCRATCH };
 
 struct Argument {
@@ -103,7 +104,7 @@ struct Argument {
   Access access;
   Buffer buffer; /* Kind::buffer only */
   const char *name;
-  Element element = Element::uint; /* of Kind::slot; that of a buffer stands in its own row */
+  Element element = Element::uint; /* of Kind::slot; the element of a buffer is in its own row */
 };
 
 constexpr uint32_t items_given = 0xffffffffu; /* the launch names both ends of the range */
@@ -137,7 +138,7 @@ inline Buffer buffer_at(size_t index) { return static_cast<Buffer>(index); }
 constexpr size_t index_of(Kernel kernel) { return static_cast<size_t>(kernel); }
 constexpr size_t index_of(Buffer buffer) { return static_cast<size_t>(buffer); }
 
-/* Of the pipeline and of all modules added so far. */
+/* The numbers of rows of the pipeline and of all modules added so far. */
 TANDEM_API size_t all_kernels();
 TANDEM_API size_t all_buffers();
 size_t all_stages();

@@ -1,4 +1,4 @@
-/* module.cpp - the modules that were added; see module.h. */
+/* module.cpp - the registry of the modules that were added; see module.h. */
 #include "host/runtime/interface/module.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace tandem {
 namespace {
 
-constexpr size_t most_modules = 64, most_rows = 4096; /* rows: of all lists together */
+constexpr size_t most_modules = 64, most_rows = 4096; /* most_rows: of all lists together */
 
-/* Who holds a number of a kernel or a buffer got it from a module that was added before, so what it leads to is written
- * by then: readers take no lock. */
+/* A thread that has the number of a kernel or a buffer got it from a module that was added before, so the row was
+ * written before the number was known, and readers need no lock. */
 struct Registry {
   std::mutex mutex;
   std::array<std::unique_ptr<const Module>, most_modules> modules;
@@ -25,7 +25,7 @@ struct Registry {
 
 Registry &registry()
 {
-  static Registry &only = *new Registry; /* worlds may end later than static objects do */
+  static Registry &only = *new Registry; /* never destroyed, because worlds may outlive static objects */
   return only;
 }
 

@@ -1,9 +1,9 @@
-/* module.h - a module: a list of kernels and a list of buffers, with what runs them on every backend.
+/* module.h - a module: a list of kernels and a list of buffers, and the functions that run them on every backend.
  *
- * The pipeline is the first module, and its rows are enumerators of Kernel and Buffer. Others, of projects outside the
- * tree, are added while a program runs; their kernels and buffers get the numbers behind all that came before, so that
- * memory, placement, profiles and comparisons treat them as the pipeline's own. tandem_add_module()
- * (cmake/TandemModules.cmake) writes the source that calls add_module(); docs/your-own-kernel.md tells how to use it.
+ * The pipeline is the first module, and its rows are enumerators of Kernel and Buffer. Other modules, of projects
+ * outside the tree, are added while a program runs; their kernels and buffers get numbers after all earlier ones, so
+ * that memory, placement, profiles and comparisons treat them as the pipeline's own. tandem_add_module()
+ * (cmake/TandemModules.cmake) writes the source that calls add_module(); docs/your-own-kernel.md describes its use.
  */
 #pragma once
 
@@ -27,7 +27,7 @@ namespace tandem {
  * value, of the k-th argument of the kernel's row. */
 using RunRange = void (*)(void *const *arguments, uint32_t first, uint32_t last);
 
-/* The ways in which MiniCL compiles the same source: minicl/kernel_table.h. */
+/* The variants in which MiniCL compiles the same source; see minicl/kernel_table.h. */
 enum class Width : uint8_t { scalar, scalar_avx2, backward, reference, lanes4, lanes8, lanes16 };
 constexpr size_t width_count = 7;
 
@@ -35,15 +35,17 @@ constexpr size_t width_count = 7;
 constexpr uint16_t first_own_buffer = 0x8000;
 constexpr Buffer own_buffer(size_t row) { return static_cast<Buffer>(first_own_buffer + row); }
 
-/* The stage of each row of a module, before add_module() has numbered it: the module is one stage, of its name. */
+/* The stage of each row of a module before add_module() has numbered it. The whole module is one stage with the
+ * module's name. */
 constexpr Stage own_stage{0xff};
 
 struct ModuleLists {
-  const char *name; /* a word of C; every row's stage */
+  const char *name; /* a C identifier; the stage of every row */
   std::span<const KernelRow> kernels;
   std::span<const BufferRow> buffers;
-  std::array<const RunRange *, width_count> run; /* by Width: a function for each kernel, null where a width has none */
-  const std::vector<EmbeddedProgram> *programs;  /* for OpenCL: one, of the module's name */
+  std::array<const RunRange *, width_count> run; /* by Width: a function for each kernel, or null for a width that has
+                                                    none */
+  const std::vector<EmbeddedProgram> *programs;  /* for OpenCL: one program, with the module's name */
 };
 
 class Module {
@@ -75,8 +77,9 @@ private:
   std::vector<BufferRow> buffer_rows_;
 };
 
-/* Adds a module for the life of the process; of one that is there already, it is that one. Threads may call it at the
- * same time; worlds made before do not know it. InputError where a name is taken or there are too many. */
+/* Adds a module for the life of the process. If it was added before, the earlier one is returned. Threads may call it
+ * at the same time; worlds made before cannot use the module. Throws InputError if a name is taken or there are too
+ * many modules or rows. */
 TANDEM_API const Module &add_module(const ModuleLists &lists);
 
 size_t module_count();

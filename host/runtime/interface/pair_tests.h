@@ -1,4 +1,5 @@
-/* pair_tests.h - the rows of shared/pairs.def for the host: which kernels find the contacts of a kind of pair. */
+/* pair_tests.h - the rows of shared/pairs.def for the host: the kernels that find the contacts of each kind of pair.
+ * The pipeline launches them, and specialisation derives features from them. */
 #pragma once
 
 #include <cstdint>
@@ -24,7 +25,7 @@ struct PairTest {
   std::optional<Kernel> follower; /* of pairs marked TO_FOLLOW */
 };
 
-/* By kind. */
+/* Indexed by kind. */
 inline constexpr PairTest pair_tests[] = {
 #define PAIR(kind, first, second, kernel, follower, what) \
   {PAIR_KIND_##kind, FEATURE_##kind, #first, #second, pair_kernels::kernel, pair_kernels::follower},

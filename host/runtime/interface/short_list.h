@@ -1,4 +1,4 @@
-/* short_list.h - a list of a few things, held in place: a launch allocates nothing. */
+/* short_list.h - a list with a fixed capacity that is stored in place, so that a launch allocates nothing. */
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace tandem {
 
-/* Of at most `most` things; std::length_error where more are given. */
+/* Holds at most `most` elements; throws std::length_error if more are given. */
 template <class T, size_t most> class ShortList {
 public:
   ShortList() = default;

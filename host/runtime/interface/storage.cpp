@@ -1,4 +1,4 @@
-/* storage.cpp - host memory; see storage.h. */
+/* storage.cpp - buffers in host memory; see storage.h. */
 #include "host/runtime/interface/storage.h"
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 namespace tandem {
 namespace {
 
-/* Of a million bodies searches read here and there in tens of megabytes: with small pages most of it is looking up
- * where they are. */
+/* With a million bodies, searches read scattered locations in tens of megabytes; with small pages most of their time
+ * goes to address translation. */
 constexpr size_t small_page = 4096, huge_page = size_t{2} << 20;
 
 class HostStorage : public Storage {
@@ -30,7 +30,7 @@ public:
     const size_t rounded = (std::max<size_t>(bytes, 1) + page - 1) / page * page;
     void *memory = std::aligned_alloc(page, rounded);
     if (!memory) throw std::bad_alloc();
-    if (page == huge_page) madvise(memory, rounded, MADV_HUGEPAGE); /* whether it is heard is a matter of time alone */
+    if (page == huge_page) madvise(memory, rounded, MADV_HUGEPAGE); /* advice; ignoring it costs only time */
     std::memset(memory, 0, rounded);
     forbid_access(memory, bytes, rounded);
     return memory;

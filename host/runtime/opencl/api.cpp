@@ -1,4 +1,4 @@
-/* api.cpp - names of OpenCL's error codes. */
+/* api.cpp - the names of OpenCL's error codes, for messages. */
 #include "host/runtime/opencl/api.h"
 
 #include <fmt/format.h>

@@ -14,23 +14,23 @@
 
 namespace tandem::opencl {
 
-/* A device that could not do what it was asked: out of memory, lost, ... */
+/* A device failed: it is out of memory, was lost, ... */
 struct DeviceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/* A program that does not compile; the message carries the compiler's log, with file and line in cl/ or shared/. */
+/* A program does not compile; the message contains the compiler's log, with file and line in cl/ or shared/. */
 struct BuildError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/* The code of a call, or of a device that has no room for it where a test wants that. */
+/* The code of a call. If a test injects a fault here, it is that of a device without resources. */
 template <class Call> cl_int code_of(faults::Site site, Call call)
 {
   return faults::strikes(site) ? CL_OUT_OF_RESOURCES : call();
 }
 
-/* The same of calls that throw. */
+/* The same for calls that throw. */
 inline void fail_where_a_test_wants(faults::Site site, const char *what)
 {
   if (faults::strikes(site)) throw cl::Error(CL_OUT_OF_RESOURCES, what);

@@ -1,4 +1,4 @@
-/* context.cpp - what the drivers say of their devices, and the opening of one. */
+/* context.cpp - queries drivers for their devices and opens one; see context.h. */
 #include "host/runtime/opencl/context.h"
 
 #include <cstdio>
@@ -102,7 +102,7 @@ std::vector<Candidate> ask_drivers()
   return candidates;
 }
 
-/* In a child (probe.h). */
+/* Runs in a child process (probe.h). */
 void ask_and_tell()
 {
   cl_uint platforms = 0;
@@ -142,7 +142,7 @@ DeviceContext::DeviceContext(const Candidate &candidate) : info(candidate.info),
   open_queue(0);
   options = "-cl-std=CL1.2";
   if (candidate.promises_exact_division) options += " -cl-fp32-correctly-rounded-divide-sqrt";
-  /* Oclgrind 21.10 stops at a hint for optimisers that Clang leaves in what it inlined. */
+  /* Oclgrind 21.10 fails on an optimiser hint that Clang leaves in inlined code. */
   if (info.platform_name == "Oclgrind") options += " -cl-opt-disable";
 }
 

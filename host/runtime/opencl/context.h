@@ -9,28 +9,28 @@
 
 namespace tandem::opencl {
 
-/* A device as its driver describes it, not tested yet. */
+/* A device as its driver describes it, before the self-test. */
 struct Candidate {
   cl::Device device;
   DeviceInfo info;
-  std::string unusable; /* why it can run nothing at all; else empty */
-  std::string lacks;    /* what exactness needs and the driver does not promise; else empty */
+  std::string unusable; /* why it cannot run anything; else empty */
+  std::string lacks;    /* what exactness requires and the driver does not promise; else empty */
   bool promises_exact_division = false;
 };
 
-/* DeviceError where a driver does not survive the question (host/runtime/opencl/probe.h). */
+/* Throws DeviceError if a driver crashes or hangs when it is queried (host/runtime/opencl/probe.h). */
 std::vector<Candidate> find_candidates();
 
 struct DeviceContext {
   explicit DeviceContext(const Candidate &candidate);
-  /* A new queue in the place of the one that is; DeviceError leaves that. */
+  /* Replaces the queue by a new one; if it throws DeviceError, the old queue remains. */
   void open_queue(cl_command_queue_properties properties);
 
   DeviceInfo info;
   cl::Device device;
   cl::Context context;
   cl::CommandQueue queue; /* in order */
-  std::string options;    /* of every program: the language and the rules of floating point */
+  std::string options;    /* for every program: the language and the floating-point rules */
 };
 
 inline bool is_pocl(const DeviceContext &context)
@@ -38,11 +38,11 @@ inline bool is_pocl(const DeviceContext &context)
   return context.info.platform_name == "Portable Computing Language";
 }
 
-/* Empty if the device gives the host's bits, else what differs. Runs once a device and process. */
+/* Empty if the device computes the host's bits, else what differs. It runs once per device and process. */
 std::string self_test(const Candidate &candidate);
 
-/* The same of an open device, every time: over `count` inputs (a multiple of TILE). `program`: cl/self_test.cl, or what
- * a test made of it. */
+/* The same for an open device, without caching, over `count` inputs (a multiple of TILE). `program` is cl/self_test.cl
+ * or a test's modification of it. */
 std::string self_test(const DeviceContext &context, uint32_t count, const EmbeddedProgram &program);
 
 } // namespace tandem::opencl

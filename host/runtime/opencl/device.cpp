@@ -1,4 +1,4 @@
-/* device.cpp - lists devices, and finds the one that a text means. */
+/* device.cpp - lists devices, and selects the one that a text names; see device.h. */
 #include "host/runtime/opencl/device.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ std::string title(const DeviceInfo &info)
   return fmt::format("{} {} ({})", address(info), info.device_name, info.platform_name);
 }
 
-/* Why the device may not be used, or empty. */
+/* The reason why the device may not be used, or empty. */
 std::string refusal(const Candidate &candidate)
 {
   if (!candidate.unusable.empty()) return candidate.unusable;
@@ -48,7 +48,8 @@ bool matches(const DeviceInfo &info, const std::string &choice)
          lower(info.device_name).find(wanted) != std::string::npos || lower(info.type) == wanted;
 }
 
-/* Of no particular wish: a GPU, and one whose driver promises all that is needed. */
+/* Without a choice by the user, a GPU comes first, and among equals a device whose driver promises all that is
+ * needed. */
 void put_best_first(std::vector<Candidate> &candidates)
 {
   const auto rank = [](const Candidate &candidate) {

@@ -1,8 +1,8 @@
-/* device.h - OpenCL platforms and devices: what is there, what each lacks, which one a text means.
+/* device.h - OpenCL platforms and devices: which there are, what each lacks, and which one a text names.
  *
- * A device is trusted when its self-test gives the host's bits (docs/exactness.md). What its driver promises
- * (denormals, correctly rounded division and square root) chooses the compiler's options and explains a
- * failure, but does not decide: some drivers promise less than they do.
+ * A device is accepted if its self-test computes the host's bits (docs/exactness.md). What its driver promises
+ * (denormals, correctly rounded division and square root) selects the compiler's options and explains a failure, but
+ * does not decide: some drivers promise less than they do.
  */
 #pragma once
 
@@ -19,20 +19,21 @@ struct DeviceInfo {
   std::string platform_name, platform_version, device_name, driver_version;
   std::string type; /* "GPU", "accelerator" or "CPU" */
   bool supported = false;
-  std::string reason; /* why not; or, of a supported device, what only its self-test vouches for */
+  std::string reason; /* why not; of a supported device, the properties that only its self-test confirms */
 };
 
-/* Every device of every platform, each with the verdict of its self-test. Empty without any platform. DeviceError (a
- * std::runtime_error) where a driver does not survive the question. */
+/* Every device of every platform, each with the result of its self-test; empty if there is no platform. Throws
+ * DeviceError (a std::runtime_error) if a driver crashes or hangs when it is queried. */
 std::vector<DeviceInfo> list_devices();
 
-/* Empty if this program's own arithmetic, which MiniCL runs and devices are measured by, rounds as IEEE 754 says;
- * else what does not (a compiler option or a library changed it). */
+/* Empty if this program's own arithmetic, which MiniCL runs and to which devices are compared, rounds as IEEE 754
+ * requires; else what does not (a compiler option or a library changed it). */
 std::string host_self_test();
 
-/* `choice`: "" the best supported device, "P.D" platform and device number, or part of a platform's, a device's or a
- * type's name, in any case ("pocl" too): the first supported match. `text` is the whole name for messages.
- * InputError: no platform, no such device, or one that cannot give the host's bits (unless allow_inexact). */
+/* `choice` is "" for the best supported device, "P.D" for platform and device number, or part of the name of a
+ * platform, device or type, in any case ("pocl" too), which selects the first supported match. `text` is the whole name
+ * for messages. Throws InputError if there is no platform or no such device, or the device does not compute the host's
+ * bits (unless allow_inexact). */
 std::unique_ptr<Backend> make_backend(const std::string &text, const std::string &choice, bool allow_inexact);
 
 } // namespace tandem::opencl

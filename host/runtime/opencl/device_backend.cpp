@@ -1,7 +1,7 @@
-/* device_backend.cpp - programs and kernels of a scene's features, and their launches into one in-order queue.
+/* device_backend.cpp - builds the programs and kernels of a scene's features and launches them into one in-order queue.
  *
- * A step makes some two hundred launches of a few microseconds each, so run() allocates nothing and sets only
- * the arguments that changed since the kernel's last launch.
+ * A step makes some two hundred launches of a few microseconds each, so run() allocates nothing and sets only the
+ * arguments that changed since the kernel's last launch.
  */
 #include "host/runtime/opencl/device_backend.h"
 
@@ -25,15 +25,15 @@ namespace {
 
 constexpr size_t items_per_group = 64;  /* ITEM and LANES kernels */
 constexpr size_t items_per_tile = 256;  /* GROUP kernels */
-constexpr size_t items_at_most = 256;   /* of a group that is made larger */
-constexpr size_t most_items = 1u << 22; /* more items than this stride */
+constexpr size_t items_at_most = 256;   /* of an enlarged group */
+constexpr size_t most_items = 1u << 22; /* a launch of more items strides over them */
 constexpr uint32_t launches_per_flush = 32;
 constexpr size_t most_events = 4096;
 
 struct BuiltKernel {
   cl::Kernel kernel;
   size_t group_size = 0, widest_group = 0; /* a launch of many items may take larger groups */
-  std::vector<uint64_t> arguments;         /* what was set last: a buffer's serial, or value_tag | value */
+  std::vector<uint64_t> arguments;         /* set last: a buffer's serial, or value_tag | value */
 };
 
 constexpr uint64_t value_tag = uint64_t{1} << 63;
@@ -44,7 +44,7 @@ struct Build {
   std::vector<BuiltKernel> kernels = std::vector<BuiltKernel>(all_kernels());
 };
 
-/* Results do not depend on the size of groups; tests set it to show that. 0: not set. */
+/* Results do not depend on the size of groups, which tests show by setting it. 0 means that it is not set. */
 size_t group_size_of_tests()
 {
   const char *text = std::getenv("TANDEM_LOCAL_SIZE");
@@ -129,11 +129,11 @@ private:
                                   context_.info.platform_name, what, row.name, error_name(code)));
   }
 
-  /* Of the program of a stage only what is asked for is compiled (but see part_to_build). */
+  /* Only the requested kernels of a stage's program are compiled (but see part_to_build). */
   void create_kernels(Stage stage, const std::vector<Kernel> &kernels, Features features)
   {
     const EmbeddedProgram &embedded = embedded_program(name_of(stage));
-    if (!readable_.contains(stage)) readable_[stage] = features_read(embedded); /* a search through its whole text */
+    if (!readable_.contains(stage)) readable_[stage] = features_read(embedded); /* searches the whole text */
     const Features read = features & readable_[stage];
     std::map<Kernel, cl::Program> &programs = programs_[{stage, read}];
     std::vector<Kernel> unbuilt;
@@ -155,8 +155,8 @@ private:
     }
   }
 
-  /* PoCL compiles a kernel when it is launched, so the whole program costs little there; and PoCL 3.1 crashes in LLVM's
-   * inliner where a function of two callers has lost one of them (sort_scatter_pairs without sort_scatter). */
+  /* PoCL compiles a kernel when it is launched, so building the whole program costs little. PoCL 3.1 also crashes in
+   * LLVM's inliner if a function with two callers has lost one of them (sort_scatter_pairs without sort_scatter). */
   EmbeddedProgram part_to_build(const EmbeddedProgram &embedded, const std::vector<Kernel> &kernels) const
   {
     return is_pocl(context_) ? embedded : with_entries_of(embedded, kernels);
@@ -182,9 +182,9 @@ private:
     }
   }
 
-  /* NVIDIA's compiler takes more registers than pay where many items wait for memory. On an H200 the narrowphase of a
-   * million boxes takes 10 % less time with 128, setup 4 % and integrate 13 %; the solver and hulls take more time with
-   * any limit (docs/results/2026-11-23-h200-registers). */
+  /* NVIDIA's compiler uses more registers than is useful in kernels that mostly wait for memory. On an H200 with a
+   * limit of 128, the narrowphase of a million boxes takes 10 % less time, setup 4 % and integrate 13 %; the solver and
+   * hulls take more time with any limit (docs/results/2026-11-23-h200-registers). */
   std::string registers_for(Stage stage, Features features) const
   {
     constexpr Features general_pairs = FEATURE_CONVEX_CONVEX | FEATURE_CONVEX_HALF_SPACE; /* among those read */
@@ -193,17 +193,18 @@ private:
     return waits && context_.info.platform_name.starts_with("NVIDIA") ? " -cl-nv-maxrregcount=128" : "";
   }
 
-  /* Manifolds of hulls of 32 vertices a second on an H200: 34 M in groups of 64, 40 M in 128, 52 M in 256;
-   * Warps of one group begin together, and so probably fetch the same code (docs/results/2026-11-22-h200). Items of
-   * batching are so short that starting their groups takes most of the time: a million boxes in groups of 64, 128 and
-   * 256 take 0.45, 0.29 and 0.20 ms (docs/results/2026-11-23-h200-groups). */
+  /* Some stages are faster in large groups. An H200 computes 34 M manifolds of hulls of 32 vertices a second in groups
+   * of 64, 40 M in groups of 128 and 52 M in groups of 256; the warps of a group start together and so probably fetch
+   * the same code (docs/results/2026-11-22-h200). Items of batching are so short that starting their groups takes most
+   * of the time: a million boxes take 0.45, 0.29 and 0.20 ms in groups of 64, 128 and 256
+   * (docs/results/2026-11-23-h200-groups). */
   bool takes_large_groups(const KernelRow &row) const
   {
     const bool gains = row.stage == Stage::narrowphase || row.stage == Stage::batching || row.stage == Stage::parallel;
     return context_.info.type == "GPU" && row.execution == Execution::item && gains;
   }
 
-  /* As large as leaves every unit of the device a group. */
+  /* The largest size that still gives every compute unit of the device a group. */
   size_t group_size_for(const BuiltKernel &built, uint32_t expected) const
   {
     size_t size = built.group_size;
@@ -274,7 +275,7 @@ private:
   std::string name_;
   DeviceContext context_;
   DeviceStorage storage_;
-  size_t group_size_; /* of all kernels; 0: as each has it */
+  size_t group_size_; /* of all kernels; 0: each kernel's own */
   size_t units_ = context_.device.getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
   std::map<Stage, Features> readable_; /* the features that the program of a stage reads */
   std::map<std::pair<Stage, Features>, std::map<Kernel, cl::Program>> programs_; /* Features: those read */

@@ -1,4 +1,4 @@
-/* device_backend.h - launches kernels on one OpenCL device. */
+/* device_backend.h - the backend that launches kernels on one OpenCL device. */
 #pragma once
 
 #include <memory>

@@ -1,4 +1,5 @@
-/* installed_drivers.cpp - see installed_drivers.h. */
+/* installed_drivers.cpp - reads the folder of installed drivers as the OpenCL loaders do, and tries to load each; see
+ * installed_drivers.h. */
 #include "host/runtime/opencl/installed_drivers.h"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace {
 
 namespace files = std::filesystem;
 
-/* As the loaders do: a folder, or one file of it. */
+/* The folder of drivers, or one file in it, found as the OpenCL loaders find it. */
 files::path where_drivers_are_named()
 {
   for (const char *variable : {"OCL_ICD_VENDORS", "OPENCL_VENDOR_PATH"})
@@ -25,7 +26,7 @@ files::path where_drivers_are_named()
   return "/etc/OpenCL/vendors";
 }
 
-/* Sorted, so that the same one is told each time. */
+/* The names are sorted, so that the same driver is reported each time. */
 std::vector<files::path> names_of_drivers(const files::path &place, std::error_code &error)
 {
   std::vector<files::path> names;
@@ -37,7 +38,7 @@ std::vector<files::path> names_of_drivers(const files::path &place, std::error_c
   return names;
 }
 
-/* Empty if it loads. It stays loaded: some drivers do not survive otherwise. */
+/* Empty if the driver loads. It stays loaded, because some drivers crash when they are unloaded. */
 std::string why_it_does_not_load(const files::path &name)
 {
   std::ifstream file(name);

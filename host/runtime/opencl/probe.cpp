@@ -1,4 +1,4 @@
-/* probe.cpp - see probe.h. */
+/* probe.cpp - forks a child that queries the drivers, and waits for its answer on a pipe; see probe.h. */
 #include "host/runtime/opencl/probe.h"
 
 #include <cerrno>
@@ -21,8 +21,8 @@
 namespace tandem::opencl {
 namespace {
 
-constexpr char came_back = 'y';                           /* what the child's answer begins with */
-constexpr int usual_timeout = 60, longest_timeout = 3600; /* s; several GPUs that sleep take seconds each to wake */
+constexpr char came_back = 'y';                           /* first byte of the child's answer */
+constexpr int usual_timeout = 60, longest_timeout = 3600; /* s; each of several sleeping GPUs takes seconds to wake */
 
 int timeout_seconds()
 {
@@ -31,7 +31,7 @@ int timeout_seconds()
   return seconds > 0 && seconds <= longest_timeout ? seconds : usual_timeout;
 }
 
-/* What a dying driver says, and leaves, is nothing to the user of the parent. */
+/* Messages and core dumps of a crashing driver are of no use to the user of the parent process. */
 void make_quiet()
 {
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGHUP})
@@ -53,7 +53,7 @@ void make_quiet()
   } catch (const DriverFault &fault) {
     const std::string said = came_back + std::string(fault.what()).substr(0, PIPE_BUF - 1);
     _exit(::write(answer, said.data(), said.size()) > 0 ? 0 : 1);
-  } catch (...) { /* the parent will meet it too, and knows what to say */
+  } catch (...) { /* the parent will get the same exception and report it */
   }
   _exit(::write(answer, &came_back, 1) == 1 ? 0 : 1);
 }
@@ -63,7 +63,7 @@ struct Answer {
   std::string said;
 };
 
-/* A child that dies closes its end of the pipe. */
+/* If the child dies, its end of the pipe is closed. */
 Answer wait_for(int answer)
 {
   pollfd waiting{answer, POLLIN, 0};

@@ -1,6 +1,6 @@
 /* program.cpp - builds programs, from source or from the cache of binaries.
  *
- * The embedded text keeps #line directives, so a compiler's log names the file and line people edit. */
+ * The embedded text keeps #line directives, so that a compiler's log names the file and line that people edit. */
 #include "host/runtime/opencl/program.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ std::string all_options(const DeviceContext &context, const std::string &options
   return options.empty() ? context.options : context.options + " " + options;
 }
 
-/* A binary that its driver no longer takes is not an error: the source is still here. */
+/* A binary that its driver no longer accepts is not an error, because the program can be built from source. */
 std::optional<cl::Program> build_cached(const DeviceContext &context, const std::string &key,
                                         const std::string &options)
 {
@@ -50,13 +50,13 @@ cl::Program build_from_source(const DeviceContext &context, const EmbeddedProgra
   std::string log;
   try {
     log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(context.device);
-  } catch (const cl::Error &) { /* the driver keeps none */
+  } catch (const cl::Error &) { /* the driver keeps no log */
   }
   throw BuildError(fmt::format("cl/{}.cl does not build on the OpenCL device {} with '{}': {}{}{}", embedded.name,
                                context.info.device_name, options, error_name(result), log.empty() ? "" : "\n", log));
 }
 
-/* NAME of each HAS_FEATURE(parameters, NAME) and MAY_OCCUR(NAME). */
+/* The NAME of each HAS_FEATURE(parameters, NAME) and MAY_OCCUR(NAME) in the source. */
 std::set<std::string_view> names_tested(std::string_view source)
 {
   std::set<std::string_view> names;
@@ -130,8 +130,8 @@ std::string cache_key(const DeviceContext &context, const EmbeddedProgram &progr
                      info.driver_version, all_options(context, options), source_of(program));
 }
 
-/* PoCL keeps what it compiled by itself, kernel by kernel as they are launched. Asked for a program's binary it
- * compiles all of its kernels first, for every size of groups: 47 s instead of 5 for a scene of balls and boxes. */
+/* PoCL caches what it compiles by itself, kernel by kernel as they are launched. If it is asked for a program's binary,
+ * it first compiles all kernels for every group size: 47 s instead of 5 for a scene of balls and boxes. */
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &embedded, const std::string &options)
 {
   if (is_pocl(context)) return build_from_source(context, embedded, all_options(context, options));

@@ -1,4 +1,4 @@
-/* program.h - from an embedded source to a built program. */
+/* program.h - builds a program from an embedded source; device_backend.cpp and the self-test use it. */
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,28 @@
 
 namespace tandem::opencl {
 
-/* The program of cl/NAME.cl, or of the module of this name; std::logic_error if none is embedded. */
+/* The program of cl/NAME.cl, or of the module of this name; throws std::logic_error if none is embedded. */
 const EmbeddedProgram &embedded_program(const std::string &name);
 
-/* The same program without the entries of other kernels. */
+/* The same program with only the entries of these kernels. */
 EmbeddedProgram with_entries_of(const EmbeddedProgram &program, const std::vector<Kernel> &kernels);
 
-/* Its whole text: headers and entries. */
+/* The whole text of a program: headers and entries. */
 std::string source_of(const EmbeddedProgram &program);
 
-/* Built with the context's options and these, from the cache where that pays. BuildError carries the compiler's log. */
+/* Builds with the context's options and these, from the cache where that pays. BuildError contains the compiler's
+ * log. */
 cl::Program build_program(const DeviceContext &context, const EmbeddedProgram &program,
                           const std::string &options = "");
 
-/* The same, whatever the platform does with binaries. */
+/* Builds through the cache on every platform. */
 cl::Program build_through_cache(const DeviceContext &context, const EmbeddedProgram &program,
                                 const std::string &options = "");
 
-/* FEATURE_ bits that a program asks for: builds that differ in others alone are one. */
+/* The FEATURE_ bits that a program tests. Builds whose features differ only in others are identical. */
 Features features_read(const EmbeddedProgram &program);
 
-/* What names a built program in the cache. */
+/* The key of a built program in the cache. */
 std::string cache_key(const DeviceContext &context, const EmbeddedProgram &program, const std::string &options);
 
 } // namespace tandem::opencl

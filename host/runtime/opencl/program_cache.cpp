@@ -1,4 +1,4 @@
-/* program_cache.cpp - see program_cache.h for the layout of a file. */
+/* program_cache.cpp - reads and writes the files of the cache; program_cache.h describes their layout. */
 #include "host/runtime/opencl/program_cache.h"
 
 #include <atomic>
@@ -22,7 +22,7 @@ struct Header {
   uint64_t key_bytes, binary_bytes, binary_hash;
 };
 
-/* FNV-1a: names files and notices damage; the whole key is compared, so it need not resist attack. */
+/* FNV-1a, which names files and detects damage. The whole key is compared, so it need not resist attack. */
 uint64_t hash_of(const unsigned char *bytes, size_t count, uint64_t hash = 0xcbf29ce484222325u)
 {
   for (size_t i = 0; i < count; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3u;
@@ -41,7 +41,7 @@ files::path cache_directory()
   return {};
 }
 
-/* Standard output belongs to results (--json -), so warnings go to standard error. */
+/* Standard output is reserved for results (--json -), so warnings go to standard error. */
 void warn(const std::string &message) { fmt::print(stderr, "tandem: warning: {}\n", message); }
 
 void warn_unwritable(const files::path &directory)
@@ -51,7 +51,7 @@ void warn_unwritable(const files::path &directory)
     warn(fmt::format("kernel cache {} cannot be written: every start compiles again", directory.string()));
 }
 
-/* What is wrong with the file, or empty; then binary holds its payload. */
+/* What is wrong with the file, or empty; `binary` then holds its payload. */
 std::string parse(const std::string &content, const std::string &key, Binary &binary)
 {
   Header header;
@@ -106,7 +106,7 @@ std::optional<Binary> load_binary(const std::string &key)
   return std::nullopt;
 }
 
-/* Written beside its place and renamed, so that no other process ever sees half a file. */
+/* The file is written beside its target and renamed, so that no other process ever reads half a file. */
 void store_binary(const std::string &key, const Binary &binary)
 {
   const files::path file = cache_file(key);

@@ -1,8 +1,9 @@
-/* self_test.cpp - the start-up test of a device: shared/parallel/self_test.h there and here, bit for bit.
+/* self_test.cpp - the start-up test of a device: it runs shared/parallel/self_test.h there and on the host and compares
+ * the results bit for bit.
  *
- * Without correctly rounded division an H200 differs in 28% of quotients and 17% of square roots, and with
- * contraction in 30% of a * b + c, so a few thousand inputs leave no doubt. A driver that promises less than it
- * does gets more of them. NaNs compare equal: their payloads differ between devices and never enter the state.
+ * Without correctly rounded division an H200 differs in 28% of quotients and 17% of square roots, and with contraction
+ * in 30% of a * b + c, so a few thousand inputs leave no doubt. A driver that promises less than it does is tested
+ * with more of them. NaNs compare equal, because their payloads differ between devices and never enter the state.
  */
 #include "shared/parallel/self_test.h"
 
@@ -43,7 +44,7 @@ struct Results {
   std::vector<uint32_t> words, totals, phases;
 };
 
-/* SplitMix64: the inputs are the same on every machine. */
+/* SplitMix64, so that the inputs are the same on every machine. */
 uint64_t next_random(uint64_t &state)
 {
   uint64_t z = state += 0x9e3779b97f4a7c15u;
@@ -187,7 +188,7 @@ uint32_t input_count(const Candidate &candidate)
   return candidate.lacks.empty() ? 8 * TILE : 64 * TILE;
 }
 
-/* A compiler's log, made fit for a refusal. */
+/* A compiler's log as one line, for the message of a refusal. */
 std::string one_line(std::string text)
 {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -195,7 +196,7 @@ std::string one_line(std::string text)
   return text;
 }
 
-/* A device that could not be asked may answer the next time. */
+/* The verdict is not final if the device could not be queried, because a later query may succeed. */
 struct Verdict {
   std::string difference;
   bool is_final;
@@ -212,8 +213,8 @@ Verdict tested(const Candidate &candidate)
   }
 }
 
-/* Double has more than twice float's digits, so a double result rounded once more is the right float, whenever that
- * is not denormal (sums and products: always). */
+/* Double has more than twice float's digits, so a double result rounded to float is the correctly rounded one, unless
+ * that is denormal (for sums and products, always). */
 struct RightAnswer {
   const char *name;
   float value;

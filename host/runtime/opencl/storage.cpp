@@ -1,4 +1,4 @@
-/* storage.cpp - allocation and moves; see storage.h. */
+/* storage.cpp - allocates and moves buffers of a device; see storage.h. */
 #include "host/runtime/opencl/storage.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace tandem::opencl {
 namespace {
 
-/* Fills work in whole words, and some drivers like whole 16 bytes. */
+/* Fills work in whole words, and some drivers are faster with multiples of 16 bytes. */
 size_t rounded(size_t bytes) { return std::max<size_t>((bytes + 15) / 16 * 16, 16); }
 
 [[noreturn]] void fail(const DeviceContext &context, const char *what, size_t bytes, cl_int code)
@@ -44,8 +44,8 @@ void unmap(const DeviceContext &context, cl_mem memory, void *place, size_t byte
   if (code != CL_SUCCESS) fail(context, "unmapping", bytes, code);
 }
 
-/* Both directions, through the same calls as the moves below: does the device see what the host wrote after the
- * buffer was made, and the host what the device wrote, in the same place? */
+/* Tests both directions through the same calls as the moves below: the device must see what the host writes after the
+ * buffer was made, and the host what the device writes, in the same memory. */
 bool sharing_works(const DeviceContext &context)
 {
   constexpr size_t words = 2048, bytes = words * sizeof(cl_uint);
@@ -80,9 +80,10 @@ bool shares_memory(const DeviceContext &context)
   }
 }
 
-/* In parts and by the longest pattern: NVIDIA's driver 580 counts patterns in 31 bits, and 2^31 words end the queue. */
+/* Fills are split and use the longest pattern, because NVIDIA's driver 580 counts patterns in 31 bits, and 2^31 words
+ * end the queue. */
 constexpr size_t most_filled_at_once = size_t{1} << 30;
-constexpr size_t pattern_bytes = 16; /* what sizes of buffers are rounded up to */
+constexpr size_t pattern_bytes = 16; /* sizes of buffers are rounded up to it */
 
 cl_int fill_with_zeros(const DeviceContext &context, cl_mem memory, size_t bytes)
 {
@@ -106,7 +107,7 @@ cl_int finish_queue(const DeviceContext &context)
 
 DeviceStorage::DeviceStorage(const DeviceContext &context) : context_(context), shares_(shares_memory(context)) {}
 
-/* The fill also makes drivers that put allocation off do it, so that running out shows here. */
+/* The fill also forces drivers that postpone allocation to allocate, so that a lack of memory shows here. */
 void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
 {
   auto buffer = std::make_unique<DeviceBuffer>();
@@ -127,7 +128,7 @@ void *DeviceStorage::allocate(Element, size_t bytes, void *host_memory)
   return buffer.release();
 }
 
-/* The host frees shared bytes next, so no kernel may still be working in them. */
+/* The host frees shared bytes next, so no kernel may still be using them. */
 void DeviceStorage::release(void *handle) noexcept
 {
   const std::unique_ptr<DeviceBuffer> buffer(static_cast<DeviceBuffer *>(handle));
@@ -135,7 +136,8 @@ void DeviceStorage::release(void *handle) noexcept
   clReleaseMemObject(buffer->memory);
 }
 
-/* Waits for the unmap too: a driver that keeps a copy takes the host's bytes only when it gets there. */
+/* Waits for the unmap too, because a driver that keeps a copy reads the host's bytes only when it executes the
+ * unmap. */
 void DeviceStorage::pass_ownership(const DeviceBuffer &buffer, size_t offset, size_t bytes, cl_map_flags flags)
 {
   unmap(context_, buffer.memory, map(context_, buffer.memory, offset, bytes, flags), bytes);

@@ -1,7 +1,7 @@
 /* storage.h - buffers of one device.
  *
- * A device that works in host memory is given the host's own bytes (CL_MEM_USE_HOST_PTR); then a move is a map
- * and an unmap, which cost nothing but order. Whether a driver really shares is tried out, not believed.
+ * A device that works in host memory gets the host's own bytes (CL_MEM_USE_HOST_PTR); a move is then a map and an
+ * unmap, which only order accesses. Whether a driver really shares memory is tested, whatever it reports.
  */
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace tandem::opencl {
 
-/* What a handle of this storage points to. */
+/* The object that a handle of this storage points to. */
 struct DeviceBuffer {
   cl_mem memory = nullptr;
   size_t bytes = 0;
   char *shared_with = nullptr; /* the host's bytes, if shared */
-  uint64_t serial = 0;         /* never used twice, unlike addresses */
+  uint64_t serial = 0;         /* unique, unlike an address */
 };
 
 class DeviceStorage : public Storage {
