@@ -1,6 +1,6 @@
 #!/bin/sh
-# gdb_test.sh pipeline|module PROBE - gdb stops in one work-item of one kernel, of the pipeline or of a module, reads the
-# physics there, and sees what the library computes.
+# gdb_test.sh pipeline|module PROBE - gdb stops in one work-item of one kernel, of the pipeline or of a module, reads
+# the physics there, and sees what the library computes.
 set -eu
 what=$1 probe=$2
 command -v gdb > /dev/null || { echo "skipped: no gdb"; exit 77; }

@@ -137,8 +137,7 @@ TEST_CASE("module: contacts that a kernel drops hold nothing")
     for (uint32_t i = 0; i < 5; ++i) ghosts.push_back(world.scene_body(i) == 2 ? 1 : 0);
     world.write<uint32_t>(probe::buffer::probe_ghost(), ghosts);
   };
-  extension.launches = {
-      {StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }}};
+  extension.launches = {{StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }}};
   for (const std::string &backend : all_backends()) {
     World world(scene, with(extension), {backend, {}});
     for (int i = 0; i < 60; ++i) world.step();
@@ -312,22 +311,21 @@ TEST_CASE("module: a world that is placed elsewhere between steps keeps its bits
 
 TEST_CASE("module: kernels over counts that have no bound before they are made are refused in one line")
 {
-  static const KernelRow rows[] = {
-      {"boundless_groups", own_stage, Execution::group, COUNT_EVENTS, 0, {}},
-      {"boundless_items", own_stage, Execution::item, COUNT_COLORS, 0, {}},
-      {"boundless_given", own_stage, Execution::group, items_given, 0, {}},
-      {"boundless_capacity", own_stage, Execution::group, CAPACITY_PAIRS, 0, {}}};
+  static const KernelRow rows[] = {{"boundless_groups", own_stage, Execution::group, COUNT_EVENTS, 0, {}},
+                                   {"boundless_items", own_stage, Execution::item, COUNT_COLORS, 0, {}},
+                                   {"boundless_given", own_stage, Execution::group, items_given, 0, {}},
+                                   {"boundless_capacity", own_stage, Execution::group, CAPACITY_PAIRS, 0, {}}};
   static const std::vector<EmbeddedProgram> programs;
   const Module &boundless = add_module({"boundless", rows, {}, {}, &programs});
   World world(balls(3), with({&boundless, {}, {}}), {"serial", {}});
   for (size_t row = 0; row < std::size(rows); ++row) {
-    const std::string name = rows[row].name, expected = "kernel '" + name + "' cannot be launched: its row may name ONE,";
+    const std::string name = rows[row].name;
+    const std::string expected = "kernel '" + name + "' cannot be launched: its row may name ONE,";
     const std::string between = message_of([&] { world.run(boundless.kernel(row)); });
     CHECK_THAT(between, Contains(expected));
     CHECK(between.find('\n') == std::string::npos);
-    const Extension in_step{&boundless, {}, {{StepPoint::solved, [&](Launches &launches) {
-                                                launches.run(boundless.kernel(row));
-                                              }}}};
+    const Extension in_step{
+        &boundless, {}, {{StepPoint::solved, [&](Launches &launches) { launches.run(boundless.kernel(row)); }}}};
     CHECK_THAT(message_of([&] { World(balls(3), with(in_step), {"serial", {}}); }), Contains(expected));
   }
   world.step();
