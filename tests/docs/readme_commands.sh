@@ -11,7 +11,7 @@
 # Sizes, counts and hashes are results. A command that is about an OpenCL device is left out where there is none.
 set -eu
 
-# Commands go to FOLDER/1.command ..., without the comments behind them; what is shown of each goes to FOLDER/1.shown ...
+# Commands go to FOLDER/1.command ..., without the comments behind them; what is shown of each to FOLDER/1.shown ...
 split_page() {
   awk -v folder="$2" '
     /^```/ { inside = !inside; shown = ""; next }
@@ -120,7 +120,7 @@ END
   expect 1 '...'
   expect 1 'third' '$ tandem fails' 'third'
   CI=true expect 1 'first 2.5 to 3 ms, 7 pairs' '$ tandem run cl:0.0' 'third'
-  CI= expect 77 'first 2.5 to 3 ms, 7 pairs' '$ tandem run cl:0.0' 'third'
+  CI='' expect 77 'first 2.5 to 3 ms, 7 pairs' '$ tandem run cl:0.0' 'third'
   [ -z "$failed" ] || exit 1
   echo "self-test: pages that show what is not printed are refused"
 }
