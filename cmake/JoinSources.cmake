@@ -22,3 +22,6 @@ join_sources(world "world/.*|scene/.*")
 join_sources(runtime "runtime/[^/]*|runtime/interface/.*")
 join_sources(verification "verify/.*")
 join_sources(written "io/glb/.*|io/contact_problem/.*|io/output_file")
+# Programs for gdb bring their own, unoptimised (tests/debugging).
+set_source_files_properties(${PROJECT_SOURCE_DIR}/host/runtime/interface/debug.cpp PROPERTIES
+  SKIP_UNITY_BUILD_INCLUSION ON)

@@ -16,8 +16,7 @@
 #include <tbb/info.h>
 
 #include "tests/heap/attempt.h"
-#include "tests/host/runtime/interface/fault_scenes.h"
-#include "tests/host/runtime/opencl/opencl_device.h"
+#include "tests/heap/heap_cases.h"
 #include "tools/command/parallel.h"
 
 using namespace tandem;
@@ -27,26 +26,6 @@ using namespace tests::heap;
 namespace {
 
 const Placement serial{"serial", {}, false}, two_threads{"tbb:threads=2", {}, false};
-
-/* One pass of each kind: what differs are the kernels, not how often they run. */
-Settings short_step(Settings settings)
-{
-  settings.substeps = 1;
-  settings.iterations = std::min(settings.iterations, 2u);
-  return settings;
-}
-
-std::vector<Case> heap_cases()
-{
-  std::vector<Case> all = cases();
-  all.push_back({"box-stack:n=4,height=1", with(Solver::direct, Broadphase::sap, true), "islands"});
-  all.push_back({TANDEM_SOURCE_DIR "/tests/scenes/few_hulls.json", with(Solver::jacobi, Broadphase::brute_force, false),
-                 "hulls, split masses"});
-  all.push_back(
-      {TANDEM_SOURCE_DIR "/tests/scenes/few_trees.json", with(Solver::soft_step, Broadphase::grid, true), "meshes"});
-  for (Case &c : all) c.settings = short_step(c.settings);
-  return all;
-}
 
 /* A world as it was before something failed, and as it goes on. */
 void check_goes_on(World &world, const std::vector<uint64_t> &undisturbed, size_t at)
@@ -274,28 +253,6 @@ TEST_CASE("heap: steps that fail here and there leave nothing behind", "[sanitiz
   const Settings settings = short_step(with(Solver::soft_step, Broadphase::grid, true));
   const Scene scene = slanted_rods(2);
   check_fails_everywhere_in_step({scene, settings, serial, first_growth(scene, settings)}, 211);
-}
-
-TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on any backend")
-{
-  std::vector<std::string> backends{"serial", "tbb:threads=2"};
-  if (find_test_device()) backends.emplace_back("cl:pocl");
-  for (const Case &c : heap_cases())
-    for (const std::string &backend : backends) {
-      CAPTURE(c.what, c.scene, backend);
-      World world(load_scene(c.scene), c.settings, {backend, {}});
-      for (int i = 0; i < 40; ++i) world.step();
-      const Statistics before = world.statistics();
-      uint64_t fewest = UINT64_MAX; /* of steps: in one of them TBB or a driver may fill a store of its own */
-      for (int i = 0; i < 5; ++i) {
-        const Failing never(UINT64_MAX);
-        world.step();
-        fewest = std::min(fewest, asked());
-      }
-      if (c.settings.solver == Solver::direct) continue; /* its elimination on the host takes memory as it needs it */
-      REQUIRE(world.statistics().overflow == before.overflow);
-      CHECK(fewest == 0);
-    }
 }
 
 TEST_CASE("heap: what reads a world or asks it something changes nothing where it fails")

@@ -18,6 +18,12 @@ SHARED void probe_count_item(GLOBAL const uint *previous_probe_age, GLOBAL uint 
   probe_age[i] = previous_probe_age[i] + 1u;
 }
 
+/* In how many steps there were so many pairs. */
+SHARED void probe_count_places_item(GLOBAL const uint *previous_probe_place_age, GLOBAL uint *probe_place_age, uint i)
+{
+  probe_place_age[i] = previous_probe_place_age[i] + 1u;
+}
+
 /* A pair with a ghost has no contact. */
 SHARED void probe_drop_item(read_pairs pairs, GLOBAL const uint *probe_ghost, GLOBAL uint *manifold_count, uint i)
 {

@@ -1,5 +1,6 @@
 /* A module beside the pipeline's (tests/module/probe_kernels.def): its kernels run at every point, in every form and on
  * every backend, its buffers live as long as they say, and what does not fit is refused by name. */
+#include <algorithm>
 #include <numeric>
 
 #include <tandem/compare.h>
@@ -136,8 +137,7 @@ TEST_CASE("module: contacts that a kernel drops hold nothing")
     for (uint32_t i = 0; i < 5; ++i) ghosts.push_back(world.scene_body(i) == 2 ? 1 : 0);
     world.write<uint32_t>(probe::buffer::probe_ghost(), ghosts);
   };
-  extension.launches = {
-      {StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }}};
+  extension.launches = {{StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }}};
   for (const std::string &backend : all_backends()) {
     World world(scene, with(extension), {backend, {}});
     for (int i = 0; i < 60; ++i) world.step();
@@ -225,6 +225,114 @@ TEST_CASE("module: a buffer of any size keeps what it had where there is no room
   world.step();
 }
 
+TEST_CASE("module: buffers of pairs grow with the pairs, and keep what their lifetimes say")
+{
+  constexpr uint32_t bodies = 100, some = 20, few = some * (some - 1) / 2, many = bodies * (bodies - 1) / 2;
+  const auto step_with_in_one_place = [](World &world, uint32_t count) {
+    for (uint32_t body = 0; body < count; ++body) {
+      BodyState state = world.bodies()[body];
+      state.position = {1e-4 * body, 0, 0};
+      state.linear_velocity = state.angular_velocity = {0, 0, 0};
+      world.set_body(body, state);
+    }
+    world.step();
+  };
+  for (const std::string &backend : all_backends()) {
+    CAPTURE(backend);
+    Extension extension{&probe::module(), {}, {}};
+    extension.launches = {
+        {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count_places()); }}};
+    World world(balls(bodies), with(extension), {backend, {}});
+    const Buffer age = probe::buffer::probe_place_age(), label = probe::buffer::probe_label(),
+                 note = probe::buffer::probe_note(), mark = probe::buffer::probe_mark();
+    step_with_in_one_place(world, some);
+    REQUIRE(world.statistics().pairs == few);
+    const std::vector<uint32_t> three{7, 8, 9};
+    for (const Buffer buffer : {label, note, mark}) world.write<uint32_t>(buffer, three);
+    const size_t room = world.buffer_bytes(age) / sizeof(uint32_t);
+    REQUIRE(room < many);
+    step_with_in_one_place(world, some);
+    std::vector<uint32_t> ages(room, 0);
+    std::fill(ages.begin(), ages.begin() + few, 2);
+    CHECK(world.read<uint32_t>(age) == ages);
+    CHECK(world.read<uint32_t>(label)[2] == 9);
+
+    step_with_in_one_place(world, bodies);
+    REQUIRE(world.statistics().overflow > 0);
+    REQUIRE(world.statistics().pairs == many);
+    const size_t grown = world.buffer_bytes(age) / sizeof(uint32_t);
+    REQUIRE(grown >= many);
+    ages.assign(grown, 0);
+    std::fill(ages.begin(), ages.begin() + many, 1);
+    std::fill(ages.begin(), ages.begin() + few, 3);
+    CHECK(world.read<uint32_t>(age) == ages); /* counted once, though the step ran again */
+    std::vector<uint32_t> labels(grown, 0);
+    std::copy(three.begin(), three.end(), labels.begin());
+    CHECK(world.read<uint32_t>(label) == labels);
+    CHECK(world.read<uint32_t>(note) == std::vector<uint32_t>(grown, 0));
+    CHECK(world.read<uint32_t>(mark) == std::vector<uint32_t>(grown, 0));
+  }
+}
+
+TEST_CASE("module: a world that is placed elsewhere between steps keeps its bits")
+{
+  Extension extension = pushing(1);
+  extension.launches.push_back(
+      {StepPoint::commit, [](Launches &launches) { launches.run(probe::kernel::probe_count_places()); }});
+  const Scene scene = load_scene("mixed:n=30");
+  World undisturbed(scene, with(extension), {"serial", {}}), world(scene, with(extension), {"tbb", {}});
+  struct Place {
+    const char *on, *exceptions, *of_push;
+  };
+  std::vector<Place> places{{"serial", "probe=tbb:threads=2,lanes=4", "tbb:threads=2,lanes=4"},
+                            {"tbb:threads=2,lanes=4", "probe_push=serial", "serial"},
+                            {"tbb", "probe=serial:order=backward,integrate=serial", "serial:order=backward"},
+                            {"serial", "", "serial"}};
+  if (find_test_device()) {
+    places.push_back({"tbb", "probe=cl:pocl", "cl:pocl"});
+    places.push_back({"cl:pocl", "probe=serial", "serial"});
+    places.push_back({"cl:pocl", "", "cl:pocl"});
+    places.push_back({"tbb", "", "tbb"});
+  } else {
+    tests::leave_out_device("an OpenCL device among the places");
+  }
+  for (const Place &place : places) {
+    CAPTURE(place.on, place.exceptions);
+    const std::string exceptions = place.exceptions;
+    world.place({place.on, exceptions.empty() ? Placement{}.exceptions : parse_placement(exceptions), false});
+    CHECK(world.backend_of(probe::kernel::probe_push()).name() == place.of_push);
+    for (int i = 0; i < 2; ++i) {
+      undisturbed.step();
+      world.step();
+      REQUIRE(world.state_hash() == undisturbed.state_hash());
+    }
+  }
+  CHECK(world.read<uint32_t>(probe::buffer::probe_age()) ==
+        std::vector<uint32_t>(scene.bodies.size(), 2 * static_cast<uint32_t>(places.size())));
+}
+
+TEST_CASE("module: kernels over counts that have no bound before they are made are refused in one line")
+{
+  static const KernelRow rows[] = {{"boundless_groups", own_stage, Execution::group, COUNT_EVENTS, 0, {}},
+                                   {"boundless_items", own_stage, Execution::item, COUNT_COLORS, 0, {}},
+                                   {"boundless_given", own_stage, Execution::group, items_given, 0, {}},
+                                   {"boundless_capacity", own_stage, Execution::group, CAPACITY_PAIRS, 0, {}}};
+  static const std::vector<EmbeddedProgram> programs;
+  const Module &boundless = add_module({"boundless", rows, {}, {}, &programs});
+  World world(balls(3), with({&boundless, {}, {}}), {"serial", {}});
+  for (size_t row = 0; row < std::size(rows); ++row) {
+    const std::string name = rows[row].name;
+    const std::string expected = "kernel '" + name + "' cannot be launched: its row may name ONE,";
+    const std::string between = message_of([&] { world.run(boundless.kernel(row)); });
+    CHECK_THAT(between, Contains(expected));
+    CHECK(between.find('\n') == std::string::npos);
+    const Extension in_step{
+        &boundless, {}, {{StepPoint::solved, [&](Launches &launches) { launches.run(boundless.kernel(row)); }}}};
+    CHECK_THAT(message_of([&] { World(balls(3), with(in_step), {"serial", {}}); }), Contains(expected));
+  }
+  world.step();
+}
+
 TEST_CASE("module: lists that are added while a world lives are none of its own")
 {
   World world(balls(400), with(pushing(0)), {"serial", {}});
@@ -280,6 +388,10 @@ TEST_CASE("module: what does not fit is refused by name")
   CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("lasts beyond the step"));
   early.launches = {{StepPoint::begin, {}}};
   CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("has no function"));
+  for (const int beyond : {static_cast<int>(StepPoint::commit) + 1, 255}) {
+    early.launches = {{static_cast<StepPoint>(beyond), [](Launches &) {}}};
+    CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("no point of the step"));
+  }
   Settings twice = with(pushing(1));
   twice.extensions.push_back(pushing(2));
   CHECK_THAT(message_of([&] { World(balls(1), twice, {"serial", {}}); }), Contains("module 'probe' is given twice"));

@@ -18,8 +18,16 @@ int main()
   tandem::World world(scene, settings, {"tbb"});
   world.step(); /* four substeps: the wind is -1 m/s along z, one metre from its axis */
   const float speed = world.bodies()[0].linear_velocity[2], expected = -1 + std::pow(1 + 0.5f / 240, -4.0f);
-  const tandem::Comparison compared = tandem::compare_backends(
-      scene, {.settings = settings, .backends = {"serial", "tbb:threads=2,lanes=4", "tbb"}, .steps = 20});
-  std::printf("speed %g m/s, expected %g; %s\n", speed, expected, compared.equal ? "EQUAL" : "DIFFERENT");
+  std::vector<std::string> backends{"serial", "tbb:threads=2,lanes=4", "tbb"};
+  try {
+    tandem::World(scene, settings, {"cl"});
+    backends.push_back("cl");
+  } catch (const tandem::InputError &error) {
+    std::printf("no device: %s\n", error.what());
+  }
+  const tandem::Comparison compared =
+      tandem::compare_backends(scene, {.settings = settings, .backends = backends, .steps = 20});
+  std::printf("speed %g m/s, expected %g; %s on %zu backends\n", speed, expected,
+              compared.equal ? "EQUAL" : "DIFFERENT", backends.size());
   return std::abs(speed - expected) < 1e-6f && compared.equal ? 0 : 1;
 }

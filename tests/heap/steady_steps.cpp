@@ -1,0 +1,94 @@
+/* steady_steps.cpp - a step that finds room for all it needs allocates nothing: each one of several, on any backend, of
+ * the pipeline alone and with a module of a user's. */
+#include <array>
+#include <string>
+#include <vector>
+
+#include <tandem/world.h>
+
+#include "probe.h"
+#include "tests/heap/allocations.h"
+#include "tests/heap/heap_cases.h"
+#include "tests/host/runtime/opencl/opencl_device.h"
+
+using namespace tandem;
+using namespace tandem::fault_scenes;
+using namespace tests::heap;
+
+namespace {
+
+constexpr size_t steps = 20;
+using Counts = std::array<uint64_t, steps>;
+
+std::vector<std::string> all_backends()
+{
+  std::vector<std::string> backends{"serial", "tbb:threads=2"};
+  if (find_test_device()) backends.emplace_back("cl:pocl");
+  else tests::leave_out_device("steps on an OpenCL device");
+  return backends;
+}
+
+/* Of each of the next steps. */
+Counts allocations(World &world)
+{
+  Counts counts{};
+  for (uint64_t &count : counts) {
+    const Failing never(UINT64_MAX);
+    world.step();
+    count = asked();
+  }
+  return counts;
+}
+
+void check_allocates_nothing(const Scene &scene, const Settings &settings, const std::string &backend)
+{
+  CAPTURE(backend);
+  World world(scene, settings, {backend, {}});
+  for (int i = 0; i < 40; ++i) world.step();
+  const Statistics before = world.statistics();
+  const Counts counts = allocations(world);
+  REQUIRE(world.statistics().overflow == before.overflow);
+  CHECK(counts == Counts{});
+}
+
+/* A kernel with a value, one of pairs, one at the commit, and one of groups with a slot. */
+Extension probing()
+{
+  return {&probe::module(),
+          [](World &world) {
+            const std::vector<float> force{0.01f, 0, 0, 0};
+            world.write<float>(probe::buffer::probe_force(), force);
+            world.write<uint32_t>(probe::buffer::probe_ghost(), std::vector<uint32_t>(world.bodies().size()));
+          },
+          {{StepPoint::contacts, [](Launches &launches) { launches.run(probe::kernel::probe_drop()); }},
+           {StepPoint::forces,
+            [](Launches &launches) {
+              const uint32_t times[] = {2};
+              launches.run(probe::kernel::probe_push(), times);
+            }},
+           {StepPoint::commit, [](Launches &launches) {
+              const Buffer values[] = {probe::buffer::probe_age()};
+              launches.run(probe::kernel::probe_count());
+              launches.run(probe::kernel::probe_sum(), {}, values);
+            }}}};
+}
+
+} // namespace
+
+TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on any backend")
+{
+  for (const std::string &backend : all_backends())
+    for (const Case &c : heap_cases()) {
+      if (c.settings.solver == Solver::direct) continue; /* its elimination on the host takes memory as it needs it */
+      CAPTURE(c.what, c.scene);
+      check_allocates_nothing(load_scene(c.scene), c.settings, backend);
+    }
+}
+
+TEST_CASE("heap: a step with a module of a user's allocates nothing, on any backend")
+{
+  Settings settings = short_step(with(Solver::soft_step, Broadphase::grid, true));
+  settings.extensions = {probing()};
+  for (const std::string &backend : all_backends())
+    check_allocates_nothing(load_scene("box-grid:nx=2,ny=2,nz=2"), settings, backend);
+}

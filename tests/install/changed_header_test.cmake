@@ -1,0 +1,32 @@
+# changed_header_test.cmake - the OpenCL text of a module is written again when a header changes that a header of the
+# module includes, and only then.
+include(${CMAKE_CURRENT_LIST_DIR}/steps.cmake)
+set(project ${SCRATCH}/changed-header)
+set(written ${project}/build/wind_module/generated/wind_programs.cpp)
+file(REMOVE_RECURSE ${project})
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/wind/ DESTINATION ${project})
+file(READ ${project}/blow.h text)
+file(WRITE ${project}/blow.h "#include \"inner.h\"\n${text}")
+file(WRITE ${project}/inner.h "#include \"innermost.h\"\n")
+file(APPEND ${project}/CMakeLists.txt "add_custom_target(text DEPENDS ${written})\n")
+
+# The text must hold `#define INNERMOST value` after a build; `when`: the time at which it was written.
+function(build_text value when)
+  step(${CMAKE_COMMAND} --build ${project}/build --target text)
+  file(READ ${written} text)
+  if(NOT text MATCHES "#define INNERMOST ${value}\n")
+    message(FATAL_ERROR "${written} does not hold INNERMOST ${value}: a changed header was not seen")
+  endif()
+  file(TIMESTAMP ${written} time "%s.%f")
+  set(${when} ${time} PARENT_SCOPE)
+endfunction()
+
+file(WRITE ${project}/innermost.h "#define INNERMOST 1\n")
+configure(${project} ${project}/build)
+build_text(1 first)
+build_text(1 second)
+if(NOT first STREQUAL second)
+  message(FATAL_ERROR "the text was written again though nothing had changed")
+endif()
+file(WRITE ${project}/innermost.h "#define INNERMOST 2\n")
+build_text(2 third)
