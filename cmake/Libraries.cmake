@@ -83,12 +83,15 @@ if(NOT TANDEM_BUILD_COMMAND) # what only the command writes
 endif()
 # No double becomes a float unseen (host/include/tandem/round_to_float.h).
 if(NOT TANDEM_JOIN_SOURCES) # sources with options of their own are not joined
-  set_source_files_properties(${HOST_SOURCES} PROPERTIES COMPILE_OPTIONS -Wfloat-conversion)
+  set(alone ${HOST_SOURCES})
+  list(REMOVE_ITEM alone ${io_sources})
+  set_source_files_properties(${alone} PROPERTIES COMPILE_OPTIONS -Wfloat-conversion)
 endif()
 
 tandem_library(NAME tandem SOURCES ${physics_sources} USES TBB::tbb OpenCL::OpenCL)
 tandem_library(NAME tandem_io SOURCES ${io_sources} LINKS tandem
   USES fmt::fmt TinyGLTF::TinyGLTF tinyobjloader::tinyobjloader $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+target_compile_options(tandem_io_objects PRIVATE -Wfloat-conversion)
 set(libraries tandem tandem_io)
 if(TANDEM_BUILD_COMMAND)
   tandem_library(NAME tandem_verify SOURCES ${verify_sources} LINKS tandem_io tandem USES fmt::fmt)
@@ -97,7 +100,5 @@ endif()
 if(TANDEM_PORTABLE_KERNELS_ONLY)
   target_compile_definitions(tandem_objects PRIVATE TANDEM_PORTABLE_KERNELS_ONLY)
 endif()
-if(TANDEM_JOIN_SOURCES)
-  include(cmake/JoinSources.cmake)
-endif()
+include(cmake/JoinSources.cmake)
 embed_kernels(tandem_objects)

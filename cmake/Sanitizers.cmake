@@ -37,18 +37,12 @@ endif()
 # Eigen's solver: as long
 set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
 
-# The host's sources compile in half the time without optimisation; kernels run too often for that.
-foreach(library tandem tandem_io tandem_verify)
-  target_compile_options(${library}_objects PRIVATE -O0)
-endforeach()
-set_property(SOURCE ${MINICL_SOURCES} APPEND PROPERTY COMPILE_OPTIONS -O1)
-
 set(watched_tools tools/command/output.cpp)
 if(TANDEM_SANITIZE MATCHES address) # the command has one thread of its own
   list(APPEND watched_tools tools/contact_problem/contact_problem.cpp tools/diff/diff.cpp tools/plot/image.cpp
     tools/plan/plan.cpp tools/run/run.cpp tools/command/scene_options.cpp)
 endif()
-set_source_files_properties(${watched_tools} tools/command/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
+set_source_files_properties(tools/command/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 set(borrowed_tools)
 if(TANDEM_OBJECTS_FROM)
   set(borrowed_tools ${TANDEM_OBJECTS_FROM}/libtandem_tools.a)

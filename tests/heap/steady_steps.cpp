@@ -77,9 +77,12 @@ Extension probing()
 
 TEST_CASE("heap: a step that finds room for all it needs allocates nothing, on any backend")
 {
+  const std::vector<Case> all = heap_cases();
   for (const std::string &backend : all_backends())
-    for (const Case &c : heap_cases()) {
+    for (size_t k = 0; k < all.size(); ++k) {
+      const Case &c = all[k];
       if (c.settings.solver == Solver::direct) continue; /* its elimination on the host takes memory as it needs it */
+      if (backend == "cl:pocl" && k % 3 != 0) continue;  /* each would compile for seconds, to be launched alike */
       CAPTURE(c.what, c.scene);
       check_allocates_nothing(load_scene(c.scene), c.settings, backend);
     }

@@ -73,7 +73,7 @@ FaultInjector fault_injector(const std::string &text, size_t world, std::string 
 }
 
 /* The text of the scene may contain characters that a shell would interpret. */
-std::string quoted(const std::string &text)
+std::string shell_quoted(const std::string &text)
 {
   if (text.find_first_of(" '\"$`\\;&|<>()*?[]{}!#~") == std::string::npos) return text;
   std::string result = "'";
@@ -85,7 +85,7 @@ std::string gdb_line(const Difference &difference, const SceneOptions &options, 
 {
   if (difference.breakpoint.empty()) return "";
   return fmt::format("gdb -ex 'break {}' -ex run --args tandem run {} --on serial --steps {}{}", difference.breakpoint,
-                     quoted(options.scene_text()), difference.step + 1, options.typed_again(broadphase));
+                     shell_quoted(options.scene_text()), difference.step + 1, options.typed_again(broadphase));
 }
 
 std::string kernel_name(const Difference &difference)

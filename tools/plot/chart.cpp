@@ -88,8 +88,8 @@ std::vector<double> values_of(const Chart &chart, bool x)
   return values;
 }
 
-struct Frame {
-  explicit Frame(const Chart &chart)
+struct PlotFrame {
+  explicit PlotFrame(const Chart &chart)
       : x(chart.x, values_of(chart, true), left, chart.width - right),
         y(chart.y, values_of(chart, false), chart.height - bottom, top)
   {}
@@ -98,7 +98,7 @@ struct Frame {
 
 bool drawable(const ChartPoint &point) { return std::isfinite(point.x) && std::isfinite(point.y); }
 
-std::string grid_text(const Chart &chart, const Frame &frame)
+std::string grid_text(const Chart &chart, const PlotFrame &frame)
 {
   std::string text;
   for (const double value : frame.x.ticks())
@@ -125,7 +125,7 @@ std::string labels_text(const Chart &chart)
                      middle, escaped(chart.y.label));
 }
 
-std::string levels_text(const Chart &chart, const Frame &frame)
+std::string levels_text(const Chart &chart, const PlotFrame &frame)
 {
   std::string text;
   for (const ChartLevel &level : chart.levels) {
@@ -150,7 +150,7 @@ std::string marker_text(size_t series, bool hollow)
   return shape.substr(0, place) + (hollow ? " class=\"hollow\"" : "") + shape.substr(place + 3);
 }
 
-std::string polyline_text(const std::vector<ChartPoint> &points, const Frame &frame, const std::string &attributes)
+std::string polyline_text(const std::vector<ChartPoint> &points, const PlotFrame &frame, const std::string &attributes)
 {
   std::string text;
   for (const ChartPoint &point : points)
@@ -158,7 +158,7 @@ std::string polyline_text(const std::vector<ChartPoint> &points, const Frame &fr
   return points.size() < 2 ? "" : fmt::format("<polyline {} points=\"{}\"/>\n", attributes, text);
 }
 
-std::string point_text(const ChartPoint &point, const std::string &series, const Chart &chart, const Frame &frame,
+std::string point_text(const ChartPoint &point, const std::string &series, const Chart &chart, const PlotFrame &frame,
                        size_t index)
 {
   const bool hollow = !frame.x.shows(point.x) || !frame.y.shows(point.y);
@@ -169,7 +169,7 @@ std::string point_text(const ChartPoint &point, const std::string &series, const
                      point.front ? "<circle class=\"ring\" r=\"8\"/>" : "", marker_text(index, hollow));
 }
 
-std::string series_text(const Chart &chart, const Frame &frame, size_t index)
+std::string series_text(const Chart &chart, const PlotFrame &frame, size_t index)
 {
   const ChartSeries &series = chart.series[index];
   std::vector<ChartPoint> line;
@@ -184,7 +184,7 @@ std::string series_text(const Chart &chart, const Frame &frame, size_t index)
                      polyline_text(line, frame, series.dashed ? "class=\"line dashed\"" : "class=\"line\""), markers);
 }
 
-std::string front_text(const Chart &chart, const Frame &frame)
+std::string front_text(const Chart &chart, const PlotFrame &frame)
 {
   std::vector<ChartPoint> front;
   for (const ChartSeries &series : chart.series)
@@ -252,7 +252,7 @@ double whole_height(const Chart &chart)
   return chart.height + legend_of(chart).height + (missing_text(chart, 0).empty() ? 0 : legend_row);
 }
 
-constexpr const char *style =
+constexpr const char *chart_style =
     "<style>.tandem-chart{font:12px system-ui,sans-serif;color:#1c2530;fill:currentColor;max-width:100%;height:auto}"
     "@media(prefers-color-scheme:dark){.tandem-chart{color:#dfe5ec}}"
     ".tandem-chart .title{font-size:14px;font-weight:600}.tandem-chart .missing{opacity:.7}"
@@ -266,7 +266,7 @@ constexpr const char *style =
 
 std::string contents_of(const Chart &chart)
 {
-  const Frame frame(chart);
+  const PlotFrame frame(chart);
   const Legend legend = legend_of(chart);
   std::string text = grid_text(chart, frame) + labels_text(chart) + levels_text(chart, frame);
   for (size_t k = 0; k < chart.series.size(); ++k) text += series_text(chart, frame, k);
@@ -342,7 +342,7 @@ std::string svg_of(const std::vector<Chart> &charts)
   }
   return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"tandem-chart\" role=\"img\" aria-label=\"{0}\" "
                      "viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\">\n{3}{4}</svg>\n",
-                     names, width, height, style, text);
+                     names, width, height, chart_style, text);
 }
 
 } // namespace tandem

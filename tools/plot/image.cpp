@@ -39,11 +39,11 @@ constexpr Vector body_colors[] = {{0.90, 0.62, 0.00}, {0.34, 0.71, 0.91}, {0.00,
                                   {0.00, 0.45, 0.70}, {0.84, 0.37, 0.00}, {0.80, 0.47, 0.65}};
 
 /* The axes of a picture, which give the position of a pixel's middle on a plane at distance 1. */
-struct Frame {
+struct CameraFrame {
   Vector forward, right, up;
   double scale; /* of half the height */
 
-  explicit Frame(const Camera &camera)
+  explicit CameraFrame(const Camera &camera)
   {
     forward = unit(plus(camera.target, camera.eye, -1));
     right = unit(cross3(forward, {0, 1, 0}));
@@ -133,7 +133,7 @@ std::vector<uint32_t> edges_of(const std::vector<Vector> &colors, const Camera &
   return edges;
 }
 
-void smooth_edges(World &world, const Camera &camera, const Frame &frame, std::vector<Vector> &colors)
+void smooth_edges(World &world, const Camera &camera, const CameraFrame &frame, std::vector<Vector> &colors)
 {
   const std::vector<uint32_t> edges = edges_of(colors, camera);
   std::vector<Ray> rays;
@@ -217,7 +217,7 @@ Camera camera_from(const std::string &text, uint32_t width, uint32_t height)
 
 std::vector<uint8_t> draw(World &world, const Camera &camera)
 {
-  const Frame frame(camera);
+  const CameraFrame frame(camera);
   std::vector<Ray> rays;
   for (uint32_t y = 0; y < camera.height; ++y)
     for (uint32_t x = 0; x < camera.width; ++x)

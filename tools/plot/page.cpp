@@ -10,7 +10,7 @@
 namespace tandem {
 namespace {
 
-constexpr const char *style = R"(
+constexpr const char *page_style = R"(
   :root { color-scheme: light dark; --paper: #ffffff; --ink: #1c2530; --faint: #eef1f5; --rule: #c5ccd6;
           --good: #00694d; --bad: #b34a00; }
   @media (prefers-color-scheme: dark) {
@@ -123,7 +123,7 @@ std::string Page::text() const
 {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(title_) + "</title>\n<style>" + style + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) +
+         escaped(title_) + "</title>\n<style>" + page_style + "</style>\n</head>\n<body>\n<h1>" + escaped(title_) +
          "</h1>\n<p>" + escaped(introduction_) + "</p>\n<nav>\n" + contents_ + "</nav>\n" + body_ + "<script>" +
          script + "</script>\n</body>\n</html>\n";
 }

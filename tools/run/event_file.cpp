@@ -20,7 +20,10 @@ std::string line_of(uint64_t step, const ContactEvent &event)
                             event.points, event.impulse, event.separation, text(event.point), text(event.normal));
 }
 
-std::string quoted(const std::string &text) { return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string json_quoted(const std::string &text)
+{
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 } // namespace
 
@@ -29,10 +32,10 @@ std::string quoted(const std::string &text) { return Json(text).dump(-1, ' ', fa
 EventFile::EventFile(const std::string &path, const std::string &scene, const World &world)
     : file_(path, fmt::format("--events {}", path))
 {
-  file_.write(fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": [", quoted(scene), world.settings().step));
+  file_.write(fmt::format("{{\"scene\": {}, \"dt\": {}, \"bodies\": [", json_quoted(scene), world.settings().step));
   const char *separator = "";
   for (const Body &body : world.scene().bodies) {
-    file_.write(separator + quoted(body.name));
+    file_.write(separator + json_quoted(body.name));
     separator = ",";
   }
   file_.write("], \"events\": [");
