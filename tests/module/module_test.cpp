@@ -86,7 +86,7 @@ TEST_CASE("module: a kernel at the forces pushes in each substep, on every backe
 
 TEST_CASE("module: what a STATE buffer counts is counted once a step, also of a step that ran again")
 {
-  Scene dense_cluster = balls(400);
+  Scene dense_cluster = balls(100);
   for (size_t i = 0; i < dense_cluster.bodies.size(); ++i)
     dense_cluster.bodies[i].position = {1e-4 * static_cast<double>(i), 0, 0};
   World world(dense_cluster, with(pushing(0)), {"tbb", {}});
@@ -335,13 +335,13 @@ TEST_CASE("module: kernels over counts that have no bound before they are made a
 
 TEST_CASE("module: lists that are added while a world lives are none of its own")
 {
-  World world(balls(400), with(pushing(0)), {"serial", {}});
+  World world(balls(100), with(pushing(0)), {"serial", {}});
   static const std::vector<BufferRow> late(
       100, {"late_buffer", Element::uint, Capacity::BODIES, 1, 0, Lifetime::SCRATCH, "value"});
   static const KernelRow kernel{"late_kernel", own_stage, Execution::item, COUNT_BODIES, 0, {}};
   static const std::vector<EmbeddedProgram> programs;
   add_module({"late_module", {&kernel, 1}, late, {}, &programs});
-  for (uint32_t body = 0; body < 400; ++body) {
+  for (uint32_t body = 0; body < 100; ++body) {
     BodyState state = world.bodies()[body];
     state.position = {1e-4 * body, 0, 0};
     world.set_body(body, state);
