@@ -7,7 +7,7 @@
 
 /* SHAPE_OTHER: body_convex names the shape, and body_shape_pose places it in the body. SHAPE_TRIANGLE: a triangle of a
  * mesh, which exists in the narrowphase alone. The other codes are those of ShapeType in
- * host/include/tandem/scene.h. */
+ * host/include/tandem/shapes.h. */
 enum {
   SHAPE_SPHERE = 0,
   SHAPE_BOX = 1,

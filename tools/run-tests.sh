@@ -10,8 +10,8 @@ set -eu
 usage() {
   cat <<'END'
 Usage: tools/run-tests.sh [--quick] [--no-install] [--without-sanitizers] [--without-compilers] [-- CTEST-OPTION...]
-Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and \
-    runs CTest.
+Installs the missing packages, builds the presets `release` (warnings are errors), `asan`, `tsan` and `golden-*`, and
+runs CTest.
   --quick                for daily work: the release tree alone, and of its tests the unit tests and the checks that do
                          not wait for an OpenCL compiler; a few minutes, most of them for what has to be compiled
   --no-install           install nothing; if a package is missing, say which and exit with status 2

@@ -1,7 +1,7 @@
 /* bvh.h - a bounding volume hierarchy with 16 bytes a node, over the triangles of a mesh or the children of a
  * compound.
  *
- * It follows Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2004, ch. 6): coordinates have 16 bits
+ * It follows Bullet's btQuantizedBvh and Ericson (Real-Time Collision Detection, 2005, ch. 6): coordinates have 16 bits
  * within the bounds of the whole, nodes are in depth-first order, and an inner node stores how many nodes to skip if
  * its box is missed. A traversal therefore needs no stack and reads memory forwards:
  *
@@ -46,10 +46,8 @@ struct BvhNode {
 static_assert(sizeof(BvhNode) == 16);
 
 inline bool is_leaf(const BvhNode &node) { return node.value >= 0; }
-inline uint32_t nodes_below(const BvhNode &node)
-{
-  return is_leaf(node) ? 1 : uint32_t(-node.value);
-} /* itself included */
+/* The node itself included. */
+inline uint32_t nodes_below(const BvhNode &node) { return is_leaf(node) ? 1 : uint32_t(-node.value); }
 
 constexpr uint32_t most_subtree_nodes = 128; /* 2 KiB */
 

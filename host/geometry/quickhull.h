@@ -6,9 +6,8 @@
  *          p                The side of a face on which a point lies is a determinant of coordinates that are multiples
  *         / \               of 2^-41. It fits in 128 bits, so no decision depends on rounding. The surface is exactly
  *      __/___\__            convex at every moment, the region visible from p is connected, its border is one cycle,
- * and
- *     /  hidden \           no triangle is degenerate. There are no special cases, and the result is the same on every
- *                           machine.
+ *     /  hidden \           and no triangle is degenerate. There are no special cases, and the result is the same on
+ *                           every machine.
  */
 #pragma once
 

@@ -1,4 +1,4 @@
-/* hull_buffers.h - the convex hulls of a scene as the tables that kernels read: shared/narrowphase/convex.h. */
+/* hull_buffers.h - the convex hulls of a scene as the tables that kernels read: shared/narrowphase/hull_support.h. */
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 /* hull_chunks.h - the tables that follow from a hull's vertices, planes and faces: the chunks of shared/float8.h, and
- * the links of shared/narrowphase/convex.h. The functions are templates over a record of four numbers, because the
- * reference build has its own. */
+ * the links of shared/narrowphase/hull_support.h. The functions are templates over a record of four numbers, because
+ * the reference build has its own. */
 #pragma once
 
 #include <array>

@@ -25,8 +25,8 @@ SoftContact soft_contact(double hertz, double damping_ratio, double h)
   return {round_to_float(omega / a1), round_to_float(a2 * a3), round_to_float(a3)};
 }
 
-/* Cells of two-stage batching are four bodies wide. If sizes are much alike, that is more than the largest body, so
- * that cells of one class share no body; and a cell holds few enough contacts that one work-group can process it. */
+/* Cells of two-stage batching are four bodies wide. If sizes are much alike, that is more than two of the largest body,
+ * so cells of one class share no body; and a cell holds few enough contacts that one work-group can process it. */
 float inverse_batch_cell(const Scene &scene)
 {
   const float edge = 8 * median_radius(scene);

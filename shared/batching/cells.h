@@ -12,7 +12,7 @@
  *
  * Here each body notes, for each class, the lowest cell of that class that has a contact with it. A contact is worked
  * on in its cell only if its cell is the one noted at both of its moving bodies; then no body is touched by two cells
- * of one class, whatever the sizes. The contacts left over, none where cells are larger than bodies, are coloured by
+ * of one class, whatever the sizes. The contacts left over, none where cells are wider than two bodies, are coloured by
  * the rounds of coloring.h after the cells.
  *
  * The number of a cell is a hash, because space is unbounded. Cells that share a number are worked on by one group, as

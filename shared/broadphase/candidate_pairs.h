@@ -9,7 +9,6 @@
  * a pair left their fat boxes, the body with the higher index reports the pair, so that it is reported once. A body
  * that the scene calls large may overlap thousands of others. Each of these tests the large body, so that no single
  * work-item has to find all of them.
- * single work-item has to find them all.
  */
 #ifndef TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H
 #define TANDEM_SHARED_BROADPHASE_CANDIDATE_PAIRS_H

@@ -118,7 +118,7 @@ SHARED void extent_tiles_group(GLOBAL const float4 *bounds, GLOBAL const uint *c
   store_extent_tile(bounds_sums, group, load_extent_local(extents, first));
 }
 
-/* The number of cells along one axis, at least 1 and at most what 30 bits for three axes allow. */
+/* The number of cells along one axis, at least 1; floor_to_int saturates at 2^30. */
 SHARED uint cells_along(real length, real cell)
 {
   int cells = floor_to_int(length / cell) + 1;

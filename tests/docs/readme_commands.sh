@@ -51,11 +51,9 @@ is_about_device() { cat "$1.command" "$1.shown" | grep -q 'cl:'; }
 run_command() {
   command=$(cat "$1.command")
   echo "\$ $command"
-  sh -c "$command" >"$1.printed" 2>&1 </dev/null || {
-    cat "$1.printed"
-    echo "$2: ends with status $?: $command"
-    return 1
-  }
+  ending=0
+  sh -c "$command" >"$1.printed" 2>&1 </dev/null || ending=$?
+  [ "$ending" -eq 0 ] || { cat "$1.printed"; echo "$2: ends with status $ending: $command"; return 1; }
   canonical "$command" <"$1.shown" >"$1.shown.canonical"
   canonical "$command" <"$1.printed" >"$1.printed.canonical"
   missing=$(missing_line "$1.shown.canonical" "$1.printed.canonical")

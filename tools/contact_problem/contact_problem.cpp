@@ -94,8 +94,8 @@ void require_finite(const ContactSolution &solution, const ContactProblemOptions
   const auto all_finite = [&](const std::array<double, 3> &impulse) {
     return std::all_of(impulse.begin(), impulse.end(), finite);
   };
-  const auto &[uint_lanes, fischer_burmeister, cone_violation] = solution.residuals;
-  if (finite(uint_lanes) && finite(fischer_burmeister) && finite(cone_violation) &&
+  const auto &[natural_map, fischer_burmeister, cone_violation] = solution.residuals;
+  if (finite(natural_map) && finite(fischer_burmeister) && finite(cone_violation) &&
       std::all_of(solution.impulse.begin(), solution.impulse.end(), all_finite))
     return;
   throw InputError(fmt::format(

@@ -1,5 +1,5 @@
-/* settings.h - how a scene is simulated: time step, algorithms, tolerances and the placement of kernels on backends.
- * World reads it once, when it is made. */
+/* settings.h - how a scene is simulated: time step, algorithms, tolerances and the modules that take part. World reads
+ * it once, when it is made; <tandem/backend.h> says where its kernels run. */
 #pragma once
 
 #include <concepts>

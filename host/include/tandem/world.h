@@ -28,8 +28,8 @@
 
 namespace tandem {
 
-/* Internal types, declared for those who compare or profile the pipeline and defined in host/runtime/interface/. An
- * extension of the pipeline needs only <tandem/module.h>. */
+/* Internal types, declared for those who compare or profile the pipeline and defined in host/runtime/. An extension of
+ * the pipeline needs only <tandem/module.h>. */
 class Backend;
 class Memory;
 struct Launch;

@@ -11,8 +11,8 @@
 namespace tandem {
 
 struct BroadphaseChoice {
-  Broadphase broadphase; /* the statistics of the scene that decided it, in one line */
-  std::string why;       /* the statistics of the scene that led there, in one line */
+  Broadphase broadphase; /* not automatic */
+  std::string why;       /* the statistics of the scene that decided it, in one line */
 };
 
 /* backend: as in --on. */
