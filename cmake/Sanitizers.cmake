@@ -34,8 +34,6 @@ elseif(TANDEM_SANITIZE MATCHES thread)
     set_property(SOURCE ${unwatched_kernels} APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=all")
   endif()
 endif()
-# Eigen's solver: as long
-set_property(SOURCE host/geometry/mass_properties.cpp APPEND PROPERTY COMPILE_OPTIONS "-fno-sanitize=undefined")
 
 set(watched_tools tools/command/output.cpp)
 if(TANDEM_SANITIZE MATCHES address) # the command has one thread of its own

@@ -36,7 +36,11 @@ public:
   void prepare_upload(Buffer buffer) { acquire(buffer, host_storage(), Access::inout); }
   /* Exchanges two buffers of the same type. */
   void exchange(Buffer one, Buffer other) noexcept { std::swap(entries_[index_of(one)], entries_[index_of(other)]); }
-  size_t bytes(Buffer buffer) const { return entries_[index_of(buffer)].bytes; }
+  /* 0 for a buffer of a module that was added later. */
+  size_t bytes(Buffer buffer) const
+  {
+    return index_of(buffer) < entries_.size() ? entries_[index_of(buffer)].bytes : 0;
+  }
   size_t total_bytes() const;
   bool holds(Buffer buffer, const Storage &storage) const; /* whether the storage has a copy of it */
 

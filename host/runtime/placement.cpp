@@ -30,6 +30,14 @@ std::string stage_list()
 
 } // namespace
 
+void validate(const Placement &placement)
+{
+  for (const auto &[place, backend] : placement.exceptions)
+    if (!is_stage(place) && !find_kernel(place))
+      throw InputError(fmt::format("placement '{}={}': no stage or kernel '{}'; the stages are {}", place, backend, place,
+                                   stage_list()));
+}
+
 std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)
 {
   std::vector<std::pair<std::string, std::string>> exceptions;
@@ -38,13 +46,11 @@ std::vector<std::pair<std::string, std::string>> parse_placement(const std::stri
     if (equals == std::string::npos || equals == 0 || equals + 1 == part.size())
       throw InputError(fmt::format("placement '{}' is not STAGE=BACKEND", part));
     const std::string place = part.substr(0, equals);
-    if (!is_stage(place) && !find_kernel(place))
-      throw InputError(
-          fmt::format("placement '{}': no stage or kernel '{}'; the stages are {}", part, place, stage_list()));
     if (std::any_of(exceptions.begin(), exceptions.end(), [&](const auto &given) { return given.first == place; }))
       throw InputError(fmt::format("placement '{}': {} is given twice", text, place));
     exceptions.emplace_back(place, part.substr(equals + 1));
   }
+  validate({.exceptions = exceptions});
   return exceptions;
 }
 

@@ -29,8 +29,9 @@ void World::Implementation::check_write(Buffer buffer, size_t bytes, size_t offs
     throw InputError(fmt::format("write: buffer '{}' is of no module in Settings::extensions", row.name));
   const size_t unit = row.per_item * size_of(row.element);
   constexpr uint64_t most = uint64_t{1} << 32; /* elements that kernels can index */
-  if (is_sized_by_writes(buffer) && offset == 0 && bytes % unit == 0 && bytes / size_of(row.element) <= most) return;
-  if (offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
+  const bool sizes = is_sized_by_writes(buffer) && offset == 0;
+  if (sizes && bytes % unit == 0 && bytes / size_of(row.element) <= most) return;
+  if (sizes || offset > memory.bytes(buffer) || bytes > memory.bytes(buffer) - offset)
     throw InputError(fmt::format("write: buffer '{}' has {} bytes, not {} from byte {} on; an item has {}", row.name,
                                  memory.bytes(buffer), bytes, offset, unit));
 }
@@ -39,7 +40,7 @@ void World::Implementation::write(Buffer buffer, const void *from, size_t bytes,
 {
   check_write(buffer, bytes, offset);
   restore_bodies(); /* where the last attempt of a step could not: not over what is written now */
-  if (!is_sized_by_writes(buffer) || memory.bytes(buffer) == bytes) return memory.upload(buffer, from, bytes, offset);
+  if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes) return memory.upload(buffer, from, bytes, offset);
   memory.assign(buffer, from, bytes);
   buffers.changed();
 }

@@ -103,8 +103,10 @@ void World::set_body_unchecked(uint32_t body, const BodyState &state)
 {
   const minicl::ExactFloatingPoint environment;
   ++implementation_->state;
-  answer("a body", implementation_->plan.bodies,
-         [&] { upload_body(implementation_->memory, implementation_->index_of_body.at(body), state); });
+  answer("a body", implementation_->plan.bodies, [&] {
+    implementation_->restore_bodies(); /* where the last attempt of a step could not: not over what is set now */
+    upload_body(implementation_->memory, implementation_->index_of_body.at(body), state);
+  });
 }
 
 void World::run(Kernel kernel, std::span<const uint32_t> values, std::span<const Buffer> slots)

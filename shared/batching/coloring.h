@@ -6,8 +6,8 @@
  * index, so they never tie, and a maximum does not depend on order. The colouring is therefore the same on every
  * backend.
  *
- *      body      1 --- 2 --- 3         contacts are the edges; colours run along an edge's two ends
- *      colour      0     1
+ *      body      1 --- 2 --- 3         contacts are the edges of a graph of bodies; edges that meet at a body have
+ *      colour      0     1             different colours
  */
 #ifndef TANDEM_SHARED_BATCHING_COLORING_H
 #define TANDEM_SHARED_BATCHING_COLORING_H

@@ -7,8 +7,9 @@
  * In scenes with trees two bodies may have several manifolds, both in this step and in the last. Two manifolds match if
  * the normal of each agrees best with that of the other, so that none is matched twice:
  *
- *      then  1 --------> 2         now 1 prefers then 1, then 1 prefers now 1: a match
- *            ^  \                   now 2 prefers then 1, which prefers another: new
+ *      then  1           2         now 1 prefers then 1, and then 1 prefers now 1: a match
+ *            ^ ^                   now 2 prefers then 1, which prefers another: new
+ *            v  \
  *      now   1   2
  */
 #ifndef TANDEM_SHARED_BATCHING_MATCH_H

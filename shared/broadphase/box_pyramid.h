@@ -1,4 +1,5 @@
-/* box_pyramid.h - the union of the boxes in any range of a list, in as many loads as the range's length has bits.
+/* box_pyramid.h - the union of the boxes in any range of a list, in at most twice as many loads as the
+ * range's length has bits.
  *
  *                1                 The pyramid is a heap over the list: node n joins nodes 2 n and 2 n + 1, and place i
  *           2         3            of the list is node leaves + i. Empty boxes, which overlap nothing, fill the rest of

@@ -6,7 +6,7 @@
  * Where the cores are apart, gjk.h gives normal and gap; a separating axis that is not the direction of the closest
  * points would have no contact point on it. Where the cores overlap, the method decides:
  *
- *   CONVEX_EXPANSION   epa.h: the least depth, with 1.7 KiB of private memory
+ *   CONVEX_EXPANSION   epa.h: the least depth, with 1.6 KiB of private memory
  *   CONVEX_SAMPLED     sampled_depth.h: nearly the least depth, with little memory
  *   CONVEX_AXES        hull_axes.h for boxes and hulls: the least depth, faces first; else as CONVEX_EXPANSION
  *   CONVEX_FIELDS      cube_field.h for boxes and hulls near each other, which also gives points; else as

@@ -73,9 +73,12 @@ run_page() {
   [ -e 1.command ] || { echo "$page: no command"; return 1; }
   left_out=
   has_device=$(tandem devices | grep '^cl:' || true)
-  for file in *.command; do
-    number=${file%.command}
-    if [ -z "$has_device" ] && is_about_device "$number"; then left_out="$left_out; $(cat "$file")"; continue; fi
+  number=0
+  while number=$((number + 1)) && [ -e "$number.command" ]; do
+    if [ -z "$has_device" ] && is_about_device "$number"; then
+      left_out="$left_out; $(cat "$number.command")"
+      continue
+    fi
     run_command "$number" "$page" || return 1
   done
   [ "$left_out" ] || return 0

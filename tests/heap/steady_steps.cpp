@@ -9,7 +9,7 @@
 #include "probe.h"
 #include "tests/heap/allocations.h"
 #include "tests/heap/heap_cases.h"
-#include "tests/host/runtime/opencl/opencl_device.h"
+#include "tests/host/runtime/opencl/pocl.h"
 
 using namespace tandem;
 using namespace tandem::fault_scenes;
@@ -23,8 +23,7 @@ using Counts = std::array<uint64_t, steps>;
 std::vector<std::string> all_backends()
 {
   std::vector<std::string> backends{"serial", "tbb:threads=2"};
-  if (find_test_device()) backends.emplace_back("cl:pocl");
-  else tests::leave_out_device("steps on an OpenCL device");
+  parity::add_pocl(backends);
   return backends;
 }
 

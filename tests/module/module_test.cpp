@@ -13,7 +13,7 @@
 #include "host/verify/breakpoint.h"
 #include "probe.h"
 #include "tests/catch.h"
-#include "tests/host/runtime/opencl/opencl_device.h"
+#include "tests/host/runtime/opencl/pocl.h"
 
 using namespace tandem;
 using Catch::Matchers::Contains;
@@ -65,7 +65,7 @@ std::string message_of(const std::function<void()> &work)
 std::vector<std::string> all_backends()
 {
   std::vector<std::string> backends{"serial", "serial:order=backward", "tbb:threads=2,lanes=4", "tbb"};
-  if (find_test_device()) backends.emplace_back("cl:pocl");
+  parity::add_pocl(backends);
   return backends;
 }
 
@@ -288,7 +288,7 @@ TEST_CASE("module: a world that is placed elsewhere between steps keeps its bits
                             {"tbb:threads=2,lanes=4", "probe_push=serial", "serial"},
                             {"tbb", "probe=serial:order=backward,integrate=serial", "serial:order=backward"},
                             {"serial", "", "serial"}};
-  if (find_test_device()) {
+  if (parity::has_pocl()) {
     places.push_back({"tbb", "probe=cl:pocl", "cl:pocl"});
     places.push_back({"cl:pocl", "probe=serial", "serial"});
     places.push_back({"cl:pocl", "", "cl:pocl"});
@@ -348,7 +348,10 @@ TEST_CASE("module: lists that are added while a world lives are none of its own"
   }
   world.step(); /* more pairs than there was room for */
   CHECK(world.statistics().overflow > 0);
-  CHECK(world.buffer_bytes(buffer_named("late_buffer")) == 0);
+  const Buffer late_buffer = buffer_named("late_buffer");
+  CHECK(world.buffer_bytes(late_buffer) == 0);
+  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_sum(), {}, {&late_buffer, 1}); }),
+             Contains("has room for 0 elements"));
 }
 
 TEST_CASE("module: a world without it neither holds nor runs anything of it")
@@ -383,6 +386,8 @@ TEST_CASE("module: what does not fit is refused by name")
   };
   CHECK_THAT(sum(Buffer::body_velocity), Contains("elements of another type than the slot 'values'"));
   CHECK_THAT(sum(buffer_named("kept_start")), Contains("has room for 0 elements"));
+  const std::vector<uint32_t> nine(9);
+  CHECK_THAT(message_of([&] { world.run(probe::kernel::probe_push(), nine); }), Contains("more buffers or values"));
   Extension early = pushing(0);
   early.launches = {{StepPoint::begin, [](Launches &launches) { launches.run(probe::kernel::probe_count()); }}};
   CHECK_THAT(message_of([&] { World(balls(1), with(early), {"serial", {}}); }), Contains("lasts beyond the step"));
@@ -396,6 +401,20 @@ TEST_CASE("module: what does not fit is refused by name")
   twice.extensions.push_back(pushing(2));
   CHECK_THAT(message_of([&] { World(balls(1), twice, {"serial", {}}); }), Contains("module 'probe' is given twice"));
   CHECK_THAT(message_of([&] { World(balls(1), with({}), {"serial", {}}); }), Contains("names no module"));
+}
+
+TEST_CASE("module: a write into a part of a buffer that writes size leaves the rest as it is")
+{
+  World world(balls(3), with(pushing(1)), {"serial", {}});
+  const Buffer ghost = probe::buffer::probe_ghost();
+  const std::vector<uint32_t> five{1, 2, 3, 4, 5}, one{9};
+  world.write<uint32_t>(ghost, five);
+  world.write<uint32_t>(ghost, one, 2);
+  CHECK(world.read<uint32_t>(ghost) == std::vector<uint32_t>{1, 2, 9, 4, 5});
+  CHECK_THAT(message_of([&] { world.write<uint32_t>(ghost, one, 5); }), Contains("'probe_ghost' has 20 bytes"));
+  const std::vector<char> three_bytes(3);
+  CHECK_THAT(message_of([&] { world.write<char>(ghost, three_bytes); }), Contains("'probe_ghost' has 20 bytes"));
+  CHECK(world.read<uint32_t>(ghost) == std::vector<uint32_t>{1, 2, 9, 4, 5});
 }
 
 TEST_CASE("module: lists are added once, and a name that is taken is refused")

@@ -20,9 +20,12 @@ namespace tandem {
 /* Which backend runs which kernel: one for all, and exceptions by stage ("narrowphase") or kernel name. */
 struct Placement {
   std::string on = "tbb";
-  std::vector<std::pair<std::string, std::string>> exceptions; /* STAGE-or-kernel, backend */
+  std::vector<std::pair<std::string, std::string>> exceptions; /* stage or kernel, and backend; the last that fits */
   bool allow_inexact = false;                                  /* accept a device whose results may differ in bits */
 };
+
+/* Throws InputError if an exception names no stage and no kernel. */
+TANDEM_API void validate(const Placement &placement);
 
 /* Parses "STAGE=B,STAGE=B". A part without '=' belongs to the backend before it; so does an option such as lanes=4 of
  * tbb:threads=2,lanes=4, which is recognised by its name. Throws InputError if a stage is unknown. */

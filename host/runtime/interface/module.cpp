@@ -43,6 +43,12 @@ void check_names(const ModuleLists &lists, const char *what, const Rows &rows, s
         refuse(lists, std::string(what) + " '" + row.name + "' is already there, of another module; use another name");
 }
 
+bool are_the_same(const ModuleLists &one, const ModuleLists &other)
+{
+  return one.kernels.data() == other.kernels.data() && one.buffers.data() == other.buffers.data() &&
+         std::string(one.name) == other.name;
+}
+
 void check(const ModuleLists &lists, const Registry &known)
 {
   for (size_t i = 0; i < known.module_total + stage_count; ++i)
@@ -88,7 +94,7 @@ const Module &add_module(const ModuleLists &lists)
   Registry &known = registry();
   const std::lock_guard<std::mutex> lock(known.mutex);
   for (size_t i = 0; i < known.module_total; ++i)
-    if (known.modules[i]->lists().kernels.data() == lists.kernels.data()) return *known.modules[i];
+    if (are_the_same(known.modules[i]->lists(), lists)) return *known.modules[i];
   check(lists, known);
   const size_t number = known.module_total, first_kernel = known.kernel_total, first_buffer = known.buffer_total;
   known.modules[number] = std::make_unique<const Module>(lists, number, first_kernel, first_buffer);

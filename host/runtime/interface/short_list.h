@@ -9,16 +9,18 @@
 #include <stdexcept>
 #include <vector>
 
+#include <tandem/error.h>
+
 namespace tandem {
 
-/* Holds at most `most` elements; throws std::length_error if more are given. */
+/* Holds at most `most` elements; throws InputError if more are given. */
 template <class T, size_t most> class ShortList {
 public:
   ShortList() = default;
   ShortList(std::initializer_list<T> given) : ShortList(std::span<const T>(given.begin(), given.size())) {}
   ShortList(std::span<const T> given) : size_(given.size())
   {
-    if (size_ > most) throw std::length_error("a list of a launch is longer than any kernel's");
+    if (size_ > most) throw InputError("a launch gives more buffers or values than any kernel takes");
     std::copy(given.begin(), given.end(), values_.begin());
   }
 

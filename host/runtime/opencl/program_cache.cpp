@@ -41,8 +41,9 @@ files::path cache_directory()
   return {};
 }
 
-/* Standard output is reserved for results (--json -), so warnings go to standard error. */
-void warn(const std::string &message) { fmt::print(stderr, "tandem: warning: {}\n", message); }
+/* Standard output is reserved for results (--json -), so warnings go to standard error. One that cannot be written is
+ * no reason to fail. */
+void warn(const std::string &message) { std::fprintf(stderr, "tandem: warning: %s\n", message.c_str()); }
 
 void warn_unwritable(const files::path &directory)
 {

@@ -7,7 +7,6 @@
 #include <tandem/compare.h>
 
 #include "host/catalog/catalog.h"
-#include "host/runtime/backend_list.h"
 #include "host/runtime/interface/backend.h"
 #include "host/runtime/memory.h"
 #include "host/verify/breakpoint.h"
@@ -246,25 +245,6 @@ TEST_CASE("breakpoint: names the item as its kernel does", "[compare]")
     const std::string parameters = sources.substr(start, sources.find(')', start) - start);
     CHECK(parameters.substr(parameters.find_last_of(" *") + 1) == name);
   }
-}
-
-TEST_CASE("backend list: options keep their commas", "[settings]")
-{
-  CHECK(split_backends("serial") == std::vector<std::string>{"serial"});
-  CHECK(split_backends("serial,tbb:threads=2,lanes=4,cl:pocl") ==
-        std::vector<std::string>{"serial", "tbb:threads=2,lanes=4", "cl:pocl"});
-  CHECK(split_backends("tbb:threads=2,tbb:lanes=4,serial:order=backward").size() == 3);
-  for (const char *bad : {"", ",", "serial,", ",tbb", "serial,,tbb"}) CHECK_THROWS_AS(split_backends(bad), InputError);
-}
-
-TEST_CASE("placement: stages and kernels, with options of backends", "[settings]")
-{
-  using Pairs = std::vector<std::pair<std::string, std::string>>;
-  CHECK(parse_placement("solve=serial") == Pairs{{"solve", "serial"}});
-  CHECK(parse_placement("narrowphase=tbb:threads=2,lanes=4,solve_contacts=cl:0.0") ==
-        Pairs{{"narrowphase", "tbb:threads=2,lanes=4"}, {"solve_contacts", "cl:0.0"}});
-  for (const char *bad : {"solve", "=serial", "solve=", "nowhere=serial", "lanes=4"})
-    CHECK_THROWS_AS(parse_placement(bad), InputError);
 }
 
 TEST_CASE("settings: what cannot be simulated is refused", "[settings]")
