@@ -37,8 +37,7 @@ endif()
 
 set(watched_tools tools/command/output.cpp)
 if(TANDEM_SANITIZE MATCHES address) # the command has one thread of its own
-  list(APPEND watched_tools tools/contact_problem/contact_problem.cpp tools/diff/diff.cpp tools/plot/image.cpp
-    tools/plan/plan.cpp tools/run/run.cpp tools/command/scene_options.cpp)
+  list(APPEND watched_tools tools/plot/image.cpp ${reading_tools})
 endif()
 set_source_files_properties(tools/command/main.cpp PROPERTIES COMPILE_OPTIONS "-O0")
 set(borrowed_tools)
