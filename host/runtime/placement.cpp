@@ -34,8 +34,8 @@ void validate(const Placement &placement)
 {
   for (const auto &[place, backend] : placement.exceptions)
     if (!is_stage(place) && !find_kernel(place))
-      throw InputError(fmt::format("placement '{}={}': no stage or kernel '{}'; the stages are {}", place, backend, place,
-                                   stage_list()));
+      throw InputError(fmt::format("placement '{}={}': no stage or kernel '{}'; the stages are {}", place, backend,
+                                   place, stage_list()));
 }
 
 std::vector<std::pair<std::string, std::string>> parse_placement(const std::string &text)

@@ -40,7 +40,8 @@ void World::Implementation::write(Buffer buffer, const void *from, size_t bytes,
 {
   check_write(buffer, bytes, offset);
   restore_bodies(); /* where the last attempt of a step could not: not over what is written now */
-  if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes) return memory.upload(buffer, from, bytes, offset);
+  if (!is_sized_by_writes(buffer) || offset > 0 || memory.bytes(buffer) == bytes)
+    return memory.upload(buffer, from, bytes, offset);
   memory.assign(buffer, from, bytes);
   buffers.changed();
 }
