@@ -14,7 +14,6 @@
 #include "host/pipeline/broadphases/broadphase.h"
 #include "host/pipeline/setting_rows.h"
 #include "host/pipeline/solvers/solvers.h"
-#include "host/runtime/interface/kernel_list.h"
 #include "host/runtime/interface/module.h"
 #include "shared/body_codes.h"
 

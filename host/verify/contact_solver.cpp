@@ -12,6 +12,7 @@
 #include <tandem/scene.h>
 
 #include "host/pipeline/primitives.h"
+#include "host/pipeline/setting_rows.h"
 #include "host/runtime/launcher.h"
 #include "shared/problem/residual.h"
 
@@ -213,23 +214,22 @@ private:
 
 } // namespace
 
-const char *name_of(ContactSolver solver)
+std::span<const ContactSolverRow> contact_solvers()
 {
-  switch (solver) {
-  case ContactSolver::pgs: return "pgs";
-  case ContactSolver::nncg: return "nncg";
-  case ContactSolver::jacobi: return "jacobi";
-  case ContactSolver::nsgs: return "nsgs";
-  }
-  throw InputError("a contact solver is none of the values of its enum");
+  static constexpr ContactSolverRow rows[] = {{ContactSolver::pgs, "pgs"},
+                                              {ContactSolver::nncg, "nncg"},
+                                              {ContactSolver::jacobi, "jacobi"},
+                                              {ContactSolver::nsgs, "nsgs"}};
+  static_assert(are_in_order(rows));
+  return rows;
 }
 
 ContactSolver parse_contact_solver(const std::string &name)
 {
   std::string names;
-  for (const ContactSolver solver : all_contact_solvers) {
-    if (name == name_of(solver)) return solver;
-    names += (names.empty() ? "" : ", ") + std::string(name_of(solver));
+  for (const auto &[choice, known] : contact_solvers()) {
+    if (name == known) return choice;
+    names += (names.empty() ? "" : ", ") + std::string(known);
   }
   throw InputError(fmt::format("--solver '{}' is unknown; use {}", name, names));
 }

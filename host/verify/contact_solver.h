@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,12 @@ namespace tandem {
 
 /* nsgs is pgs in double precision and runs on the backend `reference`. */
 enum class ContactSolver : uint8_t { pgs, nncg, jacobi, nsgs };
-inline constexpr std::array all_contact_solvers = {ContactSolver::pgs, ContactSolver::nncg, ContactSolver::jacobi,
-                                                   ContactSolver::nsgs};
-const char *name_of(ContactSolver solver);
+
+struct ContactSolverRow {
+  ContactSolver choice;
+  const char *name;
+};
+std::span<const ContactSolverRow> contact_solvers(); /* in the order of the enum */
 /* The solver of this name. InputError lists those that there are. */
 ContactSolver parse_contact_solver(const std::string &name);
 

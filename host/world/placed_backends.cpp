@@ -51,7 +51,6 @@ Backend &PlacedBackends::for_kernel(const Placement &placement, Kernel kernel)
 /* Everything that can fail comes before the first change of the placement. */
 void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel> &kernels)
 {
-  validate(placement);
   std::map<Backend *, std::vector<Kernel>> own;
   for (Kernel kernel : kernels) own[&for_kernel(placement, kernel)].push_back(kernel);
   for (const auto &[backend, theirs] : own) backend->prepare(features_, theirs);
@@ -63,6 +62,7 @@ void PlacedBackends::assign(const Placement &placement, const std::vector<Kernel
 
 void PlacedBackends::place(const Placement &placement, const std::vector<Kernel> &kernels)
 {
+  validate(placement);
   Placement wanted = placement; /* which may take memory that is not there */
   assign(placement, kernels);
   wanted_ = std::move(wanted);

@@ -48,12 +48,11 @@ std::vector<ContactCurve> contact_curves(const std::vector<std::string> &files, 
   std::vector<ContactCurve> curves;
   for (const std::string &file : files) {
     const ContactProblem problem = read_contact_problem(file);
-    for (const ContactSolver solver : all_contact_solvers) {
+    for (const auto &[solver, name] : contact_solvers()) {
       const std::unique_ptr<Backend> on = make_backend(solver == ContactSolver::nsgs ? "reference:threads=1" : backend);
       const ContactSolverSettings settings{solver, wished_residual, quick ? 100u : 1000u};
       curves.push_back(
-          curve_of(std::filesystem::path(file).stem().string(), name_of(solver),
-                   solve_contact_problem(problem, settings, *on)));
+          curve_of(std::filesystem::path(file).stem().string(), name, solve_contact_problem(problem, settings, *on)));
     }
   }
   return curves;

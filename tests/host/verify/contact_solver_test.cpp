@@ -34,8 +34,8 @@ void check_impulse(const std::array<double, 3> &impulse, const std::array<double
 
 TEST_CASE("contact problem: every solver finds the impulses of closed forms")
 {
-  for (const ContactSolver choice : all_contact_solvers) {
-    const std::string solver = name_of(choice);
+  for (const auto &[choice, name] : contact_solvers()) {
+    const std::string solver = name;
     CAPTURE(solver);
     const auto impulse = [&](const char *file) {
       return solved(read_contact_problem(scenes + file), solver, "reference", 1e-8).impulse;
@@ -64,8 +64,8 @@ TEST_CASE("contact problem: solutions and residuals agree with the dense oracle"
     const ContactProblem problem = read_contact_problem(scenes + file);
     const DenseProblem dense(problem);
     const Eigen::VectorXd expected = dense.velocity(dense.fixed_point());
-    for (const ContactSolver choice : all_contact_solvers) {
-      const std::string solver = name_of(choice);
+    for (const auto &[choice, name] : contact_solvers()) {
+      const std::string solver = name;
       CAPTURE(file, solver);
       const auto backend = make_backend("reference");
       const ContactSolution early = solve_contact_problem(problem, {choice, 1e-12, 2}, *backend);
@@ -177,7 +177,7 @@ TEST_CASE("contact problem: Siconos's problems take the published numbers of swe
   }
   for (const char *file : {"Rover1039.dat", "Rover4613.dat"}) {
     const ContactProblem problem = read_contact_problem((folder / file).string());
-    for (const ContactSolver solver : all_contact_solvers)
-      CHECK(solved(problem, name_of(solver), "reference", 1e-3).converged);
+    for (const auto &[choice, name] : contact_solvers())
+      CHECK(solved(problem, name, "reference", 1e-3).converged);
   }
 }
